@@ -7,7 +7,7 @@
 
 namespace patina {
 
-/// What input may ask for at most, see limits.def.
+/// The most that input may ask for, see limits.def.
 enum class Limit {
 #define LIMIT(name, ...) name,
 #include "materialNetwork/limits.def"

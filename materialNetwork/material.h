@@ -32,7 +32,7 @@ MethodPlan planMaterialMethods(const Network& network, TextureSource& textures,
                                Diagnostics& diagnostics, const MethodChoices& methods,
                                double tolerance);
 
-/// What compileMaterial() makes of a network, as text: the network, the simplified graph, the plan,
+/// The stages of compileMaterial(), as text: the network, the simplified graph, the plan,
 /// what was cut on the way, and the methods at the choice points that matter to it.
 std::string explainMaterial(const Network& network, Diagnostics& diagnostics,
                             const MethodChoices& methods = {});

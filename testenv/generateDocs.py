@@ -131,8 +131,8 @@ def limits():
     rows = [(f"`{name}`", f"{default:,}", f"{least:,} to {most:,}", text)
             for name, (default, least, most, text) in known.table().items()]
     return ["# Limits", "",
-            "What input may ask for at most, so that a hostile or broken file ends in a message and not in memory without end.",
-            "What is beyond a limit is left out, the prim and the limit are named, and the rest is shown. Defaults are beyond",
+            "The most that input may ask for: a hostile or broken file ends in a message, not in memory without end.",
+            "Input beyond a limit is left out, the prim and the limit are named, and the rest is shown. Defaults are beyond",
             "what real scenes hold. `--limit NAME=VALUE` sets one (`record`, `merge`, `explain`, `bsdf`, `check`, `bake`,",
             '`shader`, `view`); `PATINA_LIMITS="NAME=VALUE ..."` in the environment sets them in every host. The table is',
             "`materialNetwork/limits.def`.", "", *table(("limit", "default", "may be", "of what"), rows)]
@@ -199,7 +199,7 @@ def cameras():
     from patina.cli import rows as tables
 
     rows = [(f"`{row.text(0)}`", row.text(2)) for row in tables.read("hdDelegate/scene/cameraInputs.def", "CAMERA_INPUT")]
-    return ["# Attributes of cameras", "", "What a camera may have beyond UsdGeomCamera's attributes. The table is",
+    return ["# Attributes of cameras", "", "Attributes that a camera may have beyond UsdGeomCamera's. The table is",
             "`hdDelegate/scene/cameraInputs.def`. Of several the lower ones are stronger. Each may also be a primvar of the",
             "camera, `primvars:` before its name, which is weaker. Defaults stand in brackets. [Cameras](../design/cameras.md)",
             "has the meanings.", "", *table(("attribute", "meaning"), rows)]

@@ -4,8 +4,8 @@ is stale.
 
     ./patina python testenv/generateStubs.py [--check]
 
-Signatures and docstrings come from the bindings by pybind11-stubgen. What the bindings cannot say is added here: what arrays
-are, and the keywords of SceneEdit.set_...(), which the sources list.
+Signatures and docstrings come from the bindings by pybind11-stubgen. Facts that the bindings cannot say are added here: what
+arrays are, and the keywords of SceneEdit.set_...(), which the sources list.
 """
 import argparse
 import os

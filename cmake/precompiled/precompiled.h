@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What most files include of other people's headers, compiled once. Every file still includes what
+// Headers of other projects that most files include, compiled once. Every file still includes what
 // it uses: with -DPATINA_PRECOMPILED=OFF nothing of this is there.
 
 #include <algorithm>

@@ -7,7 +7,7 @@ import shutil
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 TOPS = {"README.md": "index.md", "ARCHITECTURE.md": "architecture.md", "CONTRIBUTING.md": "contributing.md",
-        "CHANGELOG.md": "changelog.md"}
+        "CHANGELOG.md": "changelog.md", "SECURITY.md": "security.md"}
 LEFT_OUT = ("docs/site",)
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 INDEX_TITLES = {"design": "Design", "generated": "Generated reference", "measurements": "Measurements",

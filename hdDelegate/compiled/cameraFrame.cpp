@@ -34,7 +34,7 @@ vec2 shareOf(StereoView stereo) {
 float smallestAngle(const CameraLens& lens, const vec2& window, const vec2& pixels) {
     const vec2 fields = lens.fieldsOfView();
     const float half = 0.5f * fields.x;
-    // What a pixel is of the radius of a fisheye's circle, which spans half of the field.
+    // The size of a pixel, in radii of a fisheye's circle, which spans half of the field.
     const float step = (window.x / pixels.x) / (0.5f * std::min(window.x, window.y));
     switch (lens.projection) {
     case LensProjection::FisheyeEquidistant: return half * step;

@@ -25,7 +25,7 @@ struct CameraFrame {
 
     /// The smallest angle (radians; scene units when orthographic) that one pixel covers.
     float pixelSpread() const { return _pixelSpread; }
-    /// What `depth` and the clipping range measure: scene units from the camera.
+    /// Distance that `depth` and the clipping range measure, in scene units from the camera.
     float depthOf(const vec3& cameraPoint) const {
         return radial ? glm::length(cameraPoint) : -cameraPoint.z;
     }

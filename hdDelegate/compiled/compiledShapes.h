@@ -21,7 +21,7 @@ struct ShapeRequest {
     bool displaces() const;
 };
 
-/// What displacement takes for the world: a prim where it is in the middle of the shutter. Prims of
+/// The world of displacement: a prim where it is in the middle of the shutter. Prims of
 /// prototypes are displaced once for all instances, in the space of their group.
 mat4 displacementSpace(const Geometry& prim, float timeCode);
 

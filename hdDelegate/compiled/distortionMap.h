@@ -9,7 +9,7 @@
 
 namespace patina {
 
-/// An ST map: for each place of the film, the place that it shows. What is kept and interpolated
+/// An ST map: for each place of the film, the place that it shows. The kept and interpolated values
 /// are the ways between the two, so that a map that moves nothing changes no bit, and places
 /// beyond the middles of the outermost texels go on as those do.
 class DistortionMap {

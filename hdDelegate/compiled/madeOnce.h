@@ -24,9 +24,10 @@ private:
     std::weak_ptr<T> _object;
 };
 
-/// What takes long to make, made once for all who ask for the same. Who needs it holds it; what
-/// nobody holds is forgotten. Where making fails, all who wait are told by the same exception, and
-/// the next who asks tries again. Thread safe: who asks for what another thread makes waits for it.
+/// Values that take long to make, made once for all who ask for the same. Who needs it holds it;
+/// what nobody holds is forgotten. Where making fails, all who wait are told by the same exception,
+/// and the next who asks tries again. Thread safe: who asks for what another thread makes waits for
+/// it.
 /// @tparam Key is made of a request, and `bool isOf(const Request&)` tells it again
 template <class Request, class Key, class Made> class MadeOnce {
 public:

@@ -78,7 +78,7 @@ BsdfSample DispersedBsdf::sample(const vec3& u, float uLobe, HeroWavelengths& af
     after = _waves;
     if (drawn.event == 0) return drawn;
     if ((drawn.event & LOBE_SUBSURFACE) != 0) {
-        // What lies beneath differs between lobes, which others may have left out.
+        // Lobes differ in their bases, which other lobes may have left out.
         drawn.weight *= after.leaveOthers();
         return drawn;
     }

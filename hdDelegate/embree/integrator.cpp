@@ -172,8 +172,8 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
                             (back ? cullsBack(*hit.surface->prim) : cullsFront(*hit.surface->prim));
         vec3 transmittance(1.0f);
         float presence = 1.0f;
-        // Shadow rays have no width. What a scattered ray passes must be what they pass: where a
-        // cutout blurs away, the two ways to find a light would see different surfaces.
+        // Shadow rays have no width. A scattered ray must pass the same surfaces as they do: where
+        // a cutout blurs away, the two ways to find a light would see different surfaces.
         const float footprint = s.uvFootprint;
         if (!path.fromCamera()) point.shading.uvFootprint = 0.0f;
         const float opacity = culled               ? 0.0f
@@ -181,7 +181,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
                                                    : program.opacity(s, &transmittance, &presence);
         point.shading.uvFootprint = footprint;
         const bool caught = path.fromCamera() && hit.surface->prim->catching.any();
-        // What is present emits, whether or not light also passes.
+        // The present share emits, whether or not light also passes.
         if (!culled && !caught && presence > 0.0f) addEmission(path, point, hit, presence);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {
             path.throughput *= transmittance;
@@ -194,7 +194,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         if (path.fromCamera() && !caught) path.alpha = 1.0f;
         path.alpha += std::exchange(path.caught, 0.0f);
 
-        // What the camera sees counts most, and its vertex is paid for.
+        // The camera's first hit counts most, and its vertex is paid for.
         const int lightSamples = path.fromCamera() ? _lightSamples : 1;
         path.lightSamples = float(lightSamples);
         // Light samples are begun here, so that what they have to wait for comes from memory while

@@ -102,7 +102,7 @@ private:
     void meetCaustics(Path& path, const SurfacePoint& point, const Bsdf& bsdf, float width) const;
     void depart(Path& path, const SurfacePoint& point, const Hit& hit, const VertexBsdf& bsdf,
                 const BsdfSample& next) const;
-    /// What the camera sees of a prim that is a matte or a catcher; the path may go on by
+    /// Light that the camera sees of a prim that is a matte or a catcher; the path may go on by
     /// reflection.
     /// @returns false when it ends
     bool catchLight(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,

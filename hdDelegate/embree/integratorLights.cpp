@@ -7,7 +7,8 @@
 
 namespace patina {
 
-/// What filters leave of a light for the point that it lights: where the path comes from.
+/// The share of a light that its filters leave for the point that it lights: where the path comes
+/// from.
 /// @param distance along the ray
 vec3 Integrator::filteredTo(const Path& path, int light, float distance) const {
     const vec3 point = path.fromCamera() ? path.origin : path.vertex;

@@ -74,10 +74,10 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     film.addColor(x, y, color, path.alpha);
 }
 
-/// What guides the denoiser, of every sample, so that means fade at outlines as the colour does.
+/// The denoiser's guides, of every sample, so that means fade at outlines as the colour does.
 void Integrator::addFeatures(const Path& path, const AovTarget& target) const {
     if (_denoisingAlbedo < 0 && _denoisingNormal < 0) return;
-    // What only mirrors, lamps and skies show is its own texture.
+    // Surfaces that only mirror, lamps and skies are their own texture.
     const vec3 albedo =
         path.featured ? path.featureAlbedo : glm::clamp(path.radiance, vec3(0.0f), vec3(1.0f));
     if (_denoisingAlbedo >= 0)

@@ -19,8 +19,8 @@ double largest(const dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// Where rays meet nothing, it may be for their few digits: at the eye they have more. What is
-/// beside the origin is left there, and what was found to be far stays where it is.
+/// Where rays meet nothing, it may be for their few digits: at the eye they have more. Points
+/// beside the origin stay there, and those found to be far stay where they are.
 dvec3 originAtEye(const EmbreeScene& scene, const dvec3& eye) {
     const double extent = largest(dvec3(scene.boundsMax()) - dvec3(scene.boundsMin()));
     const double away = largest(eye);

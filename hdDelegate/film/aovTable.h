@@ -79,7 +79,7 @@ const std::vector<AovRow>& aovRows();
 /// The rest of a primvar AOV's name after its prefix.
 inline constexpr char primvarAovs[] = "primvars:";
 
-/// What follows is a light path expression; before it may stand NAME=.
+/// A light path expression follows; before it may stand NAME=.
 inline constexpr char lightPathAovs[] = "lpe:";
 
 /// An AOV of light paths taken apart.

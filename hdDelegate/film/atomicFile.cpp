@@ -74,7 +74,7 @@ fs::path checkedTarget(const std::string& path) {
     return targetOf(path);
 }
 
-/// What names of temporaries begin with, and end with; between them are process and number.
+/// The beginning and the end of names of temporaries; between them are process and number.
 std::string startOf(const fs::path& target) {
     const size_t room = NAME_MAX - 32 - std::min<size_t>(target.extension().native().size(), 64);
     return "." + target.stem().native().substr(0, room) + ".";

@@ -73,7 +73,7 @@ std::mutex mutex;
 std::string chosen;
 std::shared_ptr<const Library> loaded;
 
-/// What is found stays: its threads live on. What is missing is looked for again.
+/// A library that was found stays: its threads live on. A missing one is looked for again.
 std::shared_ptr<const Library> library() {
     const std::lock_guard<std::mutex> lock(mutex);
     if (loaded && loaded->missing.empty()) return loaded;

@@ -308,7 +308,7 @@ std::vector<float> Film::resolve(const std::string& name) const {
         const Plane& plane = _planes[size_t(aovIndex(name))];
         eachPixel([&](int x, int y, float* to) {
             if (spec.kind == AovKind::Coverage) {
-                // What the kept ids do not have is empty, or left out.
+                // Ids that were not kept are empty, or left out.
                 const std::vector<CoverageCount> counts = plane.cells[index(x, y)].ranked();
                 for (size_t i = 0; i < std::min(n / 2, counts.size()); ++i) {
                     std::memcpy(&to[2 * i], &counts[i].id, sizeof(float));

@@ -19,7 +19,7 @@ using Metadata = std::map<std::string, MetadataValue>;
 
 /// How a film becomes a file.
 struct ImageOptions {
-    /// What is written, in order; empty means all of the film for OpenEXR, color and alpha for
+    /// The AOVs to write, in order; empty means all of the film for OpenEXR, color and alpha for
     /// other formats, which hold nothing else.
     std::vector<std::string> aovs;
 

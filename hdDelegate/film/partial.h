@@ -35,7 +35,7 @@ private:
 /// @returns what PartialWriter was given
 std::string partialDescription(const std::string& file);
 
-/// What decides about a tile after some samples, as TileSchedule does.
+/// The numbers that decide about a tile after some samples, as TileSchedule does.
 struct PartialMerge {
     double tolerance = 0.0; ///< of noise; 0 or less: all samples count
     int minSamples = 0;

@@ -8,7 +8,7 @@
 
 namespace patina {
 
-/// What failed may work when it is tried again, without a change to what was asked for: the disk
+/// A failure that may pass when tried again, without a change to what was asked for: the disk
 /// was full, memory ran out, a server did not answer.
 struct TemporaryFailure : std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -145,7 +145,7 @@ private:
         return pieces;
     }
 
-    /// What a vertex has of one value per control point, and the derivatives of that.
+    /// A vertex's value, made from one value per control point, and its derivatives.
     /// @param add (index of control point, weight here, by u, by v)
     template <class Add> void combine(const Line& u, const Line& v, const Add& add) const {
         const int ou = _u.basis.order(), ov = _v.basis.order();

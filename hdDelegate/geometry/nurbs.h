@@ -20,7 +20,7 @@ public:
     /// @param direction with nothing wrong
     explicit NurbsBasis(const NurbsDirection& direction);
 
-    /// What a direction cannot be drawn for, with the attribute that says so; empty: nothing.
+    /// The reason why a direction cannot be drawn, with the attribute that says so; empty: nothing.
     struct Problem {
         std::string input, message;
         explicit operator bool() const { return !message.empty(); }

@@ -32,9 +32,9 @@ struct FaceVaryingChannel {
     int components = 1;
 };
 
-/// Collects the cage, its creases and corners. What OpenSubdiv cannot use is reported and left out:
-/// faces that use a point twice or have more than 65535 corners, creases and corners whose arrays
-/// do not fit each other or name missing points.
+/// Collects the cage, its creases and corners. Input that OpenSubdiv cannot use is reported and
+/// left out: faces that use a point twice or have more than 65535 corners, creases and corners
+/// whose arrays do not fit each other or name missing points.
 SubdivCage makeSubdivCage(const Mesh& mesh, const CageFaces& faces, size_t pointCount,
                           Diagnostics& diagnostics);
 

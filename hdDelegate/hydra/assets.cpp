@@ -34,7 +34,7 @@ public:
         const auto known = _copies.find(path);
         if (known != _copies.end()) return known->second;
         const std::string copy = write(path);
-        // What cannot be read now may be there later, when the host asks again.
+        // A file that cannot be read now may be there later, when the host asks again.
         if (!copy.empty()) _copies[path] = copy;
         return copy;
     }

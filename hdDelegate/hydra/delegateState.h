@@ -28,7 +28,7 @@ class HdPatinaDelegateState {
 public:
     HdPatinaRenderParam param;
 
-    /// What the delegate's setting map says, and on top of it the active settings prim.
+    /// The delegate's setting map, and on top of it the active settings prim.
     HdPatinaSettings settings() const;
     void setSettings(const HdPatinaSettings& settings);
     unsigned int settingsVersion() const { return _settingsVersion; }

@@ -107,7 +107,7 @@ protected:
     virtual void syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                            HdDirtyBits dirtyBits, bool all, const TfToken& repr, Prim& prim) = 0;
     virtual void setPoints(Prim& prim, Sampled<std::vector<vec3>> points) = 0;
-    /// What becomes part of the scene, where that is not the prim as Hydra has it.
+    /// The prim that becomes part of the scene, where that is not the prim as Hydra has it.
     virtual std::shared_ptr<const Geometry> shownAs(HdSceneDelegate&, HdPatinaRenderParam&,
                                                     const std::shared_ptr<const Prim>& prim) const {
         return prim;

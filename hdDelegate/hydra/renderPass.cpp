@@ -108,7 +108,7 @@ void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
             bool known = false;
             for (const Target& before : _targets)
                 known |= before.buffer == target.buffer && before.allocation == target.allocation;
-            // What was shown stays until there is something new: no flicker.
+            // The last frame stays until there is a new one: no flicker.
             if (!known) target.buffer->clear(target.clearValue);
             target.buffer->setConverged(false);
         }

@@ -46,7 +46,7 @@ std::string filmAovOfVar(const HdRenderSettings::RenderProduct::RenderVar& var) 
     return filmAovOf(TfToken(aovNamed(name)));
 }
 
-/// What is wrong with its light path expression; empty for none.
+/// The error in its light path expression; empty for none.
 std::string problemOf(const std::string& aov) {
     try {
         standardAov(aov);

@@ -9,11 +9,11 @@
 
 namespace patina {
 
-/// What begins the names of primvars that the plugin's scene index makes of attributes for which
+/// The beginning of names of primvars that the plugin's scene index makes of attributes for which
 /// Hydra's own prims have no place. They are no primvars of the prim.
 inline constexpr const char* sourcePrefix = "patina:source:";
 
-/// What the stage's prim was before UsdImaging made a mesh or linear curves of its points: the
+/// The type of the stage's prim before UsdImaging made a mesh or linear curves of its points: the
 /// plugin's scene index hands its attributes on, UsdImagingDelegate gives any attribute by name.
 ///
 /// @returns false where it was no NURBS patch; else the mesh is one

@@ -61,8 +61,8 @@ public:
     void setDecodeTable(const std::array<float, 256>& table);
 
     /// Grey images are often saved as colour: the first levels with one channel in place of three
-    /// that are equal in every texel, to the bit. What it is sampled for is the same; its pyramid
-    /// is not built yet.
+    /// that are equal in every texel, to the bit. Samples of it are the same; its pyramid is
+    /// not built yet.
     /// @param filled levels that hold texels
     /// @returns null where a texel has a colour, or there is no third channel
     /// @throws std::bad_alloc

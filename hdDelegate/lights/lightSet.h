@@ -103,7 +103,8 @@ public:
                                    : vec3(1.0f);
     }
 
-    /// What the filters of a light leave of it, which intersect() and environment() do not know of.
+    /// The share of a light that its filters leave, which intersect() and environment() do not know
+    /// of.
     /// @param distance infinite for lights at infinity
     vec3 filtered(int light, const vec3& point, const vec3& direction, float distance,
                   float time) const {

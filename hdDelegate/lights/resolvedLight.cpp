@@ -32,7 +32,7 @@ bool rotationOf(const mat4& m, mat3& out) {
     return true;
 }
 
-/// What the light is treated as, and how bright that is, before its colour's sign is looked at.
+/// The shape that stands for the light, and its brightness, before its colour's sign is looked at.
 ResolvedLight kindOf(const Light& light, const mat4& toWorld, Diagnostics& diagnostics) {
     ResolvedLight r;
     const auto off = [&](const std::string& input, const char* message) {

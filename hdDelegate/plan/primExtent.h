@@ -5,8 +5,8 @@
 
 namespace patina {
 
-/// What of a prim's size tells how finely it is drawn. Object space; points that are not finite do
-/// not count, and those of the first sample stand for all.
+/// The sizes of a prim that decide how finely it is drawn. Object space; points that are not finite
+/// do not count, and those of the first sample stand for all.
 struct PrimExtent {
     vec3 low{0.0f}, high{0.0f}; ///< curves and points: with their widths
     float area = 0.0f;          ///< of the faces of a mesh

@@ -25,9 +25,9 @@ public:
     /// is largest, since it may fill the image.
     double error() const { return _error; }
 
-    /// Vertices of a path: those of the settings or of a forced method, else by the tolerance. What
-    /// light has left after so many surfaces as white as the whitest is at most depthShare of it; 0
-    /// of it: maxPlannedDepth; negative: depthStandard. Roulette has no part in this, since it
+    /// Vertices of a path: those of the settings or of a forced method, else by the tolerance. The
+    /// light left after so many surfaces, as white as the whitest, is at most depthShare of it. 0:
+    /// maxPlannedDepth; negative: depthStandard. Roulette has no part in this, since it
     /// makes noise alone.
     int depth(const RenderSettings& settings) const;
     /// RenderSettings::rouletteDepth, beyond all depths where the method is `none`.
@@ -35,9 +35,9 @@ public:
 
     static constexpr int depthStandard = 16, maxPlannedDepth = 1024;
 
-    /// What noise may take of a tolerance: all that methods, subdivision and depth leave, and never
-    /// less than their own shares leave (methods that are forced may spoil more). 0 and below: all
-    /// samples.
+    /// The part of a tolerance that noise may take: all that methods, subdivision and depth leave,
+    /// and never less than their own shares leave (methods that are forced may spoil more). 0 and
+    /// below: all samples.
     double noise(double tolerance) const;
 
     /// For RenderProgress::statistics; nothing without a tolerance.

@@ -12,7 +12,7 @@ constexpr double subdivisionShare = 0.1;
 
 /// Finds how long edges of subdivision surfaces may be on screen, one length for all of an image:
 /// the longest whose predicted error is within subdivisionShare of the tolerance, by the rows
-/// `subdivision` of the table. What a row says counts by the share of the image that a surface
+/// `subdivision` of the table. A row's error counts by the share of the image that a surface
 /// covers; surfaces larger than those measured are off by less, with the square of their size.
 /// With a tolerance of 0 it is the shortest, half a pixel (a prim is still not refined beyond six
 /// levels or a million triangles); without one the settings' or four pixels.

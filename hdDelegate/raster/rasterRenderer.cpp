@@ -138,7 +138,7 @@ private:
         });
     }
 
-    /// What lights there are for the planner to look at; without a tolerance it does not.
+    /// The lights for the planner to look at; without a tolerance it does not.
     RasterLightPlan lightPlan(const SceneState& state) {
         RasterLightPlan plan;
         if (_settings.tolerance < 0.0) return plan;

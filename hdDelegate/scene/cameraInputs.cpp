@@ -130,7 +130,7 @@ const std::vector<InputRow>& rows() {
     return made;
 }
 
-/// What fits no other input, though each is sound by itself.
+/// Inputs that contradict each other, though each is sound by itself.
 void checkTogether(CameraLens& lens, const std::string& path, Diagnostics& diagnostics) {
     constexpr float widestCylinder = 179.0f, widestStereographic = 340.0f; // degrees
     const auto limit = [&](const char* input, float& value, float most) {

@@ -20,7 +20,8 @@ enum class LensProjection {
 /// Which eyes an image shows.
 enum class StereoView { Mono, Left, Right, SideBySide, OverUnder }; ///< the left eye left, or above
 
-/// What a camera has beyond UsdGeomCamera. cameraInputs.def has the attributes and their ranges.
+/// The parts of a camera beyond UsdGeomCamera. cameraInputs.def has the attributes and their
+/// ranges.
 struct CameraLens {
     LensProjection projection = LensProjection::Standard;
     float fieldOfView = 0.0f;            ///< degrees across; 0: the projection's own

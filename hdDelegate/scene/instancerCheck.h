@@ -14,7 +14,7 @@ inline constexpr double largestPlace = 1e15;
 
 /// Whether something may stand under a transform: all of it is finite and within largestPlace.
 bool isPlace(const MotionTransform& transform);
-/// What is wrong with a transform that is no place, as a message goes on after its name; else
+/// The error of a transform that is no place, as a message goes on after its name; else
 /// empty.
 std::string placeProblem(const MotionTransform& transform);
 /// The same of one that something is to be drawn or seen under, see hasInverse().

@@ -82,7 +82,7 @@ public:
     /// A path may hold prims of several kinds (a mesh that is a light, say).
     void remove(const std::string& path, PrimKind kind = PrimKind::Any);
     void clear(); ///< removes everything
-    /// What would leave the scene beyond its limits is left out, see SceneLimits.
+    /// A prim that would take the scene beyond its limits is left out, see SceneLimits.
     void commit();
 
 private:

@@ -63,7 +63,7 @@ private:
 
     /// How light that leaves the base along -d gets out along wi, where d was found from wi.
     glm::vec3 outwards(const TopSample& entry, const glm::vec3& wi, HashedNumbers& random) const;
-    /// What light along d from above is within the layer if the top is smooth, pointing up.
+    /// The direction within the layer of light along d from above, if the top is smooth; points up.
     /// @returns the change of solid angle; 0 for total reflection
     float refracted(glm::vec3& d) const;
 

@@ -6,7 +6,7 @@
 
 namespace patina {
 
-/// What an EnergyCurve holds, by the lobe's own method. For dielectric, Schlick and conductor
+/// The values of an EnergyCurve, by the lobe's own method. For dielectric, Schlick and conductor
 /// lobes.
 EnergyCurve::Energy lobeEnergy(const BsdfLobe& lobe, const glm::vec3& wo);
 

@@ -61,7 +61,7 @@ public:
     bool isOpaqueWith(const std::vector<int>& attributes) const;
 
     /// Presence of the surface, 0..1: the chance that a ray meets it at all, instead of passing
-    /// straight on. What lobes would pass straight on is part of this and not of the Bsdf, so that
+    /// straight on. Light that lobes pass straight on is part of this and not of the Bsdf, so that
     /// shadow rays see through them; it then depends on viewDirection.
     /// @param transmittance if given: colour of the light that passes, divided by 1 - opacity
     /// @param presence if given: the part that is not absent; it emits, even where light passes
@@ -88,7 +88,7 @@ public:
     /// How its methods were chosen; empty without a tolerance.
     const MethodPlan& planned() const { return _planned; }
 
-    /// What other back ends are generated from, with its methods.
+    /// The source from which other back ends are generated, with its methods.
     const MaterialIr& ir() const;
     const ProgramCode& code() const { return *_code; }
 

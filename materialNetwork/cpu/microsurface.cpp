@@ -134,7 +134,8 @@ public:
         return true;
     }
 
-    /// What the next facet sends to i (in the frame of the side of wo) without another bounce.
+    /// Light that the next facet sends to i (in the frame of the side of wo) without another
+    /// bounce.
     /// @param reflections false leaves out facets that reflect
     glm::vec3 towards(glm::vec3 i, bool crosses, bool reflections) const {
         const glm::vec3 v = -_w;

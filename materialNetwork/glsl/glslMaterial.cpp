@@ -124,7 +124,7 @@ private:
         _out.parameters.resize(parameters);
     }
 
-    /// What has no GLSL becomes the value that it has at one point.
+    /// A node without GLSL becomes the value that it has at one point.
     void instructions(const std::vector<Instruction>& code) {
         for (const Instruction& i : code) {
             const size_t parameters = _out.parameters.size();

@@ -13,7 +13,7 @@ std::string number(int i) {
     return std::to_string(i);
 }
 
-/// What a lobe is to lights that go through lobes one by one, as GLSL.
+/// A lobe for lights that go through lobes one by one, as GLSL.
 struct Trait {
     std::string kind = "LOBE_OTHER", alpha = "0.0", round = "true";
 };

@@ -5,9 +5,9 @@
 
 namespace patina {
 
-/// Replaces the nodes that look at the neighbourhood of a point. What makes their input is copied,
-/// reading texture coordinates and positions a little further along u and v; primvars of two
-/// components are taken for texture coordinates.
+/// Replaces the nodes that look at the neighbourhood of a point. The nodes of their input are
+/// copied, reading texture coordinates and positions a little further along u and v; primvars of
+/// two components are taken for texture coordinates.
 /// - heighttonormal becomes the slope of its height, from two copies;
 /// - blur becomes the mean of 5 x 5 copies, one at a random place (ShadingPoint::seed) in each cell
 ///   of a square whose width is `size` in texture coordinates; the cells of `gaussian` are those of

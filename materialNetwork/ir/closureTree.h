@@ -6,9 +6,9 @@
 
 #include "shaders/closure.h"
 
-// Walks over trees of closures, written once for both back ends. What a step computes is a function
-// of shaders/closure: where `Out` is ClosureNumbers it is called at a shading point, where it is
-// ClosureText (glsl/) its call is written down.
+// Walks over trees of closures, written once for both back ends. The arithmetic of a step is a
+// function of shaders/closure: where `Out` is ClosureNumbers it is called at a shading point, where
+// it is ClosureText (glsl/) its call is written down.
 
 namespace patina {
 

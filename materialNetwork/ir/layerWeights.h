@@ -151,8 +151,8 @@ private:
             out.kinds(op.lobe));
     }
 
-    /// What a top lets through. @param base albedo of what lies below; @param returns whether light
-    /// comes back to it
+    /// The share that a top lets through. @param base albedo of what lies below; @param returns
+    /// whether light comes back to it
     Light transmitted(int top, const Light& base, bool returns) {
         if (top < 0) return all();
         return out.named(type, transmittedBy(top, code.bsdf[size_t(top)], base, returns));

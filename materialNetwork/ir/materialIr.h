@@ -93,7 +93,7 @@ struct MaterialPrimvar {
     ValueType type = ValueType::Float; ///< what the material wants; up to four components
 };
 
-/// What hosts ask of a material, as MaterialProgram explains it.
+/// Answers to the questions of hosts about a material, as MaterialProgram explains it.
 struct MaterialFacts {
     std::vector<MaterialPrimvar> primvars;
     bool constant = false, hasEmission = false, isOpaque = true, isThinWalled = false;

@@ -60,7 +60,7 @@ Row walked(const Base& base, const std::string& subject, const std::string& kind
     return row;
 }
 
-/// An interface over a Lambert base of albedo a. What the base sends up is spread by the cosine
+/// An interface over a Lambert base of albedo a. Light from the base is spread by the cosine
 /// again, so all that bounces between the two is a geometric series: with E what the interface
 /// reflects from outside and R the mean of what it reflects from inside, the whole reflects
 /// E + (1 - E) a (1 - R) / (1 - a R). R follows from the mean of E by reciprocity,

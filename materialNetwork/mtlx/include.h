@@ -15,8 +15,8 @@ inline constexpr const char* sourceAttribute = "patina-source";
 
 /// Replaces every `xi:include` of a document by the elements of the document that it names,
 /// relative to the including one. Included elements keep their own colour space, file prefix and
-/// version; those of a namespace are named "namespace:name" from then on. What cannot be read and
-/// documents that include themselves are reported and left out.
+/// version; those of a namespace are named "namespace:name" from then on. Files that cannot be read
+/// and documents that include themselves are reported and left out.
 /// @param markup of the document, as markupOf(): all of them together hold maxMarkup at most
 void includeDocuments(pugi::xml_node root, const std::string& path, size_t markup,
                       Diagnostics& diagnostics);

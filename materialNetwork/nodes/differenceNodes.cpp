@@ -53,12 +53,12 @@ constexpr Pattern slope = rarePattern(slopeGlsl, [](Call c) {
         vec4((length > 1e-6f && length < 1e30f ? n / length : vec3(0, 0, 1)) * 0.5f + 0.5f, 0.0f);
 });
 
-/// What is left when the height is the same everywhere.
+/// The value where the height is the same everywhere.
 constexpr char flatGlsl[] = "vec4(0.5, 0.5, 1.0, 0.0)";
 constexpr Pattern flat =
     rarePattern(flatGlsl, [](Call c) { c.out() = vec4(0.5f, 0.5f, 1.0f, 0.0f); });
 
-/// What is left of a blur when its input is the same everywhere.
+/// The value of a blur where its input is the same everywhere.
 constexpr Pattern same = rarePattern("$0", [](Call c) { c.out() = c.in(0); });
 
 /// Inputs (in, size, blur, tap, gaussian): where the tap lies, in units of the uv set.

@@ -15,7 +15,7 @@ struct LayerWalkability {
 };
 
 /// Whether a layer belongs to a model that says itself how much the interface on top darkens what
-/// is below. What the interface sends back down is then no part of the layer.
+/// is below. Light that the interface sends back down is then no part of the layer.
 bool darkensItself(const Plan& plan, const PlanClosure& closure);
 
 /// For every closure of a plan, whether it is a layer whose light can be walked between its top and

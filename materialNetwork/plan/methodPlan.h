@@ -7,7 +7,7 @@
 
 namespace patina {
 
-/// What was chosen at a choice point, and what that is expected to do to an image of the material.
+/// The method chosen at a choice point, and the error expected in an image of the material.
 /// Times are those that the table gives, per evaluation of the material's lobes.
 struct PlannedMethod {
     std::string point, method;

@@ -25,8 +25,8 @@ struct MeasuredMethod {
     float mean, largest, rms; ///< absolute errors over cell centres of (cosine, root of alpha)
     const char* kind;         ///< of lobe: `dielectric`, `conductor`, `schlick`; empty: any
     float reflectance;        ///< of the subject at normal incidence; -1: it is no matter
-    /// What the bins are of: `roughness` (root of alpha), `thickness` (nm) or `albedo`. They are
-    /// evenly spaced from 0 to axisEnd; beyond nothing is known.
+    /// The quantity of the bins: `roughness` (root of alpha), `thickness` (nm) or `albedo`. They
+    /// are evenly spaced from 0 to axisEnd; beyond nothing is known.
     const char* axis;
     float axisEnd;
     /// Mean absolute error and mean of what it is of, bin by bin, in each the quarters of the

@@ -11,7 +11,7 @@ namespace patina {
 
 namespace {
 
-/// What else a sample of the image costs, apart from the lobe that it draws from: rays and the way
+/// The cost of a sample of the image apart from its lobe: rays and the way
 /// to them. Half a microsecond of a small scene on one thread.
 constexpr double nsPerSample = 500.0;
 

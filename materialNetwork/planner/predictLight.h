@@ -7,8 +7,8 @@
 
 namespace patina {
 
-/// What the table says of a method of `domeLight` or `areaLight` on a material under one kind of
-/// light.
+/// The table's prediction for a method of `domeLight` or `areaLight` on a material under one kind
+/// of light.
 struct LightPrediction {
     bool measured = false; ///< false where the material has lobes that no row is of
     double error = 0.0;    ///< relative luminance of the light that the method is for

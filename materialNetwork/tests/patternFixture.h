@@ -45,7 +45,7 @@ inline Network emitting(std::vector<NetworkNode> nodes, const std::string& outpu
     return makeNetwork(std::move(nodes));
 }
 
-/// What such a surface emits at a point, with primvars by name.
+/// The emission of such a surface at a point, with primvars by name.
 inline glm::vec3 emitted(const Network& network, ShadingPoint point = {},
                          std::map<std::string, glm::vec4> primvars = {}) {
     Compiled c(network);

@@ -11,7 +11,7 @@ namespace patina {
 
 namespace {
 
-/// What an input of colours makes of a value, or NaN where it is refused.
+/// A value as an input of colours reads it, or NaN where it is refused.
 glm::vec3 linear(const std::string& space, glm::vec3 c, std::string& problem) {
     InputDef def;
     def.type = ValueType::Color3;

@@ -101,7 +101,7 @@ TEST(Dispersion, OnlyWhatAsksForItAndLetsLightThroughDisperses) {
         // A program that does not disperse is the one that never heard of it.
         EXPECT_EQ(Compiled(glass(m, 0.0f)).program->ir().surfaceCode.size(), 0u) << m.id;
     }
-    // What is connected may turn out to be a constant.
+    // A connected input may turn out to be a constant.
     for (const float scale : {0.0f, 0.25f}) {
         Network network = glass(models[0], 0.0f);
         network.nodes[0].inputs.erase("transmission_dispersion_scale");

@@ -85,7 +85,7 @@ TEST(EnergyCurve, IsFineForSlowMethods) {
     }
 }
 
-// What a film adds to a curve may fill it up to 1 at some angles alone: beside such a step a cubic
+// The film's share may fill a curve up to 1 at some angles alone: beside such a step a cubic
 // swings beyond its nodes, and no factor or albedo is negative.
 TEST(EnergyCurve, NeverSwingsBelowZero) {
     BsdfLobe lobe;

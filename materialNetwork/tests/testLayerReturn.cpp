@@ -76,7 +76,7 @@ std::vector<std::pair<const char*, Network>> lossless() {
 
 } // namespace
 
-// What the default was before, `largest`, takes in all channels what the brightest reflects.
+// The method `largest` takes in all channels what the brightest reflects.
 TEST(LayerReturn, LosesNothingWhereNothingAbsorbs) {
     for (const auto& [name, network] : lossless())
         for (const float degrees : {0.0f, 60.0f, 80.0f}) {

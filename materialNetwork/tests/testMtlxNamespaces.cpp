@@ -68,7 +68,7 @@ float albedoOf(const Network& network) {
 
 } // namespace
 
-// What MaterialX's own library finds in these documents.
+// The elements that MaterialX's own library finds in these documents.
 TEST_F(MtlxNamespaces, DefinitionsAreFoundByTheirQualifiedNames) {
     const std::string space = "namespace='npr_test'";
     for (const std::string& reference : {std::string("ND_toon"), std::string("npr_test:ND_toon")})
@@ -177,7 +177,7 @@ TEST_F(MtlxNamespaces, AnIncludedDocumentKeepsItsNamesApart) {
     EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
 }
 
-// What 1.39 says otherwise is rewritten there too: names of 1.38 are those of the included
+// Elements that changed with 1.39 are rewritten there too: names of 1.38 are those of the included
 // document.
 TEST_F(MtlxNamespaces, AnIncludedDocumentIsUpgraded) {
     write("library.mtlx",

@@ -38,7 +38,7 @@ std::vector<Network> readBody(const std::string& body, Diagnostics& diagnostics)
     return documents.read("a.mtlx", diagnostics);
 }
 
-/// What a surface emits whose light is node "p" of a document, a color3.
+/// The emission of a surface whose light is node "p" of a document, a color3.
 glm::vec3 lightOf(const std::string& body, ShadingPoint point = {},
                   std::map<std::string, glm::vec4> primvars = {}) {
     Diagnostics diagnostics;

@@ -218,7 +218,7 @@ TEST(Planner, ErrorsFollowTheTable) {
     const double of1 = at(planOf(coat(0.1f, 1.5f), 0.01, schlick), "fresnel").error;
     EXPECT_GT(of3, of1);
     EXPECT_GT(of1, 0.001);
-    // What a layer's top takes wrongly, its base shows.
+    // An error of a layer's top shows in its base.
     const double karis =
         at(planOf(coat(0.3f, 1.5f), 0.01, {{"directionalAlbedo", "karis"}}), "directionalAlbedo")
             .error;

@@ -23,7 +23,7 @@ glm::vec3 transformed(const char* id, const glm::vec3& v, const char* from, cons
                    stretched());
 }
 
-/// What an image node shows: FakeTextures return the place where they are read.
+/// The value of an image node: FakeTextures return the place where they are read.
 glm::vec3 shown(const std::string& id, Inputs inputs, const std::string& output,
                 const glm::vec2& uv, ShadingPoint point = {}) {
     inputs["file"] = Value::makeFilename("a.png");

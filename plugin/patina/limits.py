@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What input may ask for at most in this process: the rows of materialNetwork/limits.def, and --limit NAME=VALUE."""
+"""The most that input may ask for in this process: the rows of materialNetwork/limits.def, and --limit NAME=VALUE."""
 import argparse
 import functools
 import sys
@@ -38,8 +38,8 @@ class _Limit(argparse.Action):
 
 def add_flag(group):
     group.add_argument("--limit", action=_Limit, default=[], metavar="NAME=VALUE",
-                       help="what the input may ask for at most, beyond which parts of it are left out with a message "
-                            "(repeatable); --limit list shows all of them")
+                       help="the most that the input may ask for; parts beyond it are left out with a message (repeatable); "
+                            "--limit list shows all limits")
 
 
 def listing():

@@ -175,7 +175,7 @@ class Scene:
         """
     def warnings(self) -> list[typing.Any]:
         """
-        What was wrong: dicts of prim, input, message, and count, how often it was met.
+        Problems of the scene: dicts of prim, input, message, and count, how often it was met.
         """
     @property
     def meters_per_unit(self) -> float:
@@ -239,7 +239,7 @@ class Film:
     @property
     def resume_token(self) -> str:
         """
-        What made the film, in words; a checkpoint of another is refused.
+        The origin of the film, in words; a checkpoint of another is refused.
         """
     @resume_token.setter
     def resume_token(self, arg0: str) -> None:
@@ -268,7 +268,7 @@ class ImageData:
     @property
     def metadata(self) -> dict[str, typing.Any]:
         """
-        What the file says of itself, by name.
+        The file's own metadata, by name.
         """
     @property
     def pixel_aspect_ratio(self) -> float:
@@ -381,7 +381,7 @@ class MaterialProbe:
         ...
     def emission_at(self, uv: numpy.typing.ArrayLike, footprint: float = 0.0) -> numpy.typing.NDArray[numpy.float32]:
         """
-        What the unit square of the xy plane emits at its points (u, v), seen from above.
+        Emission of the unit square of the xy plane at its points (u, v), seen from above.
         """
     def eval(self, wo: numpy.typing.ArrayLike, wi: numpy.typing.ArrayLike) -> tuple[typing.Any, ...]:
         """
@@ -444,7 +444,7 @@ def camera_input_names() -> list[str]:
     """
 def channels_of_aov(aov: str) -> str:
     """
-    What names the channels of an AOV in files; ValueError says why there is no such AOV.
+    The prefix of an AOV's channels in files; ValueError says why there is no such AOV.
     """
 def check_image_path(path: str, aovs: list[str] = []) -> None:
     """
@@ -500,7 +500,7 @@ def expand_material(network: Network) -> tuple[typing.Any, ...]:
     """
 def explain_material(network: Network, warnings: typing.Any = None, methods: dict[str, str] = {}) -> str:
     """
-    What is modelled of a material, as text. Warnings are appended to the list.
+    The model of a material, as text. Warnings are appended to the list.
     """
 def ignored_light_filter_inputs() -> dict[str, typing.Any]:
     """
@@ -508,7 +508,7 @@ def ignored_light_filter_inputs() -> dict[str, typing.Any]:
     """
 def instruction_set() -> str:
     """
-    What this build computes with, in words: renders of two machines have equal bits where build and instruction set are equal.
+    The arithmetic of this build, in words: renders of two machines have equal bits where build and instruction set are equal.
     """
 def light_filter_inputs() -> list[typing.Any]:
     """
@@ -568,7 +568,7 @@ def method_table() -> list[typing.Any]:
     """
 def model_warnings() -> list[typing.Any]:
     """
-    What was wrong with the models of the library, those of PATINA_MODEL_PATH among them.
+    Errors in the models of the library, those of PATINA_MODEL_PATH among them.
     """
 def node_defaults(id: str) -> dict[str, typing.Any]:
     """
@@ -588,7 +588,7 @@ def node_inputs(id: str) -> dict[str, typing.Any]:
     """
 def node_words(id: str) -> dict[str, list[str]]:
     """
-    What the strings of a node may say, where that is a list.
+    The values that strings of a node may have, where that is a list.
     """
 def override_material(network: Network, inputs: dict[str, str]) -> Network:
     """
@@ -596,7 +596,7 @@ def override_material(network: Network, inputs: dict[str, str]) -> Network:
     """
 def partial_description(file: str) -> str:
     """
-    What made a part, as PartialWriter was told.
+    The origin of a part, as PartialWriter was told.
     """
 def plan_material(network: Network, methods: dict[str, str] = {}, tolerance: float = -1.0) -> dict[str, typing.Any]:
     """
@@ -616,7 +616,7 @@ def set_denoiser_library(path: str) -> None:
     """
 def set_limits(values: dict[str, int]) -> str:
     """
-    Gives limits of this process values, by their names in materialNetwork/limits.def; all others have their defaults again, or what the variable PATINA_LIMITS says. What was read before stays. Returns an empty text, or why nothing was changed.
+    Gives limits of this process values, by their names in materialNetwork/limits.def; all others have their defaults again, or what the variable PATINA_LIMITS says. Input that was read before stays. Returns an empty text, or why nothing was changed.
     """
 def shader_text(path: str) -> str:
     """

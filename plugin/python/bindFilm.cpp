@@ -209,7 +209,7 @@ void bindFilm(py::module_& m) {
         .def_property_readonly("dropped_samples", &Film::droppedSamples,
                                "Samples that were not finite; they count as black.")
         .def_readwrite("resume_token", &Film::resumeToken,
-                       "What made the film, in words; a checkpoint of another is refused.")
+                       "The origin of the film, in words; a checkpoint of another is refused.")
         .def("resolve", &resolve, py::arg("name"),
              "Array of height x width (x components), top row first; int32 for ids.")
         .def(
@@ -251,7 +251,7 @@ void bindFilm(py::module_& m) {
             "Float array of height x width x channels, top row first, without a copy.")
         .def_property_readonly(
             "metadata", [](const ImageData& image) { return metadataTo(image.metadata); },
-            "What the file says of itself, by name.");
+            "The file's own metadata, by name.");
 
     py::class_<AtomicFile>(m, "AtomicFile",
                            "A file that appears all at once: written to temporary_path, and "

@@ -57,7 +57,7 @@ void bindLightPaths(py::module_& m) {
     m.def(
         "channels_of_aov",
         [](const std::string& aov) { return channelsOfAov(standardAov(aov).name); }, py::arg("aov"),
-        "What names the channels of an AOV in files; ValueError says why there is no such AOV.");
+        "The prefix of an AOV's channels in files; ValueError says why there is no such AOV.");
 }
 
 } // namespace patina

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What input may ask for at most.
+// The most that input may ask for.
 #include "materialNetwork/limits.h"
 
 #include <pybind11/pybind11.h>
@@ -10,10 +10,11 @@ namespace py = pybind11;
 namespace patina {
 
 void bindLimits(py::module_& m) {
-    m.def("set_limits", &setLimits, py::arg("values"),
-          "Gives limits of this process values, by their names in materialNetwork/limits.def; all "
-          "others have their defaults again, or what the variable PATINA_LIMITS says. What was "
-          "read before stays. Returns an empty text, or why nothing was changed.");
+    m.def(
+        "set_limits", &setLimits, py::arg("values"),
+        "Gives limits of this process values, by their names in materialNetwork/limits.def; all "
+        "others have their defaults again, or what the variable PATINA_LIMITS says. Input that was "
+        "read before stays. Returns an empty text, or why nothing was changed.");
     m.def(
         "limits",
         [] {

@@ -39,8 +39,8 @@ py::dict machine() {
     return dict;
 }
 
-/// What the arithmetic of a render depends on, besides the text: what the compiler may use, what
-/// Embree chooses from when it runs, and the machine's own processor.
+/// The conditions that the arithmetic of a render depends on, besides the text: what the compiler
+/// may use, what Embree chooses from when it runs, and the machine's own processor.
 std::string instructionSet() {
     std::string built = "generic";
 #if defined(__x86_64__)
@@ -71,7 +71,7 @@ std::string instructionSet() {
 
 void bindMachine(py::module_& m) {
     m.def("instruction_set", &instructionSet,
-          "What this build computes with, in words: renders of two machines have equal bits where "
+          "The arithmetic of this build, in words: renders of two machines have equal bits where "
           "build and instruction set are equal.");
     m.def("machine", &machine,
           "A dict: compiler, openglRenderer, openglVersion, and openglError, why there is no "

@@ -96,7 +96,7 @@ void bindMaterial(py::module_& m) {
             return text;
         },
         py::arg("network"), py::arg("warnings") = py::none(), py::arg("methods") = MethodChoices(),
-        "What is modelled of a material, as text. Warnings are appended to the list.");
+        "The model of a material, as text. Warnings are appended to the list.");
     m.def("override_material", &overridden, py::arg("network"), py::arg("inputs"),
           "The network with inputs replaced, given as text; ValueError names what cannot be.");
     m.def("check_methods", &checkMethods, py::arg("methods"),
@@ -118,12 +118,12 @@ void bindMaterial(py::module_& m) {
         "The material as another shading model; a network without terminals where it cannot be.");
     m.def(
         "model_warnings", [] { return warningList(ModelLibrary::get().diagnostics()); },
-        "What was wrong with the models of the library, those of PATINA_MODEL_PATH among them.");
+        "Errors in the models of the library, those of PATINA_MODEL_PATH among them.");
     m.def("translatable_models", &translatableModels);
     m.def("node_defaults", &nodeDefaults, py::arg("id"),
           "Default values of a node's inputs; those that come from the geometry are left out.");
     m.def("node_words", &nodeWords, py::arg("id"),
-          "What the strings of a node may say, where that is a list.");
+          "The values that strings of a node may have, where that is a list.");
     m.def(
         "read_mtlx",
         [](const std::string& path, py::object warnings) {

@@ -254,7 +254,7 @@ void bindMaterialProbe(py::module_& m) {
         .def("move_to", &MaterialProbe::moveTo, py::arg("u"), py::arg("v"),
              "Chooses the point (u, v) of the unit square in the xy plane for all that follows.")
         .def("emission_at", &emissionAt, py::arg("uv"), py::arg("footprint") = 0.0f,
-             "What the unit square of the xy plane emits at its points (u, v), seen from above.")
+             "Emission of the unit square of the xy plane at its points (u, v), seen from above.")
         .def_property_readonly("uses_uv",
                                [](const MaterialProbe& p) { return p.program->usesUv(); })
         .def_property_readonly("constant",

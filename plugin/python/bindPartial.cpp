@@ -52,7 +52,7 @@ void bindPartial(py::module_& m) {
         .def("commit", &PartialWriter::commit, py::arg("report"),
              py::call_guard<py::gil_scoped_release>());
     m.def("partial_description", &partialDescription, py::arg("file"),
-          "What made a part, as PartialWriter was told.");
+          "The origin of a part, as PartialWriter was told.");
     m.def(
         "merge_partial",
         [](Film& film, const std::string& file, double tolerance, int minSamples) {

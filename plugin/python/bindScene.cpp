@@ -256,7 +256,8 @@ void bindScene(py::module_& m) {
             "Adds a warning; one that is there already is counted.")
         .def(
             "warnings", [](Scene& s) { return warningList(s.diagnostics()); },
-            "What was wrong: dicts of prim, input, message, and count, how often it was met.")
+            "Problems of the scene: dicts of prim, input, message, and count, how often it was "
+            "met.")
         .def(
             "clear_warnings", [](Scene& s) { s.diagnostics().clear(); }, "Forgets all warnings.");
 }

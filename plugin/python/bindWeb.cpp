@@ -64,7 +64,7 @@ py::dict textureOf(const TextureSystem& textures, int handle, int largest) {
     return dict;
 }
 
-/// What decides which functions a program calls: equal lists cost a driver the same.
+/// The traits that decide which functions a program calls: equal lists cost a driver the same.
 std::vector<std::string> lobesOf(const MaterialProgram& program) {
     std::vector<std::string> list;
     for (const LobeTemplate& lobe : program.code().lobes)

@@ -29,7 +29,7 @@ constexpr int domeWidth = 512;             ///< of domes that are no latlong map
 constexpr size_t maxTriangles = 4096;      ///< of a mesh light
 constexpr size_t largestTable = 1u << 20u; ///< texels
 
-/// What the page finds out about lights, and tells its user.
+/// Facts about lights that the page tells its user.
 struct WebLights {
     std::vector<vec4> table; ///< values that rows point into
     std::vector<std::string> notes;

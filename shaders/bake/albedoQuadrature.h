@@ -14,7 +14,7 @@ struct GaussRule {
     std::vector<double> w;
 };
 
-/// What single scattering at a microfacet interface does with light that arrives from one
+/// Single scattering at a microfacet interface of light that arrives from one
 /// direction: integrals over the visible normals, in the sampling square of
 /// microfacetSampleVisible, with `n` by `n` points. Points crowd where facets of GGX lean far from
 /// the normal, since that tail alone decides how much light is lost at small roughness. Isotropic

@@ -65,7 +65,7 @@ def main(path):
         return (np.exp2(np.minimum(basis @ c, 4.0)) - truth) / np.maximum(truth, 1.0)
 
     found = least_squares(errors, first, method="lm", max_nfev=20000)
-    # What is written has single precision.
+    # Written numbers have single precision.
     numbers = [float(np.float32(c)) for c in found.x]
     left = errors(np.array(numbers))
     with open(path, "w", encoding="utf-8") as out:

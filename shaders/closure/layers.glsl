@@ -5,7 +5,7 @@
 // Light of three kinds leaves a base: mirrored as in a polished metal, spread as by a diffuse
 // surface, and transmitted, which leaves downwards and never comes back. Of what is mirrored the interface
 // reflects as much as from outside at the same cosine, E; of what is spread its diffuse reflectance
-// from inside, R. What comes back meets the whole base again, so that with A the base's albedo all
+// from inside, R. Returned light meets the whole base again, so that with A the base's albedo all
 // bounces are a geometric series: what enters, 1 - E, counts (1 - R) / (1 - A R) times. Over a white
 // base that is 1 - E, whatever R is, and it is never more.
 
@@ -46,7 +46,7 @@ PATINA_FN LayerLight layerProduct(LayerLight a, LayerLight b) {
     return layerLight(a.mirrored * b.mirrored, a.spread * b.spread, a.transmitted * b.transmitted);
 }
 
-// What a lobe shows as: alpha of its facets (1 for diffuse), cosine of wo, share that it passes.
+// The outside of a lobe: alpha of its facets (1 for diffuse), cosine of wo, share that it passes.
 // Measured with a random walk between interfaces of ior 1.33 to 2 and metals.
 const float LAYER_SPREAD = 0.05f;
 PATINA_FN vec3 layerKinds(float alpha, float z, float passes) {
@@ -77,7 +77,7 @@ PATINA_FN vec3 layerInsideDielectric(float average, float ior, float invIor, flo
     return vec3(clamp(select(denser, average, (z >= 0.0f) == (ior >= 1.0f)), 0.0f, 1.0f));
 }
 
-// What reaches the base and leaves it again through an interface that is there to the share `weight`.
+// Light that reaches the base and leaves it again through an interface that is there to the share `weight`.
 // coverage: E. inside: R. alpha: of the interface's facets, which spread what they refract. z: cosine of
 // wo. base: albedo of what lies below.
 PATINA_FN LayerLight layerThrough(float weight, vec3 coverage, vec3 inside, float alpha, float z,
@@ -111,7 +111,7 @@ PATINA_FN LayerLight layerCovered(LayerLight a, vec3 weight) {
     return layerSum(layerEven(1.0f - weight), layerScaled(a, weight));
 }
 
-// What a coloured share takes from all channels of a base alike.
+// The loss that a coloured share takes from all channels of a base alike.
 PATINA_FN vec3 shareLargest(vec3 c) {
     return vec3(unit(largest(c)));
 }

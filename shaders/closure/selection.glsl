@@ -40,7 +40,7 @@ PATINA_FN void addLobe(PATINA_INOUT(MaterialEval) sum, bool counts, bool diffuse
 PATINA_FN bool hasWeight(vec3 weight) {
     return luminance(weight) > 0.0f;
 }
-// What a lobe is drawn by, before the sum over all of them divides it. A lone lobe needs no share. One
+// A lobe's weight in the draw, before the sum over all of them divides it. A lone lobe needs no share. One
 // whose albedo is 0 at wo (below its horizon) is never drawn, and evaluates to 0.
 PATINA_FN float selectionShare(vec3 weight, vec3 albedo, bool alone) {
     return select(1.0f, luminance(weight * albedo), alone);
@@ -67,7 +67,7 @@ PATINA_FN void selectLobe(PATINA_INOUT(Selection) s, int lobe, float chance, flo
     s.found = u < s.below;
 }
 
-// What a drawn lobe brings by its own sample, to which the others add what they have there. A delta
+// The contribution of a drawn lobe by its own sample, to which the others add what they have there. A delta
 // stands alone.
 PATINA_FN vec3 drawnValue(vec3 weight, vec3 sampleWeight, float samplePdf) {
     return weight * (sampleWeight * samplePdf);

@@ -16,8 +16,8 @@ PATINA_FN Slab slabOf(vec3 once, vec3 tint, bool twoFaces, bool reflects) {
     return s;
 }
 
-// Of a lobe beneath a reflecting one all passes, for that has taken its share. What a lobe of mode RT
-// reflects is left of it.
+// Of a lobe beneath a reflecting one all passes, for that has taken its share. A lobe of mode RT
+// keeps the light that it reflects.
 PATINA_FN Slab dielectricSlab(PATINA_INOUT(DielectricLobe) l, vec3 wo, PATINA_INOUT(vec3) albedo,
                               bool twoFaces) {
     float once = 0.0f;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // C++ side of the shader dialect. Included INSIDE a namespace by shaders/shaders.h, once per scalar
 // type: there `float` may be a macro for double, so this file includes nothing and has no include
-// guard. What is missing here is missing from the dialect.
+// guard. Names missing here are missing from the dialect.
 //
 // The functions are plain (not templates) so that a float literal converts to the instance's own
 // scalar, and so that they win over the templates which argument dependent lookup finds in glm.
@@ -14,7 +14,7 @@
 // A parameter that is not read; drivers want a name where compilers warn of one.
 #define PATINA_UNUSED(T, name) T
 
-// What a shader may know of all of its lobes when it is compiled, see glsl.glsl.
+// Facts that a shader may know of all of its lobes when it is compiled, see glsl.glsl.
 #define PATINA_ENERGY_KNOWN(known) (known)
 #define PATINA_COMPENSATE(compensate) (compensate)
 #define PATINA_ALBEDO_METHOD(method) (method)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // GLSL side of the shader dialect (GLSL 4.3 and up; GLSL ES 3.0 with PATINA_ALBEDO_TABLE_FETCH).
-// Include it first, after #version. What is missing here is missing from the dialect.
+// Include it first, after #version. Names missing here are missing from the dialect.
 
 #define PATINA_FN
 #define PATINA_FN_RARE
@@ -8,7 +8,7 @@
 #define PATINA_INOUT(T) inout T
 #define PATINA_UNUSED(T, name) T name
 
-// What holds for all lobes of a shader may be said before this file, as constants in place of what lobes
+// Facts that hold for all lobes of a shader may be said before this file, as constants in place of what lobes
 // say: drivers do not see it otherwise, and take four times as long for what never runs.
 // Whether lobes have the energy factors of their wo.
 #ifndef PATINA_ENERGY_KNOWN

@@ -24,7 +24,7 @@ const int INTERFACE_SIZE = 2 * INTERFACE_MU * INTERFACE_ALPHA * INTERFACE_ETA;
 const int INTERFACE_ABOVE = MOMENT_SIZE;
 const int INTERFACE_BELOW = MOMENT_SIZE + INTERFACE_SIZE;
 
-// What anisotropy adds (anisotropicAlbedo.glsl).
+// The share that anisotropy adds (anisotropicAlbedo.glsl).
 const int TURNED_MU = 16;
 const int TURNED_AZIMUTH = 5;
 const int TURNED_RATIO = 7;
@@ -167,7 +167,7 @@ PATINA_FN float momentEntry(MomentPlace p, int i) {
     return mix(a, b, p.fa);
 }
 
-// What the mean reflectance is about: for eta >= 1 the reflectance at mu. For eta < 1 the same with
+// A first guess of the mean reflectance: for eta >= 1 the reflectance at mu. For eta < 1 the same with
 // the kink at the critical angle rounded over the width of the lobe, since a kink that moves with
 // mu cannot be interpolated.
 PATINA_FN float interfaceGuess(float mu, float alpha, float eta) {

@@ -19,7 +19,7 @@ PATINA_FN float classicAlbedo(int plane, float mu, float alpha) {
     return mix(a, b, tableFraction(ta, CLASSIC_ALPHA));
 }
 
-// What anisotropy adds to a form of Ward's lobe (CLASSIC_WARD_*) over the isotropic one that stands
+// The share that anisotropy adds to a form of Ward's lobe (CLASSIC_WARD_*) over the isotropic one that stands
 // in (microfacetAlphaSeen), in the layout of anisotropicAlbedo.glsl.
 PATINA_FN_RARE float wardTurned(int plane, vec3 wo, vec2 alpha) {
     MicrofacetPlace p = microfacetPlace(wo, alpha, NDF_GGX);

@@ -4,7 +4,7 @@
 
 // Unpolarised dielectric reflectance from both cosines: c on the side that light comes from, g =
 // eta times that on the far side, so that g^2 = c^2 + eta^2 - 1. Written with eta^2 - 1 factored
-// out of both amplitudes, which keeps its relative precision for eta near 1. What is left of the
+// out of both amplitudes, which keeps its relative precision for eta near 1. The remainder of the
 // second vanishes at Brewster's angle only; of its two forms the one for eta below 1 does not
 // subtract from 1 what is nearly 1 around the critical angle.
 PATINA_FN float fresnelFromCosines(float c, float g, float eta) {

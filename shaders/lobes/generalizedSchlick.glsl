@@ -23,7 +23,7 @@ PATINA_FN vec3 schlickNormal(SchlickLobe l) {
     return l.fresnel.f0;
 }
 
-// What a film adds to Schlick's curve, or the reflectance of a dielectric under one.
+// The share that a film adds to Schlick's curve, or the reflectance of a dielectric under one.
 PATINA_FN vec3 schlickSmoothPart(SchlickLobe l, float c, float eta) {
     if (PATINA_FILM(l.exact)) return schlickReflectance(l, c, eta);
     return filmReflectance(l.film, c, l.filmBase, vec3(0.0f)) - schlickBare(l.filmBase, c);
@@ -50,7 +50,7 @@ PATINA_FN bool schlickOdd(SchlickLobe l) {
     return !PATINA_FILM(l.exact) && (dip > 0.0f || lobeMean(s.f90) < 1.0f || s.exponent != 5.0f);
 }
 
-// What such a curve lets through over what a dielectric of that ior does, over all facets seen: T
+// The transmission of such a curve over that of a dielectric of its ior, over all facets seen: T
 // also meets those that R sends below the horizon, so that R's mean says little of it.
 PATINA_FN_RARE vec3 schlickTransmittanceRatio(SchlickLobe l, vec3 wo, float eta) {
     vec3 o = vec3(wo.x, wo.y, min(abs(wo.z), 1.0f));

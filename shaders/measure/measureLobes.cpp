@@ -53,7 +53,7 @@ template <class Lobe> void timeEval(const std::vector<Lobe>& lobes, const std::v
         int(grid.size()), row);
 }
 
-/// What comes back of light at every place of the grid, by random walks.
+/// The share of light that comes back at every place of the grid, by random walks.
 std::vector<Walked> walks(const std::vector<Place>& grid,
                           const std::function<double(double)>& reflectance) {
     std::vector<Walked> result(grid.size());

@@ -10,7 +10,7 @@ constexpr int gridSide = 32;
 
 } // namespace
 
-// What the Conty-Kulla lobe reflects in total, against a sum in double over four times as many
+// The total reflection of the Conty-Kulla lobe, against a sum in double over four times as many
 // directions as its quadrature has.
 std::vector<Row> sheen(bool timed) {
     const char* const names[] = {"table", "fit", "quadrature"};

@@ -59,8 +59,8 @@ double walkHalfSpace(double single, std::mt19937_64& random) {
 } // namespace
 
 // A diffuse lobe has the albedo that was asked for, a walk the one that its inversion finds: how
-// far both are apart for an infinitely thick object. What only one of them shows, light that leaves
-// elsewhere, hangs on the object.
+// far both are apart for an infinitely thick object. The part that only one of them shows, light
+// that leaves elsewhere, hangs on the object.
 std::vector<Row> subsurface(bool timed) {
     std::vector<Row> rows;
     const struct {

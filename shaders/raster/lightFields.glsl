@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pass knows of a light, row by row of 16 bytes. lights.glsl and hdDelegate/raster/lights/rasterLight.h make
-// their structs of these rows:
+// The fields of a light in a pass, row by row of 16 bytes. lights.glsl and
+// hdDelegate/raster/lights/rasterLight.h make their structs of these rows:
 //   PATINA_ROW(vector, type, number, initial)   a vec3 and a number; vectors begin as zero
 //   PATINA_NUMBERS(type, a, b, c, d, initial)   four numbers that begin alike
 PATINA_ROW(sampled, float, density, 0)      // position, or direction to the light; by area, by length, or by solid angle

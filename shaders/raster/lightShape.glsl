@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is drawn in none of a light's maps, see ShadowView::Own. What is inside of a sphere light: its
+// Surfaces that none of a light's maps shows, see ShadowView::Own. Those inside of a sphere light: its
 // samples are inside, too, but it shines from its surface. And what lies in the plane of a flat
 // emitter: seen from a place on it, it is a line, which rounding makes a half of all that is seen.
 layout(location = 11) uniform mat4 worldToLight;

@@ -155,7 +155,7 @@ vec3 along(MaterialSample s) {
 #include "shaders/raster/sky.glsl"
 #endif
 
-// What the surface gives off: its material's glow, and what a mesh light makes of it.
+// The emission of the surface: its material's glow, and what a mesh light makes of it.
 vec3 glow() {
     vec3 own = materialEmission(point.view);
     if (meshLight.w == 0.0) return own;
@@ -210,7 +210,7 @@ void main() {
         MaterialSample s = materialSample(vec3(randomAt(pixel, index, 0u), choice.x), choice.y);
         if (s.event == 0) continue;
         vec3 found = along(s) / float(counts.y);
-        // What narrow lobes find is as sharp as it should be.
+        // Reflections of narrow lobes are as sharp as they should be.
         float sharp = (s.event & LOBE_DELTA) != 0 ? 1.0 : smoothstep(1.0, 6.0, s.pdf);
         color += found * sharp;
         noisy += found * (1.0 - sharp);

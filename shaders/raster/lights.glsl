@@ -46,7 +46,7 @@ vec3 radianceOfDome(Light l, vec3 w, float lod) {
     if (l.domeLayer < 0.0) return l.domeRadiance;
     return l.domeRadiance * textureLod(domeMaps, vec3(domeTexel(toDome(l, w)), l.domeLayer), lod).rgb;
 }
-// lod: as radianceOfDome. What looks into a smaller version of the image must weigh itself by as small
+// lod: as radianceOfDome. A lookup into a smaller version of the image must weigh itself by as small
 // a one of the density, else what is bright beside it counts twice.
 float domePdf(Light l, vec3 w, float lod) {
     if (l.domeLayer < 0.0) return 0.25 * INV_PI;
@@ -95,7 +95,7 @@ vec4 imageOfRect(Light l, vec3 q) {
                 lightTables[l.firstValue + cell.y * size.x + cell.x].w);
 }
 
-// What a glowing triangle gives in a direction away from it, see RasterEmission.
+// The emission of a glowing triangle in a direction away from it, see RasterEmission.
 vec3 emissionOfTriangle(Light l, vec3 away) {
     if (l.firstValue < 0) return vec3(1.0);
     float theta = acos(clamp(dot(away, l.shapingAxis), -1.0, 1.0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the text of a generated material stands on: the shading point, lobes and closures, and nodes.
+// The base of a generated material's text: the shading point, lobes and closures, and nodes.
 #define PATINA_ENERGY_KNOWN(known) true // by lobeFix()
 #include "shaders/compat/glsl.glsl"
 #include "shaders/lobes.glsl"

@@ -13,7 +13,7 @@ void main() {
     if (!isPresent()) discard;
 #endif
 #ifdef MATERIAL_PASSES
-    // What is refracted goes straight on here, with the luminance of its share as a chance. It leaves as
+    // Refracted light goes straight on here, with the luminance of its share as a chance. It leaves as
     // it enters: straight ways out would be reflected where those that refraction turned are not.
     if (!woOutside()) setPoint(-point.view, 0.0);
     materialSetup();

@@ -29,7 +29,7 @@ float planeBeside(sampler2DArray maps, ivec3 texel, float front, float depth, ve
     return depth - front - dot(rise, abs(offset));
 }
 
-// Whether a map shows nothing in front of a point. What is compared is where the plane of the surface
+// Whether a map shows nothing in front of a point. The compared depth is that where the plane of the surface
 // is in the middle of the texel, not the point: then a surface does not hide itself, without being
 // moved by as much as a texel may be wrong, which would be seen where things touch.
 // hasSlopes: maps are shadowMaps. n: of the plane; 0 compares the point. minimum: of the bias, which is how exact
@@ -60,7 +60,7 @@ float isInFront(bool hasSlopes, sampler2DArray maps, mat4 worldToMap, int layer,
     // behind that. Where a surface bends towards the light, the middle is nearer to the light than the plane.
     vec2 offset = (0.5 * q.xy + 0.5) * size - texel - 0.5;
     if (hasSlopes && !isTube()) {
-        // What the middle shows hides the point only if its own plane also does so at the point.
+        // The surface in the middle hides the point only if its plane also does so at the point.
         vec2 rise = texelFetch(shadowSlopes, ivec3(ivec2(texel), layer), 0).xy;
         return depth - front + dot(slope / size - rise, offset) <= bias ? 1.0 : 0.0;
     }
@@ -144,7 +144,7 @@ vec3 shadowAt(Light l, vec3 wi) {
     float away = isAtPlace(l) ? length(point.position - shadowOrigin(l)) : 1.0;
     float seen = reaches(l, p);
     if (seen < 1.0 && l.shadowDistance > 0.0) {
-        // What is nearest to the light is further off than h where the point moved by h is lit.
+        // The surface nearest to the light is further off than h where the point moved by h is lit.
         int steps = l.shadowFalloff > 0.0 ? 8 : 1;
         float start = l.shadowFalloff > 0.0 ? max(l.shadowDistance - l.shadowFalloff, 0.0) : l.shadowDistance;
         float blocked = 0.0, last = 1.0 - seen, depth = 1.0;

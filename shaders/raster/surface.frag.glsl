@@ -72,13 +72,13 @@ void setOnStrip(vec3 view) {
     vTangent = along;
 }
 
-// What casts shadows of a tube is a strip that faces the light, so its points are compared with the
+// A tube casts the shadow of a strip that faces the light, so its points are compared with the
 // strip's plane, in front of which they all are on the lit side.
 vec3 planeTowards(vec3 towards) {
     if (!isTube()) return point.geometricNormal;
     return unitOr(towards - point.tangent * dot(towards, point.tangent), vec3(0.0));
 }
-// Where light from wi comes in. What goes through a fibre starts again on the far side, nearly; see
+// Where light from wi comes in. Light through a fibre starts again on the far side, nearly; see
 // SurfacePoint::departure() of the path tracer.
 vec3 departure(vec3 wi) {
 #ifdef MATERIAL_IS_FIBRE

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What belongs to whole triangles: pulled by the fragment stage, so that corners can share vertices.
+// Values of whole triangles: pulled by the fragment stage, so that corners can share vertices.
 struct Triangle {
     vec4 dPdu;   // object space; w: sqrt of texture area per area
     vec4 dPdv;   // w: bits of the authored face

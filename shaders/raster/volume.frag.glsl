@@ -78,8 +78,8 @@ vec3 diffused(vec3 depth, vec3 layer, vec3 albedo) {
                vec3(0.0));
 }
 
-// What scatters towards the camera of irradiance from a direction, per scattering coefficient: once, by the
-// phase function, and many times, as in a layer across that direction. What leaves at the sides of
+// Light scattered towards the camera, of irradiance from a direction, per scattering coefficient: once, by
+// the phase function, and many times, as in a layer across that direction. Light that leaves at the sides of
 // clouds, which are no layers, is in the root: `both` is what a white cloud would gather from everywhere,
 // which must not be above 1; the exponent was fitted to the cloud of testenv/scenes/volume.usda.
 vec3 lightInside(vec3 p, vec3 direction, float reach, float jitter, float phase) {
@@ -149,7 +149,7 @@ void main() {
         vec3 next = transmittance * exp(-sigma * dt);
         vec3 stretch = mix((transmittance - next) / max(sigma, vec3(1e-20)), transmittance * dt,
                            lessThan(sigma * dt, vec3(1e-4)));
-        // What glows inside comes out scattered, too: only as much is lost as where it diffuses.
+        // Light of a glow inside comes out scattered, too: only as much is lost as where it diffuses.
         vec3 lost = max(sigma - s.rgb, vec3(0.0));
         lost = min(sqrt(3.0 * lost * (sigma - s.w * s.rgb)), sigma);
         vec3 dimmed = glowing * exp(-lost * dt);

@@ -153,7 +153,7 @@ ChiSquared DensityGrid::test(const BoundLobe& sampler, vec3 wo, int count,
         pooledCount += histogram[i];
         if (pooledExpected >= 5.0) close();
     }
-    // What failed to find a direction, or found a delta one, is a cell of its own.
+    // Samples that found no direction, or a delta one, are a cell of their own.
     const double missing = (1.0 - _total) * count;
     if (missing >= 2e-3 * count) {
         pooledExpected += missing;

@@ -61,7 +61,7 @@ TEST(ClosureFrame, IsOrthonormalWhateverIsAuthored) {
             for (const glm::vec3& tangent : odd)
                 for (const bool flips : {false, true}) {
                     const sh::Frame f = sh::shadingFrame(view, g, g, x, normal, tangent, flips);
-                    // What is left of a tangent close to the normal holds few digits.
+                    // A tangent close to the normal keeps few digits.
                     const bool given = sh::hasDirection(glm::length(tangent));
                     const float sine =
                         glm::length(glm::cross(f.normal, given ? glm::normalize(tangent) : x));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the choice points do to a lobe: samplers draw from what they state, the second lobe of Kulla
-// and Conty is reciprocal and keeps a white furnace, and no method leaves what is physical.
+// The choice points' effects on a lobe: samplers draw from what they state, the second lobe of
+// Kulla and Conty is reciprocal and keeps a white furnace, and no method leaves what is physical.
 
 #include <cmath>
 

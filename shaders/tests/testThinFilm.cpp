@@ -143,7 +143,7 @@ TEST(Film, ThinFilmsFadeOut) {
             }
 }
 
-// What many bounces without interference leave.
+// The limit of many bounces without interference.
 TEST(Film, ThickFilmsAddUpWithoutInterference) {
     for (double c : {1.0, 0.6, 0.3}) {
         const double s2 = 1.0 - c * c, ct = std::sqrt(1.0 - s2 / (1.33 * 1.33));

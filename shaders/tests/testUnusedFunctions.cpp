@@ -61,7 +61,7 @@ TEST(UnusedFunctions, LinesKeepTheirNumbersAndCommentsGo) {
     EXPECT_TRUE(has(out, "\n#line 1 3\nvoid main() { }\n"));
 }
 
-// What the preprocessor may still take apart is let be.
+// Parts that the preprocessor may still take apart are let be.
 TEST(UnusedFunctions, PartsOfConditionsStay) {
     const std::string halves =
         "#ifdef A\nvoid f() {\n#else\nvoid g() {\n#endif\n}\nvoid main() {}\n";

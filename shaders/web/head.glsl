@@ -3,7 +3,7 @@
 #include "shaders/web/inputs.glsl"
 
 // The page evaluates samples where it evaluates light: a second copy of all lobes would cost drivers
-// as much again to compile. What the drawn lobe has by its own sample waits in the sample.
+// as much again to compile. The drawn lobe's own value waits in the sample.
 int drawnLobe = -1;
 MaterialSample pendingSample(MaterialSample s, LobeSample l, int drawn, vec3 weight, float chance) {
     bool reflects = (l.event & LOBE_REFLECT) != 0;

@@ -47,7 +47,7 @@ float environmentChance(vec3 w) {
     return luminance(environmentScale * map + ambient) * environmentDensity.y;
 }
 
-// What a sample of the BSDF finds: the environment, and the lights that it meets. Diffuse and
+// Light that a sample of the BSDF finds: the environment, and the lights that it meets. Diffuse and
 // specular shares of the value, each over the density.
 vec3 along(vec3 wi, vec3 diffuse, vec3 specular, float pdf, bool delta) {
     float apart = float(passInfo.z) * pdf * 4.0 * PI / environmentInfo.x;

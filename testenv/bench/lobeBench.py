@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the lobes of a constant material cost at a vertex of a path, beside Mitsuba's `principled`.
+"""The cost of a constant material's lobes at a vertex of a path, beside Mitsuba's `principled`.
 
 A closed room of one material, with a lamp at its ceiling and without Russian roulette: every path has as many vertices as it
 may, and at each of them the material is set up, evaluated and weighed for a light sample, and sampled for the way on. The time
-of a vertex is the difference of two depths. What the same room takes with a diffuse material in its place is taken off: rays,
+of a vertex is the difference of two depths. The time of the same room with a diffuse material in its place is taken off: rays,
 lights, surface points and random numbers are in both. So a row is what the material costs more than a diffuse one, in
 nanoseconds.
 

@@ -3,7 +3,7 @@
 
 Every renderer draws every scene several times with seeds of its own, with a few and with many samples. The error of an image is
 its relMSE: the mean over pixels and channels of (image - mean)^2 / (mean^2 + 0.01), where the mean is that of the renderer's
-own images with many samples, and the error which that mean itself has is taken off. What a sample costs is the difference of
+own images with many samples, and the error which that mean itself has is taken off. The cost of a sample is the difference of
 the two medians of time, so that nothing which is done once per image counts. Time to a target: that cost times the samples at
 which the error, taken as a power of the samples, reaches the target. Renderers take turns, image by image, so that what
 disturbs the machine disturbs all of them.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the renderers' processes of the path tracing benchmark have in common: scenes on disk, and the talk with the benchmark.
+"""The common part of the renderers' processes in the path tracing benchmark: scenes on disk, and the talk with the benchmark.
 
 A worker is started with a folder and reads a line of JSON for each image: {"samples", "seed", "file"}. It answers with the
 seconds and the processor seconds that the image took; the first line tells what it took to get ready.

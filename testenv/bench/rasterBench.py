@@ -3,7 +3,7 @@
 
 Seconds until the first image (reading the stage and building shaders are in it), after an edit of a material (of a light
 where a stage has no material) and after a camera move, each of one pass; then where they go: translating the stage, building
-buffers and shaders, ids and depths, shadow maps, shading, reading back. What a driver keeps on disk of shaders is warm, unless
+buffers and shaders, ids and depths, shadow maps, shading, reading back. The driver's cache of shaders on disk is warm, unless
 --cold. Storm draws through usdrecord's frame recorder, which also writes an image, and casts no shadows unless lights ask
 for them: its times are for orientation.
 """

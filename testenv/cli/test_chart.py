@@ -33,7 +33,7 @@ def test_rows_csv_and_charts(capsys, tmp_path):
 
 
 def test_errors_are_those_of_the_table():
-    """What is compiled in is what comes out now; times are the machine's, errors are not."""
+    """The compiled-in table is the one measured now; times are the machine's, errors are not."""
     patina = compiled.load()
     table = {(r["point"], r["method"], r["subject"]): r for r in patina.method_table()}
     rows = patina.measure_methods("", False)

@@ -67,7 +67,7 @@ def test_dielectric_over_a_colour(alpha):
 
 
 def test_film_over_white_loses_nothing():
-    """What the film takes from green and blue at 60 degrees goes through, and comes back in the end."""
+    """Light that the film takes from green and blue at 60 degrees goes through, and comes back in the end."""
     builder = layers._Builder()
     film = builder.node("ND_dielectric_bsdf", [("roughness", "vector2", (0.0, 0.0)), ("thinfilm_thickness", "float", 420.0),
                                                ("thinfilm_ior", "float", 2.0)])

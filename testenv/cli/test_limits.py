@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What input asks for beyond a limit is left out with a message that names it, and the rest is shown."""
+"""Input beyond a limit is left out with a message that names it, and the rest is shown."""
 import json
 import os
 import subprocess

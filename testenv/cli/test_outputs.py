@@ -50,7 +50,7 @@ def Material "m"
     }
 }
 """
-# What is written where {out} stands; the rest is read.
+# Files that stand at {out} are written; the rest are read.
 COMMANDS = {
     "record": ["record", "stage.usda", "{out}.png", "-w", "4", "--samples", "1", "--quiet"],
     "record checkpoint": ["record", "stage.usda", "{out}.png", "-w", "4", "--samples", "1", "--quiet"],

@@ -26,7 +26,7 @@ EVIL = 'out>\n    }\n}\ndef "evil" (references = @/etc/passwd@) {}\ndef "rest" {
 
 
 def save(layer, material, tmp_path):
-    """What the page saves: layer.js with the page's own state.
+    """The file that the page saves: layer.js with the page's own state.
 
     :returns: the layer, as pxr reads it"""
     if not shutil.which("node"):

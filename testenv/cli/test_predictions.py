@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the planner predicts holds: images by planned methods stay within the tolerance of those by the truth; and how a
+"""The planner's predictions hold: images by planned methods stay within the tolerance of those by the truth; and how a
 tolerance reaches renders.
 """
 import json
@@ -78,7 +78,7 @@ def test_renders_tell_the_predicted_error(tmp_path, backend):
         {"/World/materials/grey"} if backend == "raster" else set())
     assert plan["error"] == planned["predictedError"] == max(m["error"] for m in plan["materials"].values())
     assert sum(plan["methods"]["directionalAlbedo"].values()) == 2
-    # What layers send back down is counted, so that both back ends are within their share without a walk.
+    # Light that layers send back down is counted, so that both back ends are within their share without a walk.
     assert set(plan["methods"]["layering"]) == {"albedoScaling"}
     metadata = _patina.read_image(str(tmp_path / "a.exr")).metadata
     assert "layering=albedoScaling" in metadata["patina:methods"]

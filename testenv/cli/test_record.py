@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `patina record` writes besides the pixels: frames, AOVs, statistics, checkpoints."""
+"""Outputs of `patina record` besides the pixels: frames, AOVs, statistics, checkpoints."""
 import json
 import os
 import signal

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a farm of other sizes would give, by the seconds of a part, a merge and a task of the sender.
+"""The speed of farms of other sizes, by the seconds of a part, a merge and a task of the sender.
 
     ./patina python testenv/farm/simulate.py --part 3.5 --merge 0.5 --sender 0.001 --frames 240 --parts 16
 """

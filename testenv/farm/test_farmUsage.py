@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `patina farm` says before anything is sent; job templates stand for the sending."""
+"""Messages of `patina farm` before anything is sent; job templates stand for the sending."""
 import json
 import shutil
 

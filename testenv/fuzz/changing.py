@@ -99,7 +99,7 @@ def _write_all(folder):
 
 
 def _change(path, kind, data, r):
-    """What may be at a path becomes something else. :param data: of the file as it was"""
+    """The object at a path becomes another one. :param data: of the file as it was"""
     if kind in ("cut", "empty", "longer", "spoiled", "zeros") and os.path.isfile(path):  # in place: readers have it open
         with open(path, "r+b") as file:
             if kind == "cut":

@@ -19,7 +19,7 @@ VALUES = ("0", "1", "-1", "2", "0.5", "1e9", "1e400", "nan", "inf", "-inf", "", 
           "list", "ball.radius=2", "/ball.radius=nan", "a=b=c", "%s%n", "ÿ𝛑", "x" * 4000, "out/../image.exr", "--", "-")
 FILES = ("stage.usda", "image.exr", "small.png", "damaged.mtlx", "damaged.exr", "out.png", "out.exr", "folder", "pipe",
          "missing.usda", "")
-# What would take long, or go on for as long as it is asked to, and is no fault.
+# Options that may take long, or go on for as long as they are asked to, without fault.
 LAST = {"record": ["-w", "16", "--samples", "2", "--threads", "2", "--seconds", "1"]}
 
 

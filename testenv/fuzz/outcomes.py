@@ -30,7 +30,7 @@ def command(words, folder):
     return main.main([str(word) for word in words])
 
 
-# What validation raises; any other exception that a prim's reader meets is a defect, though it ends as a warning.
+# Exceptions that validation raises; any other exception that a prim's reader meets is a defect, though it ends as a warning.
 _FORESEEN = ("StageError", "InputError", "ValueError", "ErrorException", "RuntimeError")
 
 

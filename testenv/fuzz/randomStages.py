@@ -108,7 +108,7 @@ class _Writer:
 
 
 def _once(lines):
-    """What a prim says twice is a layer that USD refuses: the first counts."""
+    """USD refuses a layer whose prim says a thing twice: the first counts."""
     kept, names, depth = [], set(), 0
     for line in lines:
         head = line.partition(" = ")[0].strip() if " = " in line and not line.lstrip().startswith("def") else ""

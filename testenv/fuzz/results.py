@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the machines have found, by their own figures: testenv/fuzz/results.json, of which docs/trust.md is made. A run adds a
+"""The machines' findings, by their own figures: testenv/fuzz/results.json, of which docs/trust.md is made. A run adds a
 row; what was mended and what is known and left is written by hand."""
 import json
 import os
@@ -84,7 +84,7 @@ def page():
             "Kinds count inputs, not causes: *library* is what fails in another library without Patina too. All other inputs",
             "were fine, or ended with a message.", "",
             *_table(head, rows), "",
-            "## What the parsers' fuzzers reach", "",
+            "## Reach of the parsers' fuzzers", "",
             "Lines of the sources that the kept inputs of a fuzzer run, by llvm-cov. The generated inputs reach the rest",
             "through the command line, which is not counted.", "",
             *_table(("sources", "fuzzer", "reached"), parsers), "",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What fuzzers have found stays found, and the fuzzers themselves tell right from wrong.
+"""Findings of fuzzers stay found, and the fuzzers themselves tell right from wrong.
 
 The kept inputs of the native fuzzers are run by testFuzzCorpus.
 """

@@ -3,7 +3,7 @@
 NUMBERS = (0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 1e-7, -1e-7, 1e-30, 1e-45, 1e6, 1e15, 1e30, 3.4028235e38, -3.4028235e38,
            float("inf"), float("-inf"), float("nan"), 16777217.0)
 INTEGERS = (0, 1, 2, 3, 4, -1, 7, 255, 65536, 2**31 - 1, -2**31)
-# What a stage may name: nothing, things that are no files, and files of the folder that damage has met.
+# Values that a stage may name: nothing, things that are no files, and files of the folder that damage has met.
 ASSETS = ("", "missing.png", "/dev/zero", "/dev/stdin", "pipe", "folder", "damaged.png", "damaged.exr", "damaged.vdb",
           "damaged.ies",
           "damaged.mtlx", "zeros.png", "huge.png", "loop.usda", "../" * 40 + "etc/passwd", "x" * 300, "a<UDIM>.png",

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the texts of one scene from two hosts comparable.
 
-What Hydra does not keep is taken out of both:
+Values that Hydra does not keep are taken out of both:
 - instancers and prototypes have names of UsdImaging's making. An instancer counts by what it places where:
   the contents of its groups, each with its transforms in any order (those that the text shows: 64);
 - materials inside of prototypes have such names as well, and Hydra lists a network's nodes in an order of its

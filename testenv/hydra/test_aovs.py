@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What Hydra's outputs hold: depths against the camera's projection, normals, texture coordinates, and
+"""The contents of Hydra's outputs: depths against the camera's projection, normals, texture coordinates, and
 ids that Hydra itself decodes to the prims and instances that are there."""
 import json
 import math

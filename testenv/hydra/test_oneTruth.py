@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Both hosts make the same scene of a stage: as text, and bit for bit as an image.
 
-What Hydra changes on the way, and the text therefore may not show, is taken out of both texts by
+Values that Hydra changes on the way, which the text may therefore not show, are taken out of both texts by
 sceneText; what it changes in the picture stands in the tables below, with the reason and a bound."""
 import os
 

@@ -46,7 +46,8 @@ def test_charts_of_the_documents():
 
 
 def test_paths_lose_what_is_predicted():
-    """What a depth cuts off is at most the albedo to that power, and nearly that in a closed box: noise allows a twentieth."""
+    """The light that a depth cuts off is at most the albedo to that power, and nearly that in a closed box: noise allows a
+    twentieth."""
     table = [row for row in compiled.load().method_table() if row["point"] == "pathDepth"]
     albedos = (np.arange(8) + 0.5) / 8
     for row in table:

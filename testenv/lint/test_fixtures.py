@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a fixture started it ends with its own module: at the end of a session, its failure would be that of whichever test
-the process ran last."""
+"""A fixture ends all that it has started when its module ends: at the end of a session, its failure would be that of whichever
+test the process ran last."""
 import ast
 import os
 

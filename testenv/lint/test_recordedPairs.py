@@ -22,8 +22,8 @@ def test_every_scene_has_more_than_a_picture():
 
 
 def test_recorded_pairs_with_the_same_answer_look_alike():
-    """What 1024 samples gave, where that was measured. Where the path tracer's own noise is above the bound, both are held
-    against many more of its samples: the rasterizer is within the bound there, or not farther off than the path tracer."""
+    """The difference at 1024 samples, where that was measured. Where the path tracer's own noise is above the bound, both are
+    held against many more of its samples: the rasterizer is within the bound there, or not farther off than the path tracer."""
     for name, entry in HELD["scenes"].items():
         if not entry["same"] or entry.get("full", {}).get("flip", 0) <= recordedPairs.LARGEST_FLIP:
             continue

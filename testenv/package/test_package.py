@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `cmake --install` puts in place is enough: for a host in C++ that finds Patina by find_package, and for the command."""
+"""The files of `cmake --install` are enough: for a host in C++ that finds Patina by find_package, and for the command."""
 import os
 import re
 import shutil

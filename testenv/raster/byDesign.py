@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the rasterizer draws otherwise than the path tracer, by design: each feature with what it does instead, the test of
+"""The rasterizer's differences from the path tracer by design: each feature with what it does instead, the test of
 the difference itself, and the test scenes that have it (which are then not held together as a whole)."""
 import dataclasses
 

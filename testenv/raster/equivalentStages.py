@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stages that both back ends must draw alike, and the light that they are held together by.
 
-Three sorts: test scenes, emitters out of view, and stages that were not made for this (in $PATINA_ASSETS). What the
+Three sorts: test scenes, emitters out of view, and stages that were not made for this (in $PATINA_ASSETS). A feature that the
 rasterizer draws otherwise by design is named in byDesign.py, and its stages are not here.
 """
 import dataclasses

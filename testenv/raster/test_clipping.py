@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a camera does not see: before its near plane, beyond its far plane and behind its clipping planes; lights have a place,
-too, also where no surface is near them."""
+"""Regions that a camera does not see: before its near plane, beyond its far plane and behind its clipping planes; lights have a
+place, too, also where no surface is near them."""
 
 import numpy as np
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What happens where the rasterizer cannot: one clear message, and the path tracer's image in its place; a smaller
+"""Fallbacks where the rasterizer cannot draw: one clear message, and the path tracer's image in its place; a smaller
 texture or displayColor where that is enough.
 
 Drivers are made worse by Mesa's own variables where those can, else by PATINA_GL_FAULT.
@@ -51,7 +51,7 @@ def opengl():
         pytest.skip(reason)
 
 
-# What is asked for, and a part of the message.
+# The request, and a part of the message.
 NO_START = {
     "noEgl": ({"PATINA_EGL_PLATFORM": "none"}, "EGL"),
     "oldDriver": ({"MESA_GL_VERSION_OVERRIDE": "3.3"}, "no OpenGL 4.5 core profile"),
@@ -148,7 +148,7 @@ def test_samples_of_two_back_ends_are_never_mixed(opengl, traced, tmp_path):
     assert process.returncode == 0 and statistics["backend"] == "embree"
     assert any("starting anew" in w["message"] for w in statistics["warnings"])
     np.testing.assert_array_equal(bothBackEnds.pixels(image), traced)
-    # What the path tracer has begun in the rasterizer's place it also continues.
+    # A render that the path tracer has begun in the rasterizer's place, it also continues.
     for samples, more in (("2", "--keepCheckpoint"), ("4", "--resume")):
         process, statistics = record(SCENE, image, "--backend", "raster", "--samples", samples, more,
                                      PATINA_EGL_PLATFORM="none")

@@ -89,7 +89,7 @@ def test_the_cheapest_that_fits_is_taken(balls, light, point):
             assert choice["error"] <= 0.4 * tolerance and choice["ns"] <= choice["nsDefault"]
             assert (choice["error"] == 0.0) == (choice["method"] == "sampled")
         assert samples == 1 or relative(image, truth) <= tolerance, (tolerance, ways)
-    # What fits a large tolerance is cheap, and no error is small enough at last. Which of a dome's two tables is the
+    # A method that fits a large tolerance is cheap, and no error is small enough at last. Which of a dome's two tables is the
     # cheaper one is the timing table's to say.
     assert ways["diffuse", 0.3] in (("harmonics", "prefiltered") if point == "domeLight" else ("linearlyTransformedCosines",))
     assert ways["diffuse", 0.01] == ways["rough", 0.01] == "sampled"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What lights can do, drawn by the rasterizer and by the path tracer: the answer has to be the same, by equivalence.py.
+"""Features of lights, drawn by the rasterizer and by the path tracer: the answer has to be the same, by equivalence.py.
 
 Every stage is a floor with a block on it under one kind of light.
 """

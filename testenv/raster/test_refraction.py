@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the rasterizer shows through surfaces that transmit: closed forms with a white sky of radiance 1."""
+"""Refraction in the rasterizer, through surfaces that transmit: closed forms with a white sky of radiance 1."""
 import numpy as np
 import pytest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What glows inside of a white cloud comes out of it, scattered: nothing of it is lost."""
+"""Light that glows inside of a white cloud comes out of it, scattered: nothing of it is lost."""
 import numpy as np
 import pytest
 

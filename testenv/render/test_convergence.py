@@ -61,5 +61,5 @@ def test_error_falls_with_samples(name):
 @pytest.mark.parametrize("name", [name for name in NAMES if name not in LATER and name != "furnace"])
 def test_error_falls_from_few_samples_on(name):
     """Small images, whose slopes scatter by 0.05 (standard deviation over seeds); 0.1 more allow for rare light that four
-    samples miss. What does not converge (a bias, samples that repeat) has a slope near 0."""
+    samples miss. An error that does not converge (a bias, samples that repeat) has a slope near 0."""
     falls(name, *slope(name, 24, FEW, SEEDS), -0.3)

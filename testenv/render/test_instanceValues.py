@@ -155,7 +155,7 @@ def test_the_rasterizer_shows_them_too(tmp_path):
     if reason:
         pytest.skip(reason)
     same(tmp_path, {"displayColor": ("color3f", COLOURS)}, "--backend", "raster")
-    # What is let through is drawn by lot, by the numbers of prims: alike in the mean of a ball's middle.
+    # The light let through is drawn by lot, by the numbers of prims: alike in the mean of a ball's middle.
     primvars = {"displayOpacity": ("float", [1, 0.4, 1])}
     a, b = (color(render(tmp_path, name, make(primvars), "--backend", "raster", "--samples", "64"))[9:15, 21:27].mean()
             for name, make in (("instances", instanced), ("copies", copies)))

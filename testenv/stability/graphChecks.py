@@ -5,8 +5,8 @@ import numpy as np
 COSINES = (1.0, 0.7, 0.3, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0, -1e-7, -1e-3, -0.4, -1.0)
 INCOMING = (1.0, 0.6, 1e-1, 1e-3, 1e-6, 1e-8, 0.0, -1e-7, -1e-2, -0.5, -1.0)
 LAST = 1.0 - 2.0 ** -24
-# What approximations of a lobe may add to an albedo of 1 (testLobeAlbedo): anisotropic tables 0.05; the transmission of
-# Schlick curves that no dielectric has, 0.09, from 16 facets; the rest far less.
+# The excess over an albedo of 1 that approximations of a lobe may have (testLobeAlbedo): anisotropic tables 0.05; the
+# transmission of Schlick curves that no dielectric has, 0.09, from 16 facets; the rest far less.
 BUDGET = 0.09
 DELTA = 4
 SAMPLES = 1024
@@ -100,7 +100,7 @@ def _check_samples(probe, failures):
 
 
 def check_density(probe):
-    """What sample() gives is what eval() says of the direction: weight = f cos / pdf.
+    """The value of sample() is that of eval() for its direction: weight = f cos / pdf.
 
     :returns: list of what failed
     """

@@ -48,7 +48,7 @@ VDFS = {
     "anisotropic_vdf": {"absorption": ("vector3", 0, 3), "scattering": ("vector3", 0, 3), "anisotropy": ("float", -1, 1)},
 }
 BURLEY_GAIN = 1.56  # of a white lobe of roughness 1 at grazing angles: the model as it was published
-# What graphs hold beside the tables: nodes that take the place of others, or stand between.
+# Parts of graphs beside the tables: nodes that take the place of others, or stand between.
 MORE = ("dielectric_btdf", "thin_film_bsdf", "patina_dispersed_ior")
 SIZES = {"float": 1, "vector2": 2, "vector3": 3, "color3": 3}
 

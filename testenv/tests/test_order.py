@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is run first, how many processes share the tests, and that a list of suites is made anew for a new program."""
+"""The order of tests, the number of processes that share them, and that a list of suites is made anew for a new program."""
 import os
 
 import pytest

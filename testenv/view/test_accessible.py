@@ -39,7 +39,7 @@ def charts(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def sheet(tmp_path_factory):
-    """What both back ends' page and contact sheets are made of."""
+    """The data of both back ends' page and contact sheets."""
     import numpy as np
 
     path = tmp_path_factory.mktemp("sheet") / "a.html"

@@ -6,7 +6,7 @@
 
 namespace patina {
 
-/// What paths find of caustics while a block of samples is taken.
+/// Caustics that paths find while a block of samples is taken.
 struct PhotonPass {
     static constexpr int samples = 16; ///< that share photons
     /// Width of a pixel's cone at the surface, in the first block.

@@ -177,7 +177,7 @@ TEST(LensRays, BothEyesShareTheImage) {
     camera.lens.stereo = StereoView::OverUnder;
     expectSame(rayOf(camera, image(100, 200), {30, 70}), single(StereoView::Left));
     expectSame(rayOf(camera, image(100, 200), {30, 170}), single(StereoView::Right));
-    // What a pixel's filter reaches over the seam is of the pixel's own eye.
+    // Where a pixel's filter reaches over the seam, it samples the pixel's own eye.
     const CameraRays rays(camera, image(100, 200));
     EXPECT_LT(rays.ray({30, 101}, vec2(0.5f), 0.0f, {30, 99}).origin.x, 0.0f);
     EXPECT_GT(rays.ray({30, 101}, vec2(0.5f), 0.0f).origin.x, 0.0f);

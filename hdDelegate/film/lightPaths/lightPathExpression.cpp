@@ -226,7 +226,7 @@ private:
         return pattern;
     }
 
-    /// What follows [ or [^ up to ].
+    /// The text after [ or [^ up to ].
     unsigned letters(unsigned (*bitsOf)(char), const char* expected, bool negated) {
         unsigned bits = 0;
         do {

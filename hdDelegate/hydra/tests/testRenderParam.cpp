@@ -17,7 +17,7 @@ SdfPath pathOf(const char* kind, int number) {
     return SdfPath("/" + std::string(kind) + std::to_string(number));
 }
 
-/// What a prim does to the shared state while it syncs. Prims change places with every round.
+/// A prim's changes to the shared state while it syncs. Prims change places with every round.
 void syncPrim(HdPatinaRenderParam& param, int number, int round) {
     const SdfPath path = pathOf("prim", number), instancer = pathOf("instancer", number % 5);
     auto camera = std::make_shared<Camera>();

@@ -5,7 +5,7 @@
 
 namespace patina {
 
-/// What patinaReadField writes to its standard output, numbers as the machine has them:
+/// The standard output of patinaReadField, numbers as the machine has them:
 ///
 ///   FieldStreamHeader
 ///   bricks, each a FieldStreamBrick and its floats

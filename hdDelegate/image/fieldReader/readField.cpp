@@ -128,9 +128,9 @@ template <class Resource> void limit(Resource resource, rlim_t maximum) {
     ::setrlimit(resource, &now);
 }
 
-/// What a damaged file may ask for: half a GiB besides what the tightest packing (deflate's,
-/// 1032:1) gives of the file, no more than the machine has, and ten seconds with one more for each
-/// MiB.
+/// The most that a damaged file may ask for: half a GiB besides what the tightest packing
+/// (deflate's, 1032:1) gives of the file, no more than the machine has, and ten seconds with one
+/// more for each MiB.
 void limitResources(const std::string& file) {
     struct stat found;
     const rlim_t bytes = ::stat(file.c_str(), &found) == 0 ? rlim_t(found.st_size) : 0;

@@ -133,7 +133,7 @@ std::string text(GLenum name) {
     return s ? reinterpret_cast<const char*>(s) : "";
 }
 
-/// What OpenGL 4.5 leaves open and the shaders need, with a context current.
+/// Features that OpenGL 4.5 leaves open and the shaders need, with a context current.
 bool isEnough(std::string& error) {
     struct Limit {
         GLenum name;

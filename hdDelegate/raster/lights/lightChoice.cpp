@@ -14,7 +14,8 @@ std::vector<ChosenLight> chooseLights(const std::vector<float>& weights, size_t 
         return out;
     }
     if (maximum == 0) return out;
-    // What would be chosen more than once is taken for sure, and the rest shares what is left.
+    // A light that would be chosen more than once is taken for sure; the rest share the samples
+    // left.
     std::vector<bool> sure(weights.size(), false);
     double scale = 0.0;
     for (size_t round = 0; round <= maximum; ++round) {

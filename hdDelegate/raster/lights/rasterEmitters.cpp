@@ -261,7 +261,7 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
         parallelFor(size_t(0), bright.size(),
                     [&](size_t i) { bright[i] = brightness(source, candidates[i].first, coarse); });
     }
-    // What was not found bright may be so elsewhere.
+    // A triangle that was not found bright may be bright elsewhere.
     double mean = 0.0;
     for (const float b : bright)
         mean += double(b) / double(bright.size());

@@ -64,14 +64,14 @@ public:
 
     /// @returns a triangle; `within` a number in [0,1) that is left of u, `chance` the probability
     RasterEmitter choose(float u, float& within, float& chance) const;
-    /// What a triangle gives at a place. @param uv as evalAttribute() has them
+    /// The emission of a triangle at a place. @param uv as evalAttribute() has them
     RasterEmission emission(const RasterEmitter& emitter, const vec2& uv) const;
 
 private:
     class Place;
     static void softenEdges(Place& place, const vec2& steps, RasterEmission& out);
 
-    /// What triangles of a subset at a place have in common.
+    /// Values that all triangles of a subset share at a place.
     struct Source {
         std::shared_ptr<const TriangleMesh> mesh;
         std::shared_ptr<const MaterialProgram> program;
@@ -87,7 +87,7 @@ private:
         bool twoSided = true, mirrored = false; ///< of its triangles, as category
         int category = -1;
     };
-    /// What is kept of a triangle: the rest is in the mesh.
+    /// The kept values of a triangle; the rest is in the mesh.
     struct Glowing {
         unsigned triangle;
         int source;

@@ -60,14 +60,15 @@ static_assert(sizeof(GpuLight) % 16 == 0);
 
 /// A view from a light, to be drawn into one shadow map.
 struct ShadowView {
-    /// Of half the angle of one map around a light. What is seen from nearer takes six.
+    /// Of half the angle of one map around a light. A light seen from nearer takes six.
     static constexpr float widestTangent = 2.0f;
     glm::mat4 worldToMap{1.0f};
     glm::vec4 towards{0.0f}; ///< position of the light; direction to it where w is 0
     int category = -1;       ///< of what casts; -1: everything
     bool clampsNear = false; ///< what is nearer casts from the near plane
-    /// What casts nothing, as shaders/raster/lightShape.glsl has it: what is inside of a sphere
-    /// light, and what lies in the plane of the emitter, which rounding else puts before a sample.
+    /// Surfaces that cast no shadow, as shaders/raster/lightShape.glsl has it: what is inside of a
+    /// sphere light, and what lies in the plane of the emitter, which rounding else puts before a
+    /// sample.
     enum Own { Nothing, Sphere, Plane };
     Own own = Nothing;
     /// Sphere: to its coordinates, see AreaShape. Plane: what is near the sample and within

@@ -105,7 +105,7 @@ RasterLights::choose(uint32_t pass, const ShadowBounds& bounds, int room) const 
         else
             groups[maps == 0 ? 0 : maps == 1 ? 1 : 2].push_back(i);
     }
-    // What domes light shows everywhere: up to `maxDomes` none is ever missing.
+    // The light of domes shows everywhere: up to `maxDomes` none is ever missing.
     const float turn = passNumbers(_seed, pass, 23).x;
     for (const ChosenLight& c :
          chooseLights(std::vector<float>(domes.size(), 1.0f), maxDomes, turn)) {

@@ -24,8 +24,8 @@ void shHarmonics(const glm::vec3& direction, float out[9]);
 
 /// Projects a sky by summing over the cells of a latlong grid of 256 by 128, 36 directions in each.
 ///
-/// What shines within 6 degrees of the brightest direction above the level around it is split off
-/// as a directional light when it gives at least a tenth of all flux. What is left is windowed by
+/// The light within 6 degrees of the brightest direction above the level around it is split off
+/// as a directional light when it gives at least a tenth of all flux. The rest is windowed by
 /// 1 / (1 + lambda l^2 (l + 1)^2) (Sloan 2008), with the smallest lambda that keeps the irradiance
 /// from ringing below zero anywhere.
 /// @param radiance of a direction; negative and not finite values count as zero

@@ -6,8 +6,8 @@
 
 namespace patina::measure {
 
-/// A lobe under a sky, without shadows, by each way of the choice point domeLight. What
-/// shaders/raster/sky.glsl and lighting.frag.glsl do stands here once more, in C++, with the
+/// A lobe under a sky, without shadows, by each way of the choice point domeLight. The
+/// work of shaders/raster/sky.glsl and lighting.frag.glsl stands here once more, in C++, with the
 /// shipped lobes, harmonics and maps.
 struct DomePoint {
     Reflector lobe;

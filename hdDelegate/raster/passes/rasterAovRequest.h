@@ -8,7 +8,7 @@
 
 namespace patina {
 
-/// What of the AOVs asked for only the fragment stage of a material can tell.
+/// The requested AOVs that only the fragment stage of a material can tell.
 struct RasterAovRequest {
     static constexpr size_t maxPrimvars = 4; ///< targets that drivers have beside the others
 
@@ -34,7 +34,7 @@ struct RasterAovRequest {
                ("#define AOV_PRIMVARS " + std::to_string(primvars.size()) + "\n");
     }
 
-    /// What a surface carries: the primvars of its material, and those asked for.
+    /// Values that a surface carries: the primvars of its material, and those asked for.
     std::vector<std::string> with(std::vector<std::string> ofMaterial) const {
         for (const std::string& name : primvars)
             if (slot(ofMaterial, name) < 0) ofMaterial.push_back(name);

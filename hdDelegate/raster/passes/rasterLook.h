@@ -29,8 +29,8 @@ public:
 
     /// @returns false when the driver has no room
     bool resize(const GlTexture& color, const GlTexture& depth);
-    /// What surfaces are drawn into, in all passes: drivers compile a program anew for other
-    /// targets.
+    /// The targets that surfaces are drawn into, in all passes: drivers compile a program anew for
+    /// other targets.
     const GlFramebuffer& target() const { return _target; }
     void clear() const;
     /// Finds the difference that smoothing makes to what was drawn.

@@ -62,7 +62,8 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
     const auto toSamples = [&] {
         std::vector<DomeSample> to;
         for (const auto& [index, g] : all) {
-            // What samples of diffuse BSDFs leave to them: see fromLight() in lighting.frag.glsl.
+            // The light that samples of diffuse BSDFs leave to them: see fromLight() in
+            // lighting.frag.glsl.
             const float own = float(samples / every) * g.density;
             const float diffuse = float(RasterLook::bsdfSamples) * 0.2f;
             const float share = own * own / std::max(own * own + diffuse * diffuse, 1e-20f);

@@ -106,7 +106,7 @@ void RasterPasses::writeAovs(const RasterScene& scene, const RasterCamera& camer
     target.write(_seen, _aovRequest, film);
 }
 
-/// What the camera sees, which is all that shadows have to be found on.
+/// The points that the camera sees: shadows are needed on these alone.
 void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera& camera,
                                     const RasterView& view) {
     vec3 low(INFINITY), high(-INFINITY), fibresLow = low, fibresHigh = high;
@@ -116,7 +116,7 @@ void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera
     for (size_t i = 0; i < _seen.positions.size(); ++i) {
         const vec4& p = _seen.positions[i];
         if (!(p.w > 0.0f) || !std::isfinite(p.x + p.y + p.z)) continue;
-        // What is beside the pixel's centre, through the lens too.
+        // Samples beside the pixel's centre, through the lens too.
         const float away = glm::length(vec3(p) - view.eye);
         const float beside =
             2.0f * (view.perspective ? away : 1.0f) * view.pixelSpread + camera.blurAt(away);

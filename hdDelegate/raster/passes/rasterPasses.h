@@ -66,7 +66,7 @@ public:
         return taken < RasterLook::smoothed ? taken : 0;
     }
 
-    /// What the driver's seconds go into, of all that was drawn since clearSeconds().
+    /// The driver's seconds by kind of work, of all that was drawn since clearSeconds().
     enum Share { Aovs, Shadows, Surfaces, ReadBack, ShareCount };
     double seconds(Share share) const { return _seconds[share]; }
     void clearSeconds() { _seconds.assign(ShareCount, 0.0); }

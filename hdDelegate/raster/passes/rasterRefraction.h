@@ -7,7 +7,7 @@
 
 namespace patina {
 
-/// What surfaces that transmit are drawn over: the picture of all others with its depths, and the
+/// The background of surfaces that transmit: the picture of all others with its depths, and the
 /// far sides of those that transmit. Read by shaders/raster/refraction.glsl.
 class RasterRefraction {
 public:

@@ -38,7 +38,7 @@ struct RasterBsdf::Gpu {
 RasterBsdf::RasterBsdf(std::unique_ptr<Gpu> gpu) : _gpu(std::move(gpu)) {}
 
 RasterBsdf::~RasterBsdf() {
-    // What was made with the context goes before it.
+    // Objects made with the context go before it.
     const std::unique_ptr<EglContext> context = std::move(_gpu->context);
     const EglContext::Use use(*context);
     _gpu.reset();

@@ -134,7 +134,7 @@ bool RasterScene::updateTouched(const SceneEdits& edits, const SceneState& state
                                 const RasterCamera& camera, const std::atomic<bool>& stop,
                                 const Compiling& compiling) {
     const SceneDelta& delta = edits.delta;
-    // What moves stands at the time of the last sample.
+    // Moving prims stand where they were at the time of the last sample.
     if (_moves || !delta.instancers.empty() || !onlySets(delta.geometry) ||
         !onlySets(delta.materials))
         return false;

@@ -85,7 +85,7 @@ public:
               const RenderSettings& settings);
     /// Whether materials in use are there themselves, and no displayColor for them.
     bool areShown(const SceneDelta::Paths& edited) const;
-    /// What programs write beside light.
+    /// The outputs of programs beside light.
     const RasterAovRequest& aovs() const { return _aovs; }
     /// Methods of `domeLight` that materials have been built with since update().
     const std::set<std::string>& domeMethods() const { return _domeMethods; }

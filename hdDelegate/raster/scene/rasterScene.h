@@ -20,7 +20,7 @@ struct RasterGroup {
     std::shared_ptr<const Geometry> prim;
     std::shared_ptr<const RasterShape> shape;
     std::vector<uint32_t> places; ///< of the prim's RasterInstances::places(), one per instance
-    /// What other times of the shutter are made from; null where the points stay.
+    /// The source of other times of the shutter; null where the points stay.
     std::shared_ptr<const RasterShapeCache::Request> deforms;
     int firstInstance = 0;
 };
@@ -61,8 +61,8 @@ public:
 
     using Compiling = std::function<void(const RasterMaterials::Ready&)>;
 
-    /// Brings the buffers to a state of the scene. What did not change since the last call is kept;
-    /// where edits are all that changed, what they touch is all that is looked at.
+    /// Brings the buffers to a state of the scene. Parts that did not change since the last call
+    /// are kept; where edits are all that changed, what they touch is all that is looked at.
     /// @param origin that all places are relative to, those of the camera too: numbers of 32 bits
     /// are too coarse for shadows where places are large beside what is seen
     /// @param lights that materials are lit by: with a tolerance they decide how
@@ -129,7 +129,7 @@ private:
         bool emits = false;
         std::shared_ptr<const PrimExtent> extent; ///< held for the next update
     };
-    /// What a prim's groups were before it was drawn anew.
+    /// A prim's groups before it was drawn anew.
     struct Sizes {
         size_t groups, draws, instances, triangles, trianglesDrawn;
     };
@@ -171,7 +171,7 @@ private:
     CompiledScene& _compiled;
     Diagnostics& _diagnostics;
     CompiledState _parts; ///< of the last update
-    // What the last update was of.
+    // The scene of the last update.
     bool _complete = false; ///< it was not stopped, and no material stands in for another
     uint64_t _version = 0;
     Camera _camera;

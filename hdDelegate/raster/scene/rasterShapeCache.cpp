@@ -25,7 +25,7 @@ bool serves(const RasterShapeCache::Request& old, const RasterShapeCache::Reques
            sameShape(*old.prim, *request.prim);
 }
 
-/// What tells entries of the cache apart: the path of a prim, but for implicit prims all that their
+/// The key of an entry of the cache: the path of a prim, but for implicit prims all that their
 /// shape is made of, so that equal ones share it.
 std::string nameOf(const RasterShapeCache::Request& request) {
     const Geometry& prim = *request.prim;

@@ -21,7 +21,7 @@ public:
                    GLenum format = GL_RGBA16F)
         : _textures(textures), _diagnostics(diagnostics), _format(format) {}
 
-    /// What the units of a material hold, in their order: the texels of a handle, or an array of
+    /// The contents of a material's units, in their order: the texels of a handle, or an array of
     /// tiles or of textures. Magenta where there are none. Those that are larger than the driver
     /// takes start at a smaller level, with a warning.
     std::vector<std::shared_ptr<const GlTexture>> units(const std::vector<GlslTexture>& textures);

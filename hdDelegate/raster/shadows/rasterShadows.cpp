@@ -105,7 +105,7 @@ ShadowView distantShadow(const vec3& toLight, vec2 turn, const ShadowBounds& bou
         high = glm::max(high, q);
     }
     const float side = std::max(high.x - low.x, high.y - low.y) * 1.02f + 1e-6f;
-    // What is further towards the light is drawn at the map's near end (GL_DEPTH_CLAMP): numbers
+    // Surfaces further towards the light are drawn at the map's near end (GL_DEPTH_CLAMP): numbers
     // are for where shadows fall.
     const float nearest = high.z + 8.0f * std::max(high.z - low.z, side);
     float casters = high.z;

@@ -39,7 +39,7 @@ struct AgreementPoint {
 };
 std::vector<AgreementPoint> agreementPoints();
 
-/// What an instance answers at a point.
+/// The answers of an instance at a point.
 struct AgreementAnswer {
     sh64::LobeEval eval;
     sh64::LobeSample sample;

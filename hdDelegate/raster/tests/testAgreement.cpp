@@ -15,7 +15,7 @@ using namespace patina::test;
 
 namespace {
 
-/// What is known of all lobes of a row, as the rasterizer says it of a material: drivers take
+/// Facts that hold for all lobes of a row, as the rasterizer says it of a material: drivers take
 /// several times as long for what never runs.
 std::string knownOf(const AgreementRow& row) {
     std::string text;

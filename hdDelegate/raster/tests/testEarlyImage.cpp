@@ -128,7 +128,7 @@ TEST(EarlyImages, ShowWhatIsReadyAndLeaveNothingInTheLast) {
         ASSERT_GT(shown.images.size(), 1u);
         const auto& first = shown.reported.front().statistics;
         EXPECT_LT(first.at("materialsReady"), first.at("materialsWanted")) << threads;
-        // What is not ready is grey, which nothing lights.
+        // A surface that is not ready is grey, and no light changes that.
         EXPECT_LT(sum(shown.images.front()), 0.9f * sum(batch.last)) << threads;
         EXPECT_FALSE(shown.reported.front().converged);
         EXPECT_TRUE(shown.reported.back().converged);

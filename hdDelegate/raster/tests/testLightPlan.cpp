@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the planner sees of a sky, and of materials under lights.
+// The planner's view of a sky, and of materials under lights.
 #include "hdDelegate/raster/lights/rasterLightPlan.h"
 #include "hdDelegate/raster/measure/measuredSky.h"
 #include "materialNetwork/planner/planProbes.h"

@@ -189,7 +189,7 @@ TEST_P(MaterialAgreement, OfTextWithProgram) {
     Random random(7);
     for (int i = 0; i < directions; ++i)
         points.emplace_back(random.direction(), 0.0f);
-    // What FakeTextures gives, as texels: linear in uv, so that filtering keeps it.
+    // The values of FakeTextures, as texels: linear in uv, so that filtering keeps it.
     const int side = 64;
     std::vector<glm::vec4> texels;
     for (int y = 0; y < side; ++y)

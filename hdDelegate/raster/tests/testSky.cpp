@@ -113,8 +113,8 @@ TEST(SkyHarmonics, survivesWhatIsNoLight) {
     EXPECT_EQ(sky.at(vec3(0, 1, 0)), vec3(0.0f));
 }
 
-/// What a white GGX mirror shows of a sky, normal +y: the sum over all directions and the ratio of
-/// the prefiltered map to it.
+/// The reflection of a sky in a white GGX mirror, normal +y: the sum over all directions and the
+/// ratio of the prefiltered map to it.
 float prefilteredOverTruth(const PrefilteredSky& maps, float alpha, int level, float degrees,
                            const std::function<vec3(const vec3&)>& sky) {
     const float a = degrees * pi / 180.0f;

@@ -28,7 +28,7 @@ MeshAttribute attribute(const char* name, MeshAttribute::Rate rate, int componen
     return a;
 }
 
-/// What the buffer of a chunk holds: bytes for so many vertices, primvars, triangles and indices.
+/// The layout of a chunk's buffer: bytes for so many vertices, primvars, triangles and indices.
 size_t bytesOf(size_t vertices, size_t primvars, size_t triangles) {
     const auto up = [](size_t n) { return (n + 255) / 256 * 256; };
     return up(vertices * 28) + up(std::max<size_t>(16, primvars * 16)) + up(triangles * 48) +

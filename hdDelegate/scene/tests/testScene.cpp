@@ -146,7 +146,7 @@ TEST(Scene, whatLeavesItBeyondItsLimitsIsLeftOutAndNamed) {
     EXPECT_EQ(scene.diagnostics().all()[0].message,
               "the scene has more triangles than 10 (--limit triangles); the prim is left out, "
               "and 1 others");
-    // What goes makes room; a prim that is set again does not count twice.
+    // A prim that goes makes room; a prim that is set again does not count twice.
     {
         SceneEdit edit = scene.edit();
         edit.remove("/a");

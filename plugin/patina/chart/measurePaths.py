@@ -2,7 +2,7 @@
 """Measures the choice points `pathDepth` and `roulette` in two small scenes, by albedo.
 
 A closed box with a lamp under its ceiling, where light is lost by absorption alone, and a corner of three walls, which most
-light leaves at once. What a depth cuts off is the mean of |luminance - truth| over (truth + 0.01) against paths that end where
+light leaves at once. The error of a depth is the mean of |luminance - truth| over (truth + 0.01) against paths that end where
 less than a ten-millionth is left, with the same random numbers and without roulette, whose noise is as large as dark walls'
 loss. Roulette makes noise alone: what counts is time times variance, here over those of the default, for paths of at most 4,
 16, 64 and 256 surfaces. Times are of processors.

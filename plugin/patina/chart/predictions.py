@@ -4,8 +4,8 @@
 The truth is the stage with tolerance 0, which takes the truth method at every choice point. Two errors are measured, both
 the mean over the pixels of |luminance - truth| over (truth + 0.01):
 
-- of methods: planned and truth methods with the same samples and seeds, so that most noise is the same in both. What
-  remains of it is taken off by a second pair of other seeds: per pixel, the product of both differences has the square
+- of methods: planned and truth methods with the same samples and seeds, so that most noise is the same in both. The
+  rest of it is taken off by a second pair of other seeds: per pixel, the product of both differences has the square
   of the error for its mean.
 - of the whole, in the mean over several seeds where there are few pixels: sampling stops as the tolerance says. The
   reference's own noise, which its two halves show, is taken off.
@@ -26,7 +26,7 @@ COLUMNS = ("stage", "backend", "tolerance", "predicted", "methodError", "methodW
            "defaultSpeedup", "defaultError", "error", "state", "noise", "samples", "width", "height", "seconds",
            "truthSeconds", "problem")
 
-# What becomes of a tolerance. Only the first is a promise kept; of the last two nothing can be said.
+# The ways a tolerance may end. Only the first is a promise kept; of the last two nothing can be said.
 WITHIN, OUTSIDE, SAMPLES, SECONDS, REFERENCE = "within", "outside", "samples ended", "seconds ended", "reference noisy"
 
 # The error of a few pixels is a matter of chance: several such pictures, with seeds of their own, stand for a larger one.

@@ -17,7 +17,7 @@ DEFAULT_SAMPLES, DEFAULT_TOLERANCES = 64, "0.05,0.01"
 
 def add_arguments(parser):
     group = parser.add_argument_group("scenes")
-    group.add_argument("--backend", default="both", choices=["both", *BACKENDS], help="what renders (default: both)")
+    group.add_argument("--backend", default="both", choices=["both", *BACKENDS], help="the renderer (default: both)")
     group.add_argument("--imageWidth", "-w", type=recordFlags._size, metavar="PIXELS", help=f"default: {DEFAULT_WIDTH}")
     group.add_argument("--maxSamples", type=recordFlags._count, metavar="N",
                        help=f"the last of 1, 4, 16, ... samples per pixel, also for tolerances (default: {DEFAULT_SAMPLES})")

@@ -139,7 +139,7 @@ def _slopes(result):
 
 def _costs(ladder):
     first = "; ".join(f"{WORDS[b]} {seconds_text(s)}" for b, s in ladder.first.items())
-    return [f"<h3>What comes before the first sample</h3><p>Reading the stage: {seconds_text(ladder.renders.seconds_to_read)}. "
+    return [f"<h3>Before the first sample</h3><p>Reading the stage: {seconds_text(ladder.renders.seconds_to_read)}. "
             f"Building the scene, and shaders where the rasterizer compiles them, in a first frame: {first}. &ldquo;In "
             "all&rdquo; below counts both.</p>"]
 

@@ -116,7 +116,7 @@ def write_csv(results, path):
 
 
 def read_csv(path):
-    """What write_csv() wrote, as far as charts are drawn from it: without pictures and without slopes by tile.
+    """The results that write_csv() wrote, as far as charts are drawn from it: without pictures and without slopes by tile.
 
     :returns: a StageResult for each stage"""
     results = {}

@@ -23,7 +23,7 @@ def _brushed(tangent):
 
 
 def _tangents(count):
-    """What comes back lies between the albedos along and across the lobe, whatever the tangent is."""
+    """The reflected share lies between the albedos along and across the lobe, whatever the tangent is."""
     wo = probes.towards(0.3)
     along, across = (probes.albedo(_brushed(t), wo) for t in ((1, 0, 0), (0, 1, 0)))
     middle, half = 0.5 * (along + across), 0.5 * abs(along - across) + 1e-4
@@ -62,7 +62,7 @@ def _normals(count):
     wo = probes.towards(0.5, np.pi)  # from the side that the normal turns away from
     found = {"bent to the view": [probes.sampled(_mapped("oren_nayar_diffuse_bsdf", d, color=(1.0,) * 3), wo, 2048) for d in x],
              "black behind the normal": [_unbent(d, wo[0].astype(float)) for d in x]}
-    # What no method can keep: the light that a slanted plane sends below the horizon.
+    # A loss that no method avoids: the light that a slanted plane sends below the horizon.
     kept = [0.5 * (1.0 + np.cos(np.radians(min(d, 30.0)))) for d in x]
     return Sweep("normals below the horizon, diffuse", "frames",
                  "A view behind the mapped normal finds black: rims of smooth shapes and steep bumps go dark.",

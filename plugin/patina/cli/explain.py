@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shows what becomes of a material: its network as authored, the simplified graph, the plan of
+"""Shows how a material is modelled: its network as authored, the simplified graph, the plan of
 lobes, what was left out, the method at each choice point that matters, and the error and time that
 these methods are expected to take. Of a stage without a named material all materials are shown.
 Warnings come last, by their causes as `patina record` tells them.
@@ -24,7 +24,7 @@ def add_arguments(parser):
     methods.add_flag(parser)
     recordFlags.add_tolerance_flag(parser)
     parser.add_argument("--backend", default="embree", choices=["embree", "raster"],
-                        help="whose choices for the scene are shown, with --tolerance (default: embree)")
+                        help="the renderer whose choices for the scene are shown, with --tolerance (default: embree)")
     parser.add_argument("--json", metavar="FILE", help="write texts and warnings as JSON: --json to standard "
                                                        "output, --json=FILE to a file")
 

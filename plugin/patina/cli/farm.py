@@ -42,7 +42,7 @@ def add_arguments(parser):
                         help="write an Open Job Description (2023-09, .yaml or .json) instead: frames, parts and merges as "
                              "steps")
     parser.add_argument("--simulate", metavar="WORKERS[,WORKERS...]",
-                        help="after the job, tell from its times what so many workers would give")
+                        help="after the job, estimate from its times how long so many workers would take")
     parser.add_argument("--json", metavar="FILE", nargs="?", const="-",
                         help="seconds of tasks and workers: --json last to standard output, --json=FILE to a file")
     parser.add_argument("--quiet", "-q", action="store_true", help="errors only")

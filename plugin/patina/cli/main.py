@@ -37,7 +37,7 @@ SUMMARIES = {
     "record": "render a stage to images",
     "merge": "put the parts of a cut frame together",
     "farm": "render frames and parts of them on many machines",
-    "explain": "show what is modelled of a material, and what was left out",
+    "explain": "show how a material is modelled, and which parts are left out",
     "check": "energy, sampling, densities and numbers of materials, checked",
     "bake": "write a material as textures of another shading model",
     "bsdf": "numbers of a material: values, samples, albedo",

@@ -21,7 +21,7 @@ from patina.cli.progress import Progress
 
 def add_arguments(parser):
     parser.add_argument("files", metavar="FILE", nargs="+", help="parts of one frame, in any order")
-    parser.add_argument("image", metavar="IMAGE", help="what to write, in any format that `patina record` writes; "
+    parser.add_argument("image", metavar="IMAGE", help="the image to write, in any format that `patina record` writes; "
                                                       "a place for frames (###) takes the parts' frame")
     parser.add_argument("--renderMissing", action="store_true",
                         help="render the parts that are missing, here and with the flags of the others, beside IMAGE")

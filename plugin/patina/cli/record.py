@@ -11,7 +11,7 @@ Warnings are grouped by their causes: first errors (something that was authored 
 default or an approximation is used), those that are met most often first, 20 at most. --json has all of them.
 
 Ctrl+C and SIGTERM end a render early: the image is written with the samples that are there, IMAGE.checkpoint stays for
---resume, and the command that goes on is printed. SIGUSR1 writes a snapshot of what is there and goes on. An image that was
+--resume, and the command that continues is printed. SIGUSR1 writes a snapshot and renders on. An image that was
 there before is replaced only by a whole one.
 
 Exit status: 0 done, 1 failed with a one-line reason, 2 wrong usage, 75 failed for a reason that may pass (a full disk, memory,

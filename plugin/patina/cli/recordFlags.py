@@ -25,7 +25,7 @@ _TEXTS = {"DEFAULT_SAMPLES": DEFAULT_SAMPLES, "MAX_SAMPLES": MAX_SAMPLES}  # of 
 def add_arguments(parser):
     parser.add_argument("stage", metavar="STAGE", help="a .usd, .usda, .usdc or .usdz file")
     parser.add_argument("image", metavar="IMAGE", nargs="?",
-                        help="what to write: .exr holds linear colour and all AOVs; .png, .jpg, .tif and others hold "
+                        help="the image to write: .exr holds linear colour and all AOVs; .png, .jpg, .tif and others hold "
                              "the colour as a display shows it. With --frames the name holds the frame's place (####, <F4> "
                              "or %%04d). It may be left out with --settings")
     _add_stage_flags(parser.add_argument_group("the stage"))
@@ -60,7 +60,7 @@ def _add_stage_flags(group):
 
 def _add_render_flags(group):
     group.add_argument("--backend", default="embree", choices=["embree", "raster"],
-                       help="what renders (default: embree, which also takes over where raster finds no OpenGL)")
+                       help="the renderer (default: embree, which also takes over where raster finds no OpenGL)")
     settingFlags.add(group, "the render", _TEXTS, after={"indirectClamp": _add_denoise_flag,
                                                          "environmentSamples": methods.add_flag})
 

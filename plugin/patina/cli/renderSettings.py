@@ -110,7 +110,7 @@ def _material_purpose(prim):
     authored = attribute.Get() if attribute and attribute.HasAuthoredValue() else ["full"]
     wanted = [purpose for purpose in authored or [] if purpose]
     if len(wanted) > 1:
-        prim.warn(prim.path, "materialBindingPurposes", f"only '{wanted[0]}' and what is for all purposes are looked at")
+        prim.warn(prim.path, "materialBindingPurposes", f"only '{wanted[0]}' and bindings for all purposes are looked at")
     return wanted[0] if wanted else ""
 
 

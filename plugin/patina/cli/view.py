@@ -3,7 +3,7 @@
 
 The page draws with WebGL2, by the very lobes of the rasterizer, and has a slider for every input of
 the materials. It shows the shader, which can be changed and compiled there, and the plan, with what
-other methods would change. It needs Node and npm once, to fetch and bundle what the page is made of.
+other methods would change. It needs Node and npm once, to fetch and bundle the page's script.
 """
 import os
 import sys
@@ -12,7 +12,7 @@ from patina import limits
 from patina.cli import materials, methods, outputs, statistics
 from patina.cli.errors import UsageError
 
-DEMOS = {"classic": "the classic reflectance models as steel and hematite, and what each cannot show",
+DEMOS = {"classic": "the classic reflectance models as steel and hematite, and the limits of each",
          "layers": "standard_surface with its layers switched on one by one"}
 
 

@@ -141,7 +141,7 @@ class Cluster:
             return operator.KubeCluster(**pods.cluster_options(operator.make_cluster_spec, engine.workers, engine.options,
                                                                environment()))
         jobqueue = _import("dask_jobqueue", "dask-jobqueue")
-        # What a queue says to a job that it does not take comes to no other place.
+        # A queue's reason to refuse a job is told nowhere else.
         for name in ("tornado.application", "asyncio"):
             log = logging.getLogger(name)
             log.handlers, log.propagate = [self._complaints], False

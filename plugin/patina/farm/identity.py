@@ -10,7 +10,7 @@ from patina.farm import digests
 
 FORMAT = 2
 _OF_PARTS = ("sampleBegin", "sampleEnd", "tilePart", "tileParts")
-# What the back end decides about every part alike, or what only one machine's run is about.
+# Settings that the back end decides for every part alike, or that concern one machine's run alone.
 _OF_RUNS = ("threads", "seconds", "checkpointFile", "checkpointSeconds", "interactive")
 
 

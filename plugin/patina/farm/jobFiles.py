@@ -36,7 +36,7 @@ def _add(root, found, missing):
     except Tf.ErrorException:  # a layer below is broken: the render tells, and what the stage did open is noted
         layers, assets, unresolved = [], [], []
     files = [root] + [layer.realPath for layer in layers if layer.realPath] + [str(asset) for asset in assets]
-    # What is in a package is the package's.
+    # Files in a package belong to the package.
     found.update(os.path.abspath(inputs.file_of(file)) for file in files)
     missing.update(str(name) for name in unresolved if not _UDIM.search(str(name)))
 

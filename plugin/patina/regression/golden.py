@@ -54,7 +54,7 @@ def digest(pixels):
 
 @dataclasses.dataclass
 class Golden:
-    """What is kept: tile means of each render, the digest of the first, and what made them."""
+    """The kept values: tile means of each render, the digest of the first, and what made them."""
     means: np.ndarray
     first: str
     size: tuple  # width, height

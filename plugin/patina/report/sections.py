@@ -185,7 +185,7 @@ def _plan(facts):
     lines += [f"<p>{escape(line)}</p>" for line in facts.plan_lines]
     if not facts.materials:
         return "\n".join([*lines, "<p>The stage has no materials; displayColor is shown.</p>"])
-    lines.append('<p class="dim">What is modelled of each material, and what was left out. Those that took most of the time '
+    lines.append('<p class="dim">The model of each material, and what was left out. Those that took most of the time '
                  "come first.</p>")
     for path, plan, text in facts.materials:
         planned = "\n".join(planText.lines(plan)) if plan else ""

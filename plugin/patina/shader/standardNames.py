@@ -36,7 +36,7 @@ CONVERTED = {("float", to) for to in ("color3", "color4", "vector2", "vector3", 
 
 
 def texture_inputs(inputs, outputs_used):
-    """What a UsdUVTexture of USD says in words that MaterialX's has not.
+    """Values of USD's UsdUVTexture for which MaterialX's has no word.
 
     :param inputs: of the node; replaced where the two differ
     :param outputs_used: names of the outputs that others are connected to

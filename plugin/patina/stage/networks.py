@@ -155,7 +155,7 @@ class _Translation:
 
 
 def _reads_colors(prim):
-    """Whether a node of MaterialX gives colours, which images have their colour space for. What UsdUVTexture reads
+    """Whether a node of MaterialX gives colours, which images have their colour space for. The values that UsdUVTexture reads
     follows its sourceColorSpace."""
     shader = UsdShade.Shader(prim)
     return (shader.GetShaderId() or "").startswith("ND_") and any(

@@ -11,7 +11,7 @@ MAX_PROGRAMS = 24  # of a material
 OFF_ON = (("off", 0), ("on", 1))
 _WRAPS = ("constant", "clamp", "periodic", "mirror")
 _USD_WRAPS = ("useMetadata", "black", "clamp", "repeat", "mirror")
-# What MaterialX and UsdPreviewSurface let an input say, where the node itself has no list.
+# Values that MaterialX and UsdPreviewSurface let an input have, where the node itself has no list.
 _TEXTS = {"space": ("object", "world"),
           "uaddressmode": _WRAPS, "vaddressmode": _WRAPS, "filtertype": ("closest", "linear", "cubic"),
           "wrapS": _USD_WRAPS, "wrapT": _USD_WRAPS, "sourceColorSpace": ("auto", "raw", "sRGB")}
@@ -94,7 +94,7 @@ def with_choices(network, choices, picked):
 
 
 def combinations(choices):
-    """What is made beforehand: the authored one first, then each change alone, then changes together.
+    """The states made beforehand: the authored one first, then each change alone, then changes together.
 
     :returns: lists of one place per choice, and the choices for which there was no room
     """

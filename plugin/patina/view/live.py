@@ -68,7 +68,7 @@ def live_inputs(network, limit=LIMIT):
             if len(value) == COMPONENTS[kind]:
                 found.append(LiveInput(node["path"], node["id"], name, kind, value, authored is not None))
     found = _without_plans(network, found)
-    # What an author has set comes before what is left at its default.
+    # Authored inputs come before those left at their defaults.
     ranked = sorted(range(len(found)), key=lambda i: (not found[i].authored, i))
     kept = sorted(ranked[:limit])
     return _without_warnings(network, [found[i] for i in kept]), len(found) - len(kept)

@@ -11,7 +11,7 @@ const int ALBEDO_SAMPLES_16 = 4; // methods/albedoSampled.glsl
 const int ALBEDO_SAMPLES_64 = 5; // the same
 const int ALBEDO_QUADRATURE = 6; // the same: truth
 
-// What a method can do at an interface; what it cannot is the tables'. eta: as in
+// The abilities of a method at an interface; the tables do the rest. eta: as in
 // fresnelDielectric, 1 for conductors. The fit knows isotropic GGX from the thinner side, and
 // Karis's curve the thinner side. A mirror's albedo is set where it is asked for.
 PATINA_FN int albedoMethod(int asked, vec2 alpha, int ndf, float eta) {
@@ -62,7 +62,7 @@ PATINA_FN vec2 albedoMicrofacet(AlbedoMicrofacets a, int j) {
     return vec2(c, w);
 }
 
-// The albedo of a white mirror, single scattering, by the same method. What knows only Fresnel
+// The albedo of a white mirror, single scattering, by the same method. A method that knows only Fresnel
 // leaves it to the tables.
 PATINA_FN float albedoWhite(vec3 wo, vec2 alpha, int ndf, int method) {
     int m = albedoMethod(method, alpha, ndf, 1.0f);

@@ -32,7 +32,7 @@ PATINA_FN vec3 microfacetSampleAll(vec2 alpha, vec2 u, int ndf) {
     return normalize(vec3(alpha.x * r * cos(phi), alpha.y * r * sin(phi), 1.0f));
 }
 
-// What a method can do: bounds are those of reflection on GGX.
+// The abilities of a method: bounds are those of reflection on GGX.
 PATINA_FN int microfacetSampling(int sampling, int ndf, int mode) {
     bool can = sampling != SAMPLING_BOUNDED_VNDF || (ndf == NDF_GGX && mode == SCATTER_R);
     return select(sampling, SAMPLING_VNDF, can);

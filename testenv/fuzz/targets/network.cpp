@@ -88,7 +88,7 @@ Network networkOf(Choices& bytes) {
         }
         network.nodes.push_back(std::move(node));
     }
-    // What closes the graph: the last node as a surface, behind one, or a displacement.
+    // The end of the graph: the last node as a surface, behind one, or a displacement.
     const char* const terminals[] = {"surface", "displacement", "volume"};
     network.terminals[terminals[bytes.below(3)]] = {nodeName(count - 1), ""};
     NetworkNode surface;

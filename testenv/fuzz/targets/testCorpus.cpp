@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fuzzers have found stays found: every kept input goes through its reader again.
+// Findings of fuzzers stay found: every kept input goes through its reader again.
 #include "testenv/fuzz/targets/targets.h"
 
 #include <gtest/gtest.h>

@@ -15,7 +15,7 @@ class HostRenderTask final : public HdTask {
 public:
     HostRenderTask(HdRenderPassSharedPtr pass, const TfTokenVector& renderTags);
 
-    /// What Prepare binds; the buffers are looked up in the render index each time.
+    /// The buffers that Prepare binds, looked up in the render index each time.
     struct View {
         SdfPath camera;
         CameraUtilFraming framing;

@@ -14,8 +14,8 @@ namespace patina {
 /// Seconds of each phase, in order.
 using HostTimes = std::vector<std::pair<std::string, double>>;
 
-/// What pixels show, as JSON: for each the prim, the instancer and its instance. Needs the outputs
-/// primId and instanceId.
+/// The contents of pixels, as JSON: for each the prim, the instancer and its instance. Needs the
+/// outputs primId and instanceId.
 /// @param pixels from the top left; those outside the image are left out
 JsArray picksOf(Host& host, const std::vector<std::pair<int, int>>& pixels);
 /// The same for each (prim, instance) that is seen, with the number of its pixels.

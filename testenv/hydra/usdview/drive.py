@@ -62,7 +62,7 @@ class Driver:
         self.result["shots"].append({"name": name, "converged": self.view._getRenderer().IsConverged()})
 
     def pick(self):
-        """Clicks on the middle of the view. What is there goes to the result, and what was selected."""
+        """Clicks on the middle of the view. The prim there goes to the result, and the selection."""
         ratio = self.view.devicePixelRatioF()
         x, y = SIZE[0] / 2 * ratio, SIZE[1] / 2 * ratio
         found = self.view.pick(self.view.computePickFrustum(x, y)[1])

@@ -72,7 +72,7 @@ TEST(DomeMethods, aConstantSkyIsKnownToAllButSamples) {
 TEST(DomeMethods, harmonicsAreGoodForDiffuseAndUselessForMirrors) {
     EXPECT_LT(errorOf("harmonics", "diffuse, sun"), 0.03);
     EXPECT_LT(errorOf("harmonics", "diffuse, soft"), 0.1);
-    // What the rasterizer does not do: a mirror with the light of all directions.
+    // Beyond the rasterizer: a mirror with the light of all directions.
     const MeasuredSky soft = MeasuredSky::soft();
     double error = 0.0, light = 0.0;
     for (int i = 0; i < 64; ++i) {

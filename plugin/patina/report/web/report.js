@@ -87,7 +87,7 @@
     });
 
     let pixels = null;
-    /** What is known of a pixel of the page's pictures, as pairs of a name and a text. */
+    /** The values of a pixel of the page's pictures, as pairs of a name and a text. */
     function describe(x, y) {
         const i = y * data.probe.width + x, step = data.probe.step, depth = pixels.depth[i], prim = pixels.prim[i];
         const color = [0, 1, 2].map((c) => half(pixels.color[3 * i + c]));

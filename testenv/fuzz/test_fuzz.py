@@ -100,6 +100,20 @@ def test_what_ends_as_a_warning_is_found_too(hand, tmp_path, monkeypatch):
                              "error": "out of memory: /dome: no memory for it"}) == "memory"
 
 
+def test_long_words_leave_the_head_of_what_was_told(tmp_path):
+    """A refusal begins with `patina`, and may end with a long word that the user gave."""
+    import hand as hands
+
+    told = tmp_path / "told"
+    told.write_bytes(b"patina: error: " + b"x" * 50000 + b" end")
+    with open(told, "rb") as file:
+        text = hands._head_and_tail(file, hands.TOLD)
+    assert text.startswith(b"patina: error") and text.endswith(b" end") and len(text) < 2 * hands.TOLD + 10
+    told.write_bytes(b"patina: short")
+    with open(told, "rb") as file:
+        assert hands._head_and_tail(file, hands.TOLD) == b"patina: short"
+
+
 def test_documents_hold_every_node():
     import generateDocs
     import materialDocuments

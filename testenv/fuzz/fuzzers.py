@@ -21,6 +21,7 @@ FUZZERS = {
     "stageReader": Fuzzer("python", "bytes as the choices that make a legal stage, which is read and not rendered", 2, ()),
     "commandParser": Fuzzer("python", "bytes as the choices that make a command line, which is parsed and not run", 1, ()),
     "randomStages": Fuzzer("generated", "legal stages of all prim types with extreme values, rendered", 4, ()),
+    "bothBackEnds": Fuzzer("generated", "legal stages that both back ends draw, held together per tile", 4, ()),
     "materialDocuments": Fuzzer("generated", "legal MaterialX documents of all nodes, explained and evaluated", 2, ()),
     "edits": Fuzzer("generated", "random edits while an image is rendered", 2, ()),
     "commandLines": Fuzzer("generated", "every flag of the commands that read files", 2, ()),

@@ -11,6 +11,8 @@ OTHERS = {
                                                                 "--count 10000 --results"),
     "randomGraphsRaster": ("legal material graphs, on the processor and as GLSL, held together",
                            "./patina python testenv/stability/randomGraphs.py --seed 1 --count 1000 --raster 1 --results"),
+    "racingEdits": ("random edits by two threads while the path tracer renders, under ThreadSanitizer, without Hydra",
+                    "./patina python testenv/sanitizers/racingEdits.py --seconds 3600 --results"),
 }
 
 

@@ -87,8 +87,8 @@ def page():
             "were fine, or ended with a message.", "",
             *_table(head, rows), "",
             "## What the parsers' fuzzers reach", "",
-            "Lines of the sources that the kept inputs of a fuzzer run, by llvm-cov. The generated inputs reach the rest",
-            "through the command line, which is not counted.", "",
+            "Lines of the sources that the kept inputs of a fuzzer run: of C++ by llvm-cov, of Python's functions by its own",
+            "tracing. The generated inputs reach the rest through the command line, which is not counted.", "",
             *_table(("sources", "fuzzer", "reached"), parsers), "",
             "## Mended", "", *_table(("what was wrong", "found by", "held by"), mended), "",
             "## Known and left", "", *(f"- {text}" for text in table["known"])]

@@ -45,6 +45,25 @@ def test_what_followers_of_coverage_have_kept(name):
     assert done.returncode == 0, done.stderr
 
 
+def test_lines_that_are_reached_are_counted(tmp_path, monkeypatch):
+    """Those of functions, and of these the ones that an input runs."""
+    import patina
+    import pythonTargets
+
+    (tmp_path / "__init__.py").write_text("")
+    (tmp_path / "some.py").write_text("def some(x):\n    if x:\n        return 1\n"
+                                      "    return [y for y in\n            (2, 3)]\n\n\nZ = 7\n")
+    monkeypatch.setattr(patina, "__file__", str(tmp_path / "__init__.py"))
+    space = {}
+    exec(compile((tmp_path / "some.py").read_text(), str(tmp_path / "some.py"), "exec"), space)
+    inputs = [tmp_path / "a", tmp_path / "b"]
+    inputs[0].write_bytes(b"1")
+    inputs[1].write_bytes(b"")
+    assert pythonTargets.lines(space["some"], ("some.py",), inputs[:1]) == (2, 4)
+    assert pythonTargets.lines(space["some"], ("some.py",), inputs) == (4, 4)
+    assert pythonTargets.lines(space["some"], ("other.py",), inputs) == (0, 0)
+
+
 @pytest.mark.parametrize("name", ("faults", "changing", "killed"))
 def test_a_minute_of_faults(name):
     """More of what the kept inputs show, for a minute each; `./patina fuzz NAME --seconds S` goes on."""

@@ -19,7 +19,7 @@ EXTENSION = ".usda"
 LINES = False  # a stage of fewer prims is another picture
 CPU_SECONDS = 200  # a driver in software compiles for half a minute before it draws
 WIDTH, HEIGHT, TILE = 48, 36, 12
-RENDERS, PASSES, SAMPLES = 12, 8, 32  # of each back end; passes of the rasterizer and samples of the path tracer in each
+RENDERS, PASSES, SAMPLES = 12, 4, 16  # of each back end; passes of the rasterizer and samples of the path tracer in each
 SIGNIFICANCE = 1e-6  # for a stage: of a thousand that are right, all are called so with probability 0.999
 HEAD = '''#usda 1.0
 (
@@ -27,7 +27,7 @@ HEAD = '''#usda 1.0
 )
 def Camera "camera"
 {
-    float focalLength = 30
+    float focalLength = 22
     matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0.9, -0.436, 0), (0, 0.436, 0.9, 0), (0, 3.1, 5.4, 1))
     uniform token[] xformOpOrder = ["xformOp:transform"]
 }
@@ -96,7 +96,7 @@ def make(seed):
                   *("    " + line for line in SHAPES[kind]), f"    rel material:binding = </look{r.randrange(looks)}>"]
         lines += ["    uniform bool doubleSided = true"] if kind == "Plane" else []
         scale = _numbers(r, 0.3, 0.9) if kind != "Points" else "(0.6, 0.6, 0.6)"  # else they differ by design
-        place = f"({r.uniform(-2, 2):.4f}, {r.uniform(0.3, 1.5):.4f}, {r.uniform(-2, 1.5):.4f})"
+        place = f"({r.uniform(-1.5, 1.5):.4f}, {r.uniform(0.3, 1.3):.4f}, {r.uniform(-2, 1):.4f})"
         lines += [f"    double3 xformOp:translate = {place}",
                   f"    float3 xformOp:rotateXYZ = {_numbers(r, -90, 90)}", f"    float3 xformOp:scale = {scale}",
                   '    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ", "xformOp:scale"]', "}"]

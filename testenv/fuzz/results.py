@@ -65,16 +65,18 @@ def page():
         what = FUZZERS[name].reads if name in FUZZERS else OTHERS[name][0]
         command = f"./patina fuzz {name} --seconds 3600 --results" if name in FUZZERS else OTHERS[name][1]
         if of is None:
-            rows.append((f"`{name}`", what, "no run is noted", "", *[""] * len(kinds), f"`{command}`"))
+            rows.append((f"`{name}`", what, "no run is noted", "", "", *[""] * len(kinds), f"`{command}`"))
             continue
         total, seconds = total + of["inputs"], seconds + of["seconds"]
         rows.append((f"`{name}`", what, f"{of['inputs']:,}", f"{of['seconds'] / 3600:.2f}",
+                     f"{of['inputs'] / max(of['seconds'], 1e-3):.2g}" if of["inputs"] < 100 * of["seconds"] else
+                     f"{of['inputs'] / max(of['seconds'], 1e-3):,.0f}",
                      *(str(of["counts"].get(kind, 0)) for kind in kinds), f"`{command}`"))
         if name in FUZZERS and FUZZERS[name].sources:
             covered = "not measured" if not of["lines"] else f"{of['lines'][0]:,} of {of['lines'][1]:,} lines, " \
                 f"{100 * of['lines'][0] / of['lines'][1]:.0f} %"
             parsers.append((", ".join(f"`{source}`" for source in FUZZERS[name].sources), f"`{name}`", covered))
-    head = ("machine", "tries", "inputs", "hours", *kinds, "command")
+    head = ("machine", "tries", "inputs", "hours", "inputs per second", *kinds, "command")
     mended = [(item["what"], item["by"], f"`{item['test']}`") for item in table["mended"]]
     return ["# Trust, in figures", "",
             "Machines look for what users would find: inputs that crash, hang, take memory without end, lose an image or make",

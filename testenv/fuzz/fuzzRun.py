@@ -64,7 +64,7 @@ def run(names, seconds, seed, corpus, findings, build, say=print):
                 if traced.missing():
                     say(f"left out: {name}: {traced.missing()}")
                     continue
-                results[name] = traced.run(name, corpus or scratch, share, seed, tell)
+                results[name] = traced.run(name, fuzzer, corpus or scratch, share, seed, tell)
             elif not left_out:
                 results[name] = native.run(name, fuzzer, build, corpus or scratch, share, seed, tell)
             else:

@@ -14,7 +14,7 @@ import time
 CPU_SECONDS = 20  # a module may name more
 WALL_SECONDS = 120  # where the machine is busy; at least six times the processor's
 BYTES = 6 << 30  # of addresses: Python, USD and the driver's libraries take 2 GiB of them
-TOLD = 16000  # bytes of standard error that are answered; a message may repeat a long word
+TOLD = 8000  # bytes of standard error that are answered, of its head and of its tail: a message may repeat a long word
 
 
 def _child(module, ask):
@@ -42,6 +42,16 @@ def _child(module, ask):
     os._exit(status or 0)
 
 
+def _head_and_tail(file, size):
+    """:returns: the bytes of a file, or where they are more than twice the size its first and last ones"""
+    whole = os.fstat(file.fileno()).st_size
+    if whole <= 2 * size:
+        return file.read()
+    head = file.read(size)
+    file.seek(whole - size)
+    return head + b"\n...\n" + file.read(size)
+
+
 def _run(module, ask):
     start = time.monotonic()
     process = os.fork()
@@ -58,8 +68,7 @@ def _run(module, ask):
         time.sleep(0.002)
     number = os.WTERMSIG(state) if os.WIFSIGNALED(state) else 0
     with open(os.path.join(ask["folder"], "stderr.txt"), "rb") as file:
-        file.seek(max(0, os.fstat(file.fileno()).st_size - TOLD))
-        text = file.read().decode(errors="replace")
+        text = _head_and_tail(file, TOLD).decode(errors="replace")
     return {"status": os.WEXITSTATUS(state) if os.WIFEXITED(state) else -1, "signal": number,
             "timedOut": timed_out or number == signal.SIGXCPU, "seconds": time.monotonic() - start,
             "peak": usage.ru_maxrss * 1024, "error": text}

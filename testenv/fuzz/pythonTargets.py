@@ -3,9 +3,14 @@
 generator, so that every input is a legal stage, or a command line.
 
 Usage: pythonTargets.py stageReader|commandParser [libFuzzer's arguments]
-       pythonTargets.py stageReader|commandParser --run FILE...    runs inputs without atheris"""
+       pythonTargets.py stageReader|commandParser --run FILE...    runs inputs without atheris
+       pythonTargets.py stageReader|commandParser --lines SOURCES FOLDER    runs a folder's inputs and prints how many lines of
+                                                                  functions they reach, and how many there are; sources:
+                                                                  beginnings of paths below plugin/patina, with commas"""
 import contextlib
+import glob
 import io
+import json
 import os
 import random as randoms
 import sys
@@ -87,6 +92,54 @@ def command_parser():
 TARGETS = {"stageReader": stage_reader, "commandParser": command_parser}
 
 
+def _lines_of(path):
+    """:returns: set of the numbers of lines that functions of a file have"""
+    found = set()
+
+    def look(code, inside):
+        for constant in code.co_consts:
+            if hasattr(constant, "co_lines"):
+                look(constant, inside or not constant.co_name.startswith("<") and bool(constant.co_flags & NEWLOCALS))
+        if inside:
+            found.update(line for _, _, line in code.co_lines() if line and line != code.co_firstlineno)
+    with open(path, encoding="utf-8") as file:
+        look(compile(file.read(), path, "exec"), False)
+    return found
+
+
+NEWLOCALS = 2  # flag of the code of functions, which that of modules and classes has not
+
+
+def lines(one, sources, files):
+    """:param one: function of bytes
+    :param sources: beginnings of paths below plugin/patina
+    :returns: (lines of functions that inputs reach, lines that there are)"""
+    import patina
+
+    root = os.path.dirname(os.path.abspath(patina.__file__))
+    every = {path: _lines_of(path) for path in glob.glob(os.path.join(root, "**", "*.py"), recursive=True)
+             if os.path.relpath(path, root).startswith(sources) and f"{os.sep}tests{os.sep}" not in path}
+    reached = {path: set() for path in every}
+
+    def trace(frame, event, _):
+        seen = reached.get(frame.f_code.co_filename)
+        if seen is None:
+            return None
+        if event == "line":
+            seen.add(frame.f_lineno)
+        return trace
+    for path in files:
+        with open(path, "rb") as file:
+            data = file.read()
+        sys.settrace(trace)
+        try:
+            with contextlib.suppress(Exception):  # a finding, which is told where it is looked for
+                one(data)
+        finally:
+            sys.settrace(None)
+    return sum(len(reached[path] & every[path]) for path in every), sum(map(len, every.values()))
+
+
 def main():
     name = sys.argv.pop(1)
     if sys.argv[1:2] == ["--run"]:
@@ -94,6 +147,10 @@ def main():
         for path in sys.argv[2:]:
             with open(path, "rb") as file:
                 one(file.read())
+        return
+    if sys.argv[1:2] == ["--lines"]:
+        files = sorted(glob.glob(os.path.join(glob.escape(sys.argv[3]), "*")))
+        print(json.dumps(lines(TARGETS[name](), tuple(sys.argv[2].split(",")), files)))
         return
     import atheris
 

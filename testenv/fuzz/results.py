@@ -11,6 +11,8 @@ OTHERS = {
                                                                 "--count 10000 --results"),
     "randomGraphsRaster": ("legal material graphs, on the processor and as GLSL, held together",
                            "./patina python testenv/stability/randomGraphs.py --seed 1 --count 1000 --raster 1 --results"),
+    "racingEdits": ("random edits by two threads while the path tracer renders, under ThreadSanitizer, without Hydra",
+                    "./patina python testenv/sanitizers/racingEdits.py --seconds 3600 --results"),
 }
 
 
@@ -63,16 +65,18 @@ def page():
         what = FUZZERS[name].reads if name in FUZZERS else OTHERS[name][0]
         command = f"./patina fuzz {name} --seconds 3600 --results" if name in FUZZERS else OTHERS[name][1]
         if of is None:
-            rows.append((f"`{name}`", what, "no run is noted", "", *[""] * len(kinds), f"`{command}`"))
+            rows.append((f"`{name}`", what, "no run is noted", "", "", *[""] * len(kinds), f"`{command}`"))
             continue
         total, seconds = total + of["inputs"], seconds + of["seconds"]
         rows.append((f"`{name}`", what, f"{of['inputs']:,}", f"{of['seconds'] / 3600:.2f}",
+                     f"{of['inputs'] / max(of['seconds'], 1e-3):.2g}" if of["inputs"] < 100 * of["seconds"] else
+                     f"{of['inputs'] / max(of['seconds'], 1e-3):,.0f}",
                      *(str(of["counts"].get(kind, 0)) for kind in kinds), f"`{command}`"))
         if name in FUZZERS and FUZZERS[name].sources:
             covered = "not measured" if not of["lines"] else f"{of['lines'][0]:,} of {of['lines'][1]:,} lines, " \
                 f"{100 * of['lines'][0] / of['lines'][1]:.0f} %"
             parsers.append((", ".join(f"`{source}`" for source in FUZZERS[name].sources), f"`{name}`", covered))
-    head = ("machine", "tries", "inputs", "hours", *kinds, "command")
+    head = ("machine", "tries", "inputs", "hours", "inputs per second", *kinds, "command")
     mended = [(item["what"], item["by"], f"`{item['test']}`") for item in table["mended"]]
     return ["# Trust, in figures", "",
             "Machines look for what users would find: inputs that crash, hang, take memory without end, lose an image or make",
@@ -85,8 +89,8 @@ def page():
             "were fine, or ended with a message.", "",
             *_table(head, rows), "",
             "## Reach of the parsers' fuzzers", "",
-            "Lines of the sources that the kept inputs of a fuzzer run, by llvm-cov. The generated inputs reach the rest",
-            "through the command line, which is not counted.", "",
+            "Lines of the sources that the kept inputs of a fuzzer run: of C++ by llvm-cov, of Python's functions by its own",
+            "tracing. The generated inputs reach the rest through the command line, which is not counted.", "",
             *_table(("sources", "fuzzer", "reached"), parsers), "",
             "## Mended", "", *_table(("what was wrong", "found by", "held by"), mended), "",
             "## Known and left", "", *(f"- {text}" for text in table["known"])]

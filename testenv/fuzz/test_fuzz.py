@@ -45,6 +45,25 @@ def test_what_followers_of_coverage_have_kept(name):
     assert done.returncode == 0, done.stderr
 
 
+def test_lines_that_are_reached_are_counted(tmp_path, monkeypatch):
+    """Those of functions, and of these the ones that an input runs."""
+    import patina
+    import pythonTargets
+
+    (tmp_path / "__init__.py").write_text("")
+    (tmp_path / "some.py").write_text("def some(x):\n    if x:\n        return 1\n"
+                                      "    return [y for y in\n            (2, 3)]\n\n\nZ = 7\n")
+    monkeypatch.setattr(patina, "__file__", str(tmp_path / "__init__.py"))
+    space = {}
+    exec(compile((tmp_path / "some.py").read_text(), str(tmp_path / "some.py"), "exec"), space)
+    inputs = [tmp_path / "a", tmp_path / "b"]
+    inputs[0].write_bytes(b"1")
+    inputs[1].write_bytes(b"")
+    assert pythonTargets.lines(space["some"], ("some.py",), inputs[:1]) == (2, 4)
+    assert pythonTargets.lines(space["some"], ("some.py",), inputs) == (4, 4)
+    assert pythonTargets.lines(space["some"], ("other.py",), inputs) == (0, 0)
+
+
 @pytest.mark.parametrize("name", ("faults", "changing", "killed"))
 def test_a_minute_of_faults(name):
     """More of what the kept inputs show, for a minute each; `./patina fuzz NAME --seconds S` goes on."""
@@ -98,6 +117,33 @@ def test_what_ends_as_a_warning_is_found_too(hand, tmp_path, monkeypatch):
     assert found[0] == "traceback" and "a defect" in found[2]["error"]
     assert outcomes.kind_of({"timedOut": False, "signal": 0, "status": 0,
                              "error": "out of memory: /dome: no memory for it"}) == "memory"
+
+
+def test_long_words_leave_the_head_of_what_was_told(tmp_path):
+    """A refusal begins with `patina`, and may end with a long word that the user gave."""
+    import hand as hands
+
+    told = tmp_path / "told"
+    told.write_bytes(b"patina: error: " + b"x" * 50000 + b" end")
+    with open(told, "rb") as file:
+        text = hands._head_and_tail(file, hands.TOLD)
+    assert text.startswith(b"patina: error") and text.endswith(b" end") and len(text) < 2 * hands.TOLD + 10
+    told.write_bytes(b"patina: short")
+    with open(told, "rb") as file:
+        assert hands._head_and_tail(file, hands.TOLD) == b"patina: short"
+
+
+def test_back_ends_that_differ_are_told(hand):
+    """Points under a scale that is not uniform are stretched by one back end alone, by design."""
+    import bothBackEnds
+
+    if bothBackEnds.inProcess.without_opengl():
+        pytest.skip(bothBackEnds.inProcess.without_opengl())
+    data = bothBackEnds.make(100)
+    stretched = data.replace(b"scale = (0.6, 0.6, 0.6)", b"scale = (3, 0.3, 0.3)")
+    assert stretched != data
+    kind, _, answer = generated.outcome(hand, bothBackEnds, stretched, ".usda")
+    assert kind == "promise" and "the back ends differ: " in answer["error"], answer
 
 
 def test_documents_hold_every_node():

@@ -2,6 +2,7 @@
 """Runs the fuzzers of pythonTargets.py, each in a process that may die; after a finding it begins anew with another seed."""
 import glob
 import importlib.util
+import json
 import os
 import re
 import subprocess
@@ -24,8 +25,20 @@ def command(name, *arguments):
     return [sys.executable, os.path.join(HERE, "pythonTargets.py"), name, *arguments]
 
 
-def run(name, corpus, seconds, seed, say):
-    """:param corpus: folder of inputs that grows
+def coverage(name, sources, folder):
+    """:param sources: beginnings of paths from the root of the checkout
+    :returns: (lines of functions that a folder's inputs reach, lines that there are); None where they cannot be counted"""
+    below = ",".join(source[len("plugin/patina/"):] for source in sources)
+    done = subprocess.run(command(name, "--lines", below, folder), capture_output=True, text=True, errors="replace")
+    try:
+        return tuple(json.loads(done.stdout.strip().splitlines()[-1]))
+    except (IndexError, ValueError):
+        return None
+
+
+def run(name, fuzzer, corpus, seconds, seed, say):
+    """:param fuzzer: of fuzzers.py
+    :param corpus: folder of inputs that grows
     :returns: as generated.run()"""
     work = os.path.join(corpus, name)
     os.makedirs(work, exist_ok=True)
@@ -57,4 +70,4 @@ def run(name, corpus, seconds, seed, say):
     for kind, *_ in findings.values():
         counts[kind] = counts.get(kind, 0) + 1
     return {"inputs": inputs, "seconds": time.monotonic() - start, "counts": counts, "findings": list(findings.values()),
-            "lines": None}
+            "lines": coverage(name, fuzzer.sources, work)}

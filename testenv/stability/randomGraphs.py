@@ -27,6 +27,8 @@ import kept  # noqa: E402
 WALKS = ("randomWalk", "positionFree")
 # Ways to find an albedo that are not meant to be exact: sampling finds another.
 ROUGH_GUESSES = ("karis", "mirror", "monteCarlo16")
+# Albedos with steps, which the path tracer reads from a curve between measured angles: up to 1.4 % apart at grazing ones.
+STEPPED = ("monteCarlo16", "monteCarlo64")
 
 
 def load(patina, text):
@@ -52,7 +54,7 @@ def failures(patina, network, graph, methods, raster=False):
     if raster and not walks:
         other = patina.RasterProbe(network, methods)
         found += ["raster: " + line for line in [*graphChecks.check(other, graph), *graphChecks.check_density(other)]]
-        found += graphChecks.compare(probe, other)
+        found += graphChecks.compare(probe, other, 5e-2 if methods.get("directionalAlbedo") in STEPPED else 5e-3)
     return found
 
 

@@ -135,3 +135,22 @@ def test_what_is_wrong_is_found(wrong, words):
     probe = Broken(wrong)
     found = [*graphChecks.check(probe, graph), *graphChecks.check_density(probe), *graphChecks.check_furnace(probe, graph)]
     assert any(words in line for line in found) if words else not found
+
+
+class Jumps(Broken):
+    """A lobe with another value where light comes along one of the directions that are looked at."""
+
+    def __init__(self, on):
+        super().__init__("")
+        self.on = np.array(on, np.float32)
+
+    def eval(self, wo, wi):
+        f, pdf = super().eval(wo, wi)
+        return np.where((wi == self.on).all(axis=1)[:, None] & (wo[:, 2:] >= 0), 7.0, f), pdf
+
+
+def test_back_ends_that_differ_are_found_but_at_a_jump():
+    assert graphChecks.compare(Broken(""), Broken("")) == []
+    assert any("pdf differs" in line for line in graphChecks.compare(Broken(""), Broken("density")))
+    assert any("albedo differs" in line for line in graphChecks.compare(Broken(""), Broken("albedo")))
+    assert graphChecks.compare(Broken(""), Jumps(graphChecks.directions(graphChecks.INCOMING, (0.0, 3.9))[2])) == []

@@ -7,8 +7,9 @@
   weight       a sample's weight is f cos / pdf
   chi2         samples fall where the density says (chi-squared test; significance 1 % for the whole
                material, by Šidák)
-  reciprocity  f(a, b) = f(b, a) where both directions are above the surface; reported, and a failure
-               only with --reciprocal, since layers by albedo and media inside are not reciprocal
+  reciprocity  f(a, b) = f(b, a) where both directions are above the surface; where it is not, "no" is
+               told, and a failure only with --reciprocal, since layers by albedo and media inside
+               are not reciprocal
 
 Materials that vary are checked at points of uv 0 to 1. Each material is shown when it is done; warnings come last, by their
 causes as `patina record` tells them. Exit status 1 when a check fails.
@@ -125,7 +126,7 @@ def _steps(probe, arguments):
 
 def check(probe, arguments, step=lambda: None):
     """:param step: called after each direction, and after the numbers
-    :returns: check -> dict of failed, worst (a number), text"""
+    :returns: check -> dict of failed, state ("ok", "FAIL", or "no": it does not hold and need not), worst (a number), text"""
     generator = np.random.default_rng(arguments.seed)
     varies = not probe.constant
     outcomes = {"finite": _finite(probe, arguments, generator, varies)}
@@ -158,8 +159,8 @@ def _at(degrees):
     return np.array([math.sin(t), 0.0, math.cos(t)]) if degrees % 180.0 else np.array([0.0, 0.0, math.cos(t)])
 
 
-def _outcome(failed, worst, text):
-    return {"failed": bool(failed), "worst": worst, "text": text}
+def _outcome(failed, worst, text, holds=True):
+    return {"failed": bool(failed), "state": "FAIL" if failed else "ok" if holds else "no", "worst": worst, "text": text}
 
 
 def _worst(kind, entries, arguments):
@@ -175,7 +176,8 @@ def _worst(kind, entries, arguments):
         text = f"largest albedo {number:.4g} {where}"
     else:
         text = f"largest error {number:.3g} {where}"
-    return _outcome(failed, float(number), text)
+    # Without a limit it is no failure, and still not so.
+    return _outcome(failed, float(number), text, limit is not None or number <= arguments.tolerance)
 
 
 def _finite(probe, arguments, generator, varies):
@@ -383,5 +385,4 @@ def _print(name, outcomes, width):
     """Shows a material as soon as it is checked."""
     for kind in CHECKS:
         outcome = outcomes[kind]
-        state = "FAIL" if outcome["failed"] else "ok"
-        print(f"{name:<{width}}  {kind:<12} {state:<5} {outcome['text']}", flush=True)
+        print(f"{name:<{width}}  {kind:<12} {outcome['state']:<5} {outcome['text']}", flush=True)

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random edits by several threads while the path tracer renders. PATINA_EDITS sets how many each of
+// them makes, PATINA_EDITS_SEED which; testenv/sanitizers/racingEdits.py runs it for long under
+// ThreadSanitizer.
+#include "hdDelegate/geometry/tests/meshFixtures.h"
+#include "hdDelegate/renderer/renderer.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <thread>
+
+using namespace patina;
+
+namespace {
+
+constexpr int editors = 2;
+
+/// @returns a number that the environment tells, or another
+int told(const char* name, int otherwise) {
+    const char* text = std::getenv(name);
+    return text ? std::atoi(text) : otherwise;
+}
+
+/// One of the threads that edit: its random numbers, and the prims that only it touches. Those of
+/// "/shared" are everyone's.
+class Editor {
+public:
+    Editor(Scene& scene, int number)
+        : _scene(scene), _random(unsigned(editors * told("PATINA_EDITS_SEED", 40) + number)),
+          _own("/editor" + std::to_string(number)) {}
+
+    void edit() {
+        SceneEdit edit = _scene.edit();
+        for (int i = below(3); i >= 0; --i)
+            change(edit);
+    }
+
+private:
+    int below(int count) { return int(_random() % unsigned(count)); }
+    float number(float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(_random);
+    }
+    std::string path(const char* kind) {
+        return (below(2) ? _own : std::string("/shared")) + "/" + kind + std::to_string(below(3));
+    }
+    mat4 place() {
+        return glm::translate(mat4(1.0f), vec3(number(-3, 3), number(-2, 2), number(-3, 0))) *
+               glm::scale(mat4(1.0f), vec3(number(0.2f, 1.0f)));
+    }
+
+    void change(SceneEdit& edit) {
+        switch (below(9)) {
+        case 0: return edit.remove(path(below(2) ? "mesh" : "light"));
+        case 1: return setMaterial(edit);
+        case 2: return setLight(edit);
+        case 3: return setInstancer(edit);
+        case 4: return setCamera(edit);
+        case 5: return setBall(edit);
+        default: return setMesh(edit);
+        }
+    }
+
+    void setMesh(SceneEdit& edit) {
+        auto mesh = std::make_shared<Mesh>(cubeMesh());
+        mesh->path = path("mesh");
+        mesh->transform = place();
+        mesh->material = path("material");
+        if (below(4) == 0) mesh->group = "prototype";
+        if (below(3) == 0) mesh->scheme = SubdivisionScheme::CatmullClark;
+        edit.set(std::shared_ptr<const Geometry>(mesh));
+    }
+
+    void setBall(SceneEdit& edit) {
+        auto ball = std::make_shared<Implicit>();
+        ball->path = path("ball");
+        ball->transform = place();
+        edit.set(std::shared_ptr<const Geometry>(ball));
+    }
+
+    void setMaterial(SceneEdit& edit) {
+        auto material = std::make_shared<MaterialPrim>();
+        material->path = material->network.path = path("material");
+        NetworkNode node;
+        node.path = material->path + "/surface";
+        node.id = "UsdPreviewSurface";
+        node.inputs["diffuseColor"] = Value::makeColor3(number(0, 1), 0.5f, 0.2f);
+        if (below(3) == 0) node.inputs["emissiveColor"] = Value::makeColor3(number(0, 4), 1, 1);
+        if (below(3) == 0) node.inputs["clearcoat"] = Value::makeFloat(number(0, 1));
+        material->network.nodes.push_back(node);
+        material->network.terminals["surface"] = {node.path, ""};
+        edit.set(std::shared_ptr<const MaterialPrim>(material));
+    }
+
+    void setLight(SceneEdit& edit) {
+        auto light = std::make_shared<Light>();
+        light->path = path("light");
+        const LightType types[] = {LightType::Dome, LightType::Distant, LightType::Rect,
+                                   LightType::Sphere};
+        light->type = types[below(4)];
+        light->intensity = number(0, 3);
+        light->transform = place();
+        edit.set(std::shared_ptr<const Light>(light));
+    }
+
+    void setInstancer(SceneEdit& edit) {
+        auto instancer = std::make_shared<Instancer>();
+        instancer->path = path("instancer");
+        instancer->prototypes = {"prototype"};
+        for (int i = below(4); i >= 0; --i) {
+            instancer->transforms.push_back(place());
+            instancer->prototypeIndices.push_back(0);
+        }
+        edit.set(std::shared_ptr<const Instancer>(instancer));
+    }
+
+    void setCamera(SceneEdit& edit) {
+        auto camera = std::make_shared<Camera>();
+        camera->path = "/camera";
+        camera->transform = glm::translate(mat4(1.0f), vec3(number(-1, 1), 0.5f, number(6, 9)));
+        edit.set(std::shared_ptr<const Camera>(camera));
+    }
+
+    Scene& _scene;
+    std::mt19937 _random;
+    std::string _own;
+};
+
+RenderSettings small(int samples) {
+    RenderSettings settings;
+    settings.width = 24;
+    settings.height = 16;
+    settings.samples = samples;
+    settings.threads = 3;
+    return settings;
+}
+
+std::shared_ptr<Scene> seenByACamera() {
+    auto scene = std::make_shared<Scene>();
+    auto camera = std::make_shared<Camera>();
+    camera->path = "/camera";
+    camera->transform = glm::translate(mat4(1.0f), vec3(0, 0.5f, 8));
+    scene->edit().set(std::shared_ptr<const Camera>(camera));
+    return scene;
+}
+
+std::vector<float> rendered(Renderer& renderer, const std::shared_ptr<Scene>& scene) {
+    auto film = std::make_shared<Film>();
+    renderer.start(scene, "/camera", small(2), film);
+    renderer.wait();
+    EXPECT_FALSE(renderer.progress().failed) << renderer.progress().error;
+    return film->resolve("color");
+}
+
+} // namespace
+
+TEST(EditsWhileRendering, EndWithTheImageOfAFreshRenderer) {
+    auto scene = seenByACamera();
+    auto renderer = makeRenderer("embree");
+    std::atomic<int> working{editors};
+    std::vector<std::thread> threads;
+    const int edits = told("PATINA_EDITS", 60);
+    for (int number = 0; number < editors; ++number)
+        threads.emplace_back([&, number] {
+            Editor editor(*scene, number);
+            for (int i = 0; i < edits; ++i) {
+                editor.edit();
+                std::this_thread::sleep_for(std::chrono::microseconds(300 * (i % 5)));
+            }
+            --working;
+        });
+    std::mt19937 random(unsigned(told("PATINA_EDITS_SEED", 40)));
+    auto film = std::make_shared<Film>();
+    int starts = 0;
+    for (; working > 0 || starts == 0; ++starts) {
+        if (random() % 3 == 0) film = std::make_shared<Film>();
+        renderer->start(scene, "/camera", small(int(1 + random() % 64)), film);
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % 4000));
+        if (random() % 4 == 0) {
+            renderer->pause();
+            renderer->progress();
+            renderer->resume();
+        }
+        if (random() % 4 == 0) renderer->stop();
+        if (random() % 4 == 0) renderer->wait();
+        EXPECT_FALSE(renderer->progress().failed) << renderer->progress().error;
+    }
+    for (std::thread& thread : threads)
+        thread.join();
+    renderer->stop();
+    auto fresh = makeRenderer("embree");
+    const auto edited = rendered(*renderer, scene), other = rendered(*fresh, scene);
+    ASSERT_EQ(edited.size(), other.size());
+    EXPECT_EQ(std::memcmp(edited.data(), other.data(), edited.size() * sizeof(float)), 0);
+    for (float value : edited)
+        ASSERT_TRUE(std::isfinite(value));
+    RecordProperty("starts", starts);
+}

@@ -141,7 +141,7 @@ void TilePool::fill(Tile& tile, const Maker& maker) {
             tile.texels.reset(new uint8_t[bytes]);
             return tile.texels.get();
         });
-    } catch (const std::bad_alloc&) {
+    } catch (...) { // no memory; others would wait for ever
         made = false;
     }
     if (!made) tile.texels.reset();

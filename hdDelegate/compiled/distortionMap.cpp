@@ -23,8 +23,9 @@ std::shared_ptr<const DistortionMap> DistortionMap::read(const Camera& camera,
     const std::string& file = camera.lens.distortionMap;
     const char* const input = "patina:distortionMap";
     if (file.empty()) return nullptr;
-    TexelLayout layout = TexelLayout::Grey;
-    std::string problem = probeImage(file, layout);
+    const ImageHeader header = probeImage(file);
+    const TexelLayout layout = header.layout;
+    std::string problem = header.problem.empty() ? header.tooLarge : header.problem;
     if (problem.empty() && (layout == TexelLayout::Grey || layout == TexelLayout::GreyAlpha))
         problem = "it has no green channel";
     if (!problem.empty()) {

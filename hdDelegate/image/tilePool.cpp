@@ -8,7 +8,7 @@ namespace patina {
 
 namespace {
 
-constexpr size_t shardCount = 64, largestSlots = 32;
+constexpr size_t shardCount = 64, largestSlots = 256;
 constexpr int largestWorth = 15;
 /// Of a tile besides its texels: itself, and its places in the shard's tables.
 constexpr size_t overhead = 160;
@@ -29,7 +29,8 @@ struct PlaceHash {
 /// Neighbours, two levels, and a few textures beside each other keep out of each other's slots.
 size_t slotOf(const TilePlace& p) {
     return size_t(p.column & 1) | size_t(p.row & 1) << 1 | size_t(p.level & 1) << 2 |
-           size_t(p.texture & 3) << 3;
+           size_t(p.texture & 3) << 3 | size_t(p.column >> 1 & 1) << 5 |
+           size_t(p.row >> 1 & 1) << 6 | size_t(p.level >> 1 & 1) << 7;
 }
 
 std::atomic<uint64_t> poolNumbers{0};
@@ -140,7 +141,7 @@ void TilePool::fill(Tile& tile, const Maker& maker) {
             tile.texels.reset(new uint8_t[bytes]);
             return tile.texels.get();
         });
-    } catch (const std::bad_alloc&) {
+    } catch (...) { // no memory; others would wait for ever
         made = false;
     }
     if (!made) tile.texels.reset();

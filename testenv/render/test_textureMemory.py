@@ -94,6 +94,22 @@ def test_ten_times_the_memory_shows_the_same_bits_within_it(levels, tmp_path):
     assert "textureTileBytes" not in facts and np.array_equal(whole, plenty)
 
 
+def test_the_setting_of_a_stage(tmp_path):
+    tiledTiff.write(tmp_path / "0.tif", 1024)
+    path = stage(tmp_path, ["0.tif"])
+    with open(path, "a", encoding="utf-8") as text:
+        text.write("""
+def RenderSettings "few" { double patina:textureMemory = 1 }
+def RenderSettings "less" { double patina:textureMemory = -3 }
+""".replace("{ ", "{\n    ").replace(" }", "\n}"))
+    _, facts = render(path, tmp_path / "a.exr", "--settings", "/few")
+    assert 0 < facts["textureTileCapacity"] <= MIB
+    told = patina("record", path, tmp_path / "b.exr", *SMALL, "--settings", "/less").stderr
+    assert "patina:textureMemory" in told and "/less" in told
+    _, facts = render(path, tmp_path / "c.exr", "--settings", "/few", "--textureMemory", "1GiB")
+    assert "textureTileCapacity" not in facts
+
+
 def test_gigabytes_of_texels_in_a_few_megabytes(tmp_path):
     """Each file alone is larger than what is read whole."""
     texels = tiledTiff.write(tmp_path / "0.tif", 65536)
@@ -124,8 +140,8 @@ def test_sizes_that_are_none(value, tmp_path):
     assert wrong.returncode == 2 and "size (1 MiB or more" in wrong.stderr
 
 
-@pytest.mark.parametrize("value, mebibytes", [("500", 500), ("500MiB", 500), ("4GiB", 4096), ("1.5 gib", 1536), ("2TiB", 2097152),
-                                              ("1GB", 1e9 / MIB)])
+@pytest.mark.parametrize("value, mebibytes", [("500", 500), ("500MiB", 500), ("4GiB", 4096), ("1.5 gib", 1536),
+                                              ("2TiB", 2 << 20), ("1GB", 1e9 / MIB)])
 def test_sizes(value, mebibytes):
     from patina.cli import settingFlags
 

@@ -56,7 +56,7 @@ def test_it_lists_what_explain_lists(shown, file, tmp_path):
     assert texts(shown, "#planLeftOut li") == left and any("background left out" in x for x in left)
     methods = dict(re.match(r"method (\w+) = (\w+)", x).groups() for x in lines if x.startswith("method "))
     pressed = shown.evaluate("return [...document.querySelectorAll('.plan [aria-pressed=true]')].map(b => b.ariaLabel)")
-    assert pressed == [f"draw with {point} {name}" for point, name in methods.items()]
+    assert pressed == [f"as planned: {point} {name}" for point, name in methods.items()]
     plan = {c["point"]: c for c in shown.evaluate("return page.state.current.plan.choices")}
     for choice in told["plan"]["choices"]:
         row = next(m for m in plan[choice["point"]]["methods"] if m["name"] == choice["method"])
@@ -70,9 +70,9 @@ const method = choice.methods.find(m => m.name === "{}");"""
 def test_a_method_changes_the_picture_as_its_albedo_says(shown):
     """In even light of 1, the mean over the disk of a sphere is its albedo. The measurement leaves out pixels at the edge:
     with a disk of 40 pixels' radius at most 2 / 40 of the area, which may change by all else than the rest; so a tenth of the
-    change is the margin, and a hundredth for the noise of 5000 pixels of 64 samples."""
+    change is the margin, and a hundredth for the noise of 4000 pixels of 16 samples."""
     shown.evaluate(f"""const {{ state, data }} = page, away = {FAR} * data.camera.radius;
-        state.samples = 64; state.environment = data.environments.findIndex(e => e.name === "even");
+        state.samples = 16; state.environment = data.environments.findIndex(e => e.name === "even");
         state.shape = data.shapes.findIndex(s => s.name === "sphere");
         state.eye = [0, 1, 2].map(i => data.camera.target[i] + (i === 2 ? away : 0));
         window.fov = data.camera.fov; data.camera.fov = 2.4 * 180 / Math.PI / {FAR};
@@ -103,12 +103,13 @@ def test_a_method_is_drawn_until_it_is_taken_back(shown, page, chromium):
     other = shown.picture()
     assert np.abs(other - before).max() > 0.01
     pressed = shown.evaluate("return [...document.querySelectorAll('.plan [aria-pressed=true]')].map(b => b.ariaLabel)")
-    assert "draw with energyCompensation kullaConty" in pressed
+    assert "draw: energyCompensation kullaConty" in pressed
     link = shown.evaluate("return page.state.toText()")
-    shown._page.click("[aria-label='draw with energyCompensation turquin']")
+    shown._page.click("[aria-label='as planned: energyCompensation turquin']")
     assert np.array_equal(shown.picture(), before)
     chromium.open(page, "?width=48#" + link)
-    assert np.array_equal(shown.picture(), other)
+    linked = shown.picture()  # the eye of a link is rounded
+    assert np.abs(linked - other).mean() < 0.1 * np.abs(linked - before).mean()
 
 
 def test_what_has_no_weight_changes_nothing(shown):
@@ -124,7 +125,7 @@ def test_methods_without_a_program_say_why(shown):
     for choice in shown.evaluate("return page.state.current.plan.choices"):
         for method in choice["methods"]:
             assert (method["program"] is not None) + bool(method["why"]) + (method["name"] == choice["method"]) == 1, method
-    assert shown._page.locator("[aria-label='draw with energyCompensation randomWalk']").count() == 0
+    assert shown._page.locator("[aria-label='draw: energyCompensation randomWalk']").count() == 0
 
 
 def test_names_stay_text(make, chromium, tmp_path):
@@ -132,8 +133,9 @@ def test_names_stay_text(make, chromium, tmp_path):
     chromium.open(make("evilPlan.html", tmp_path / "evil.mtlx"), "?width=32")
     for panel in ("code", "plan"):
         chromium.evaluate(f"page.drawer.toggle(page.{panel})")
-        assert "PATINA_SCRIPT" in chromium._page.locator("#drawerTitle").inner_text()
+        assert chromium.evaluate("return document.getElementById('drawerTitle').textContent.endsWith(page.state.current.name)")
         assert chromium.evaluate("return [document.images.length, document.scripts.length]") == [0, 2]
+    assert "PATINA_SCRIPT" in chromium._page.locator("#planKept").inner_text()
     assert chromium.messages() == []
 
 
@@ -146,4 +148,4 @@ def test_keyboard_and_screen_readers(shown, scheme):
     for _ in range(60):
         shown.press("Tab")
         named.add(shown.evaluate("return document.activeElement.ariaLabel"))
-    assert {"draw with directionalAlbedo fit", "draw with sampling fullNdf"} <= named
+    assert {"draw: directionalAlbedo fit", "draw: sampling fullNdf"} <= named

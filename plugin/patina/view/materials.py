@@ -45,14 +45,20 @@ def _variant(name, made, chosen, count, textures):
 def _program(name, network, inputs, compile_one, textures, guess):
     """The two texts of a network, what its page needs to know of them, and the lean one's live inputs."""
     chosen = live.lean_choice(network, inputs, compile_one, guess)
-    lean = compile_one(live.with_live(network, inputs, chosen), textures.largest)
-    made = {"lean": _variant(name, lean, chosen, len(inputs), textures), "whole": None}
-    lobes = list(lean["lobes"])
-    if len(chosen) < len(inputs):
-        whole = compile_one(live.with_live(network, inputs, range(len(inputs))), textures.largest)
-        made["whole"] = _variant(name, whole, range(len(inputs)), len(inputs), textures)
-        lobes += whole["lobes"]
-    return made, lean, lobes, chosen
+    return *_texts(name, _networks(network, inputs, chosen), len(inputs), compile_one, textures), chosen
+
+
+def _networks(network, inputs, chosen):
+    """:returns: those of the lean text and, where it has not all inputs, of the whole one, each with its live inputs"""
+    every = [chosen] + ([range(len(inputs))] if len(chosen) < len(inputs) else [])
+    return [(live.with_live(network, inputs, some), some) for some in every]
+
+
+def _texts(name, networks, count, compile_one, textures):
+    found = [compile_one(network, textures.largest) for network, _ in networks]
+    texts = [_variant(name, text, some, count, textures) for text, (_, some) in zip(found, networks)]
+    made = {"lean": texts[0], "whole": texts[1] if len(texts) > 1 else None}
+    return made, found[0], [lobe for text in found for lobe in text["lobes"]]
 
 
 def _authored(name, network, compile_one, textures):
@@ -94,8 +100,10 @@ def build(name, network, methods, textures):
         places[",".join(map(str, picked))] = programs.index(other)
         lobes += more
 
+    networks = _networks(network, inputs, chosen)
+
     def with_methods(forced):
-        made, _, more, _ = _program(name, network, inputs, compiler(forced), textures, chosen)
+        made, _, more = _texts(name, networks, len(inputs), compiler(forced), textures)
         return made, more
 
     def add(made, more):

@@ -13,7 +13,7 @@ from patina.view import live
 MAX_LINES = 1000             # of the plan's text
 MAX_CHARACTERS = 1_000_000   # of all programs of methods together
 MAX_COST = 200.0             # over the default: a browser would stop answering
-MAX_EFFECTS = 64             # inputs that are looked at
+MAX_EFFECTS = 64             # inputs that are looked at, fewer of large networks
 SAMPLES = 1024               # of each of 16 directions
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _AFTER_GRAPH = re.compile(r"\(\d+ nodes before simplification, \d+ after\)\n\n")
@@ -53,7 +53,7 @@ def effects(network, inputs, chosen, entries, methods):
     :returns: list of dicts: place of the input, the end of its range that is farther away, and the albedo there
     """
     ranges = {entry["input"]: entry for entry in entries}
-    found = []
+    found, most = [], max(4, MAX_EFFECTS * 100 // max(100, len(network.nodes())))
     for i, moved in enumerate(inputs):
         entry = ranges.get(f"{moved.node}.{moved.name}")
         if i in chosen or entry is None or "min" not in entry or moved.kind == "vector3":  # a direction has no more or less
@@ -64,7 +64,7 @@ def effects(network, inputs, chosen, entries, methods):
         changed = live.with_live(network, [], [])
         changed.set_input(moved.node, moved.name, moved.kind, whole[0] if len(whole) == 1 else whole)
         found.append({"input": i, "to": to, "albedo": albedo(changed, methods)})
-        if len(found) == MAX_EFFECTS:
+        if len(found) == most:
             break
     return found
 

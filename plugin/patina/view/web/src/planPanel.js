@@ -72,7 +72,7 @@ export class PlanPanel {
         const cell = text => element("td", { className: "number" }, text), numbers = v => v.map(short).join(" ");
         const body = element("tbody", {}, ...plan.effects.map(({ input, to, albedo }) => {
             const { input: name, value } = inputs[input];
-            const button = element("button", { type: "button", "aria-label": `draw with ${name} ${numbers(to)}`,
+            const button = element("button", { type: "button", "aria-label": `draw: ${name} ${numbers(to)}`,
                                                onclick: () => this.move(input, to) }, "draw");
             this.moves.push([button, input, to]);
             return element("tr", {}, element("th", { scope: "row" }, element("code", {}, name)), cell(numbers(value)), cell(numbers(to)),
@@ -103,8 +103,9 @@ export class PlanPanel {
         const change = own || !method.albedo || !plan.albedo ? "\u2013" : percent(relative(plan.albedo, method.albedo));
         let action = method.why;
         if (own || method.program !== null) {
-            action = element("button", { type: "button", "aria-label": `draw with ${choice.point} ${method.name}`,
-                                         onclick: () => this.use(choice, method) }, own ? "as planned" : "draw");
+            const word = own ? "as planned" : "draw";
+            action = element("button", { type: "button", "aria-label": `${word}: ${choice.point} ${method.name}`,
+                                         onclick: () => this.use(choice, method) }, word);
             this.buttons.push([action, { point: choice.point, name: method.name, own }]);
         }
         return element("tr", {}, element("th", { scope: "row", title: method.text }, method.name, element("small", {}, method.text)),

@@ -85,6 +85,7 @@ _ROWS = (
     (r"below zero", "lights of negative intensity make such pixels; denoise the light that is given and that is taken apart"),
     (r"mesh light|names no mesh", "bind the mesh light to a mesh"),
     (r"cannot be used, the light", "correct the light's collections `lightLink` and `shadowLink`"),
+    (r"light filters do not change", "take `--method domeLight=sampled` or `filtered`, or no method"),
     (r"light is off|no size|not evaluated|light filter|portals|is no PortalLight|light lights everything|lights everything",
      "UsdLux inputs of the light itself are evaluated; remove the rest, or give it a size above 0"),
     # Materials.

@@ -13,6 +13,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #define PATINA_FN inline
 #define PATINA_FN_RARE [[gnu::noinline]] inline
@@ -25,6 +26,7 @@ namespace shLights {
 using glm::mat3;
 using glm::vec2;
 using glm::vec3;
+using glm::vec4;
 
 using glm::cross;
 using glm::dot;

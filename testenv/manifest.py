@@ -151,6 +151,9 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     # the same balls.
     ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]twoDomes]", "long", None),
     ("testenv/raster/test_lights.py::test_a_method_of_domes_keeps_the_tolerance_*[[]harmonics-roughConductor]", "long", None),
+    # One of each kind of filter and of light is enough at a time: these go the ways of the others.
+    *((f"testenv/raster/test_lightFilters.py::test_filtered_light_is_the_path_tracers[[]{name}]", "long", None)
+      for name in ("barnAnalytic", "barnShear", "cookie", "several", "sun")),
 )
 
 # More than about ten seconds of processor time by themselves (not by a fixture that others of their file use too): the first

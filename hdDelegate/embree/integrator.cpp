@@ -27,7 +27,8 @@ void Integrator::addRadiance(Path& path, const vec3& radiance) const {
 /// Light that the surface itself gives off towards the ray.
 void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& hit,
                              float presence) const {
-    const vec3 radiance = _lights.emission(point) * presence;
+    const vec3 radiance =
+        _lights.emission(point, path.fromCamera() ? &path.origin : &path.vertex) * presence;
     if (radiance == vec3(0.0f)) return;
     const int light = path.fromCamera()
                           ? -1

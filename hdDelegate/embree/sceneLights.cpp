@@ -80,10 +80,11 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
                              "the mesh light has no mesh and gives no light");
             continue;
         }
+        MeshLight meshLight{light, lightBaseRadiance(*light), int(_infos.size()), {}};
         if (!light->filters.empty())
-            diagnostics.warn(light->path, "light:filters",
-                             "light filters are not applied to mesh lights");
-        MeshLight meshLight{light, lightBaseRadiance(*light), int(_infos.size())};
+            for (const GroupPlace& place : scene.groupPlaces(surface->prim->group))
+                meshLight.filters.emplace_back(*light, place.toWorld, scene.origin(),
+                                               input.shutterOpen, images, diagnostics);
         if (light->normalize) {
             const auto where = scene.groupTransforms(surface->prim->group);
             const double area = where.empty() ? 0.0 : areaOf(*surface, where[0]);
@@ -167,25 +168,29 @@ int SceneLights::triangleLight(const Surface* surface, unsigned primitive,
                                const mat4& groupToWorld) const {
     const auto found = _emitting.find(surface);
     if (found == _emitting.end()) return -1;
-    const Emitting* nearest = &found->second[0];
-    float best = INFINITY;
-    if (found->second.size() > 1)
-        for (const Emitting& candidate : found->second) {
-            float difference = 0.0f;
-            for (int c = 0; c < 4; ++c) {
-                const vec4 d = candidate.place[c] - groupToWorld[c];
-                difference += glm::dot(d, d);
-            }
-            if (difference < best) {
-                best = difference;
-                nearest = &candidate;
-            }
-        }
-    const int triangle = nearest->triangles[primitive];
+    const size_t place = nearestPlace(found->second, groupToWorld);
+    const int triangle = found->second[place].triangles[primitive];
     return triangle < 0 ? -1 : triangle + _set->lightCount();
 }
 
-vec3 SceneLights::emission(const SurfacePoint& point) const {
+size_t SceneLights::nearestPlace(const std::vector<Emitting>& places, const mat4& groupToWorld) {
+    size_t nearest = 0;
+    float best = INFINITY;
+    for (size_t i = 0; places.size() > 1 && i < places.size(); ++i) {
+        float difference = 0.0f;
+        for (int c = 0; c < 4; ++c) {
+            const vec4 d = places[i].place[c] - groupToWorld[c];
+            difference += glm::dot(d, d);
+        }
+        if (difference < best) {
+            best = difference;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
     const MaterialProgram& program = *point.slot->program;
     const ShadingPoint& s = point.shading;
     vec3 glow(0.0f);
@@ -195,7 +200,13 @@ vec3 SceneLights::emission(const SurfacePoint& point) const {
     if (found == _meshLights.end()) return glow;
     const MeshLight& mesh = found->second;
     const bool front = glm::dot(s.geometricNormal, s.viewDirection) > 0.0f;
-    const vec3 light = front ? mesh.radiance : vec3(0.0f);
+    vec3 light = front ? mesh.radiance : vec3(0.0f);
+    if (lit && !mesh.filters.empty()) {
+        const size_t place =
+            nearestPlace(_emitting.at(point.hit->surface), point.hit->groupToWorld);
+        light *= mesh.filters[place].factor(*lit, -s.viewDirection, glm::length(s.position - *lit),
+                                            point.hit->time);
+    }
     if (mesh.light->materialSyncMode == "noMaterialResponse") return light;
     if (mesh.light->materialSyncMode == "materialGlowTintsLight" && program.hasEmission())
         return light * glow;
@@ -212,7 +223,7 @@ vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from, 
     computeSurfacePoint(hit, from, sample.direction, 0.0f, point);
     float presence = 1.0f;
     if (!point.slot->opaque) point.slot->program->opacity(point.shading, nullptr, &presence);
-    return emission(point) * presence;
+    return emission(point, &from) * presence;
 }
 
 bool SceneLights::hidesMaterial(const Surface* surface) const {

@@ -52,7 +52,8 @@ public:
     /// Radiance of a sampled triangle towards a point.
     vec3 triangleRadiance(const LightSample& sample, const vec3& from, float time) const;
     /// The radiance of a surface towards its viewer, by its material and as a mesh light.
-    vec3 emission(const SurfacePoint& point) const;
+    /// @param lit the point that it lights, which filters of mesh lights ask for; null: unfiltered
+    vec3 emission(const SurfacePoint& point, const vec3* lit = nullptr) const;
     /// A mesh light that is nothing but a light (materialSyncMode noMaterialResponse).
     bool hidesMaterial(const Surface* surface) const;
 
@@ -61,6 +62,7 @@ private:
         std::shared_ptr<const Light> light;
         vec3 radiance{0.0f};
         int info = 0;
+        std::vector<LightFilters> filters; ///< per place of the surface; none: nothing is filtered
     };
     struct Emitting {
         mat4 place;
@@ -75,6 +77,7 @@ private:
     LightInfo describe(const std::shared_ptr<const Light>& light, const EmbreeScene& scene,
                        const RenderSettings& settings);
     void addSurface(const Surface& surface, const EmbreeScene& scene, LightSetInput& input);
+    static size_t nearestPlace(const std::vector<Emitting>& places, const mat4& groupToWorld);
 
     std::unique_ptr<LightSet> _set;
     std::vector<LightInfo> _infos;

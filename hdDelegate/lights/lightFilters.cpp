@@ -48,11 +48,11 @@ LightFilters::Curve LightFilters::curveOf(const LightFilter& f, bool colors,
             curve.values.emplace_back(value);
     const std::string& kind = colors ? f.colorInterpolation : f.rampInterpolation;
     if (kind == "constant")
-        curve.kind = Curve::Kind::Constant;
+        curve.kind = shLights::CURVE_CONSTANT;
     else if (kind == "catmull-rom" || kind == "catmullRom")
-        curve.kind = Curve::Kind::CatmullRom;
+        curve.kind = shLights::CURVE_CATMULL_ROM;
     else if (kind == "bspline")
-        curve.kind = Curve::Kind::BSpline;
+        curve.kind = shLights::CURVE_BSPLINE;
     const bool fits = curve.knots.size() == curve.values.size() &&
                       std::is_sorted(curve.knots.begin(), curve.knots.end());
     if (!fits)
@@ -62,7 +62,7 @@ LightFilters::Curve LightFilters::curveOf(const LightFilter& f, bool colors,
     if (!fits || curve.values.empty()) {
         curve.knots = {0.0f, 1.0f};
         curve.values = {vec3(1.0f), vec3(colors ? 1.0f : 0.0f)};
-        curve.kind = Curve::Kind::Linear;
+        curve.kind = shLights::CURVE_LINEAR;
     }
     return curve;
 }
@@ -72,21 +72,41 @@ vec3 LightFilters::Curve::at(float x) const {
     const int above = int(std::upper_bound(knots.begin(), knots.end(), x) - knots.begin());
     if (above == 0) return values.front();
     if (above > last) return values.back();
-    const int i = above - 1;
-    if (kind == Kind::Constant) return values[size_t(i)];
-    const float t = (x - knots[size_t(i)]) / (knots[size_t(above)] - knots[size_t(i)]);
-    const vec3 &p1 = values[size_t(i)], &p2 = values[size_t(above)];
-    if (kind == Kind::Linear) return p1 + t * (p2 - p1);
-    const vec3 &p0 = values[size_t(std::max(i - 1, 0))],
-               &p3 = values[size_t(std::min(above + 1, last))];
-    if (kind == Kind::CatmullRom)
-        return p1 + 0.5f * t *
-                        ((p2 - p0) + t * ((2.0f * p0 - 5.0f * p1 + 4.0f * p2 - p3) +
-                                          t * (3.0f * (p1 - p2) + p3 - p0)));
-    const float s = 1.0f - t;
-    return (s * s * s * p0 + (3.0f * t * t * t - 6.0f * t * t + 4.0f) * p1 +
-            (3.0f * s * s * s - 6.0f * s * s + 4.0f) * p2 + t * t * t * p3) /
-           6.0f;
+    const size_t i = size_t(above - 1), next = size_t(above);
+    const vec4 w = shLights::curveWeights(kind, (x - knots[i]) / (knots[next] - knots[i]));
+    return w.x * values[i > 0 ? i - 1 : 0] + w.y * values[i] + w.z * values[next] +
+           w.w * values[size_t(std::min(above + 1, last))];
+}
+
+/// @returns false where there is none
+bool LightFilters::addImage(const LightFilter& f, const std::string& light, LightImages& images,
+                            Diagnostics& diagnostics, Filter& to) {
+    const auto warn = [&](const std::string& message) {
+        diagnostics.warn(light, "light:filters", f.path + " " + message);
+    };
+    if (f.textureFile.empty()) {
+        warn("has no map; it is left out");
+        return false;
+    }
+    to.shown.size = vec2(f.width * f.scaleU, f.height * f.scaleV);
+    to.shown.center = vec2(f.width * f.offsetU, f.height * f.offsetV);
+    const vec2 size = to.shown.size * to.shown.center;
+    if (to.shown.size.x == 0.0f || to.shown.size.y == 0.0f || !std::isfinite(size.x + size.y)) {
+        warn("has an image without a finite size and place; it is left out");
+        return false;
+    }
+    if (f.invertU) to.shown.size.x *= -1.0f;
+    if (f.invertV) to.shown.size.y *= -1.0f;
+    to.shown.wrap = choiceOf(f.textureWrap, {"off", "clamp", "repeat"});
+    if (to.shown.wrap < 0) {
+        warn("has an unknown tileMode '" + f.textureWrap + "'; off is used");
+        to.shown.wrap = shLights::IMAGE_OFF;
+    }
+    to.image = images.image(f.textureFile, "", light, "light:filters " + f.path + " map");
+    to.shown.width = to.image->width;
+    to.shown.height = to.image->height;
+    to.fill = f.fillColor;
+    return true;
 }
 
 LightFilters::LightFilters(const Light& light, const mat4& groupToWorld, const dvec3& origin,
@@ -136,23 +156,8 @@ LightFilters::LightFilters(const Light& light, const mat4& groupToWorld, const d
             filter.ramp = curveOf(f, false, light.path, diagnostics);
             filter.colors = curveOf(f, true, light.path, diagnostics);
         }
-        if (f.type == LightFilterType::Cookie) {
-            if (f.textureFile.empty()) {
-                warn("has no map; it is left out");
-                continue;
-            }
-            filter.image =
-                images.image(f.textureFile, "", light.path, "light:filters " + f.path + " map");
-            filter.imageSize = vec2(f.width, f.height);
-            filter.fill = f.fillColor;
-            filter.invertU = f.invertU;
-            filter.invertV = f.invertV;
-            filter.wrap = choiceOf(f.textureWrap, {"off", "repeat", "clamp"});
-            if (filter.wrap < 0) {
-                warn("has an unknown tileMode '" + f.textureWrap + "'; off is used");
-                filter.wrap = 0;
-            }
-        }
+        const bool shows = f.type == LightFilterType::Cookie || f.type == LightFilterType::Gobo;
+        if (shows && !addImage(f, light.path, images, diagnostics, filter)) continue;
         _filters.push_back(std::move(filter));
     }
 }
@@ -165,34 +170,11 @@ mat4 LightFilters::toFilterAt(const Filter& filter, float time) const {
 }
 
 vec3 LightFilters::texel(const Filter& f, const vec3& at) {
-    float u = 0.5f + at.x / f.imageSize.x, v = 0.5f - at.y / f.imageSize.y;
-    if (f.invertU) u = 1.0f - u;
-    if (f.invertV) v = 1.0f - v;
-    if (f.wrap == 0 && !(u >= 0.0f && u <= 1.0f && v >= 0.0f && v <= 1.0f)) return f.fill;
-    if (f.wrap == 1) {
-        u -= std::floor(u);
-        v -= std::floor(v);
-    }
-    const int w = f.image->width, h = f.image->height;
-    const auto place = [&](float at01, int size, int& low, int& high, float& t) {
-        const float x = std::clamp(at01, 0.0f, 1.0f) * float(size) - 0.5f;
-        const float below = std::floor(x);
-        t = x - below;
-        const auto kept = [&](int i) {
-            return f.wrap == 1 ? (i + size) % size : std::clamp(i, 0, size - 1);
-        };
-        low = kept(int(below));
-        high = kept(int(below) + 1);
-    };
-    int x0, x1, y0, y1;
-    float tx, ty;
-    place(u, w, x0, x1, tx);
-    place(v, h, y0, y1, ty);
-    const auto pixel = [&](int x, int y) {
-        return f.image->pixels[size_t(y) * size_t(w) + size_t(x)];
-    };
-    return glm::mix(glm::mix(pixel(x0, y0), pixel(x1, y0), tx),
-                    glm::mix(pixel(x0, y1), pixel(x1, y1), tx), ty);
+    shLights::TableCell c;
+    if (!shLights::filterTexels(f.shown, at, c)) return f.fill;
+    const std::vector<vec3>& pixels = f.image->pixels;
+    return tableMix(c, pixels[size_t(c.low)], pixels[size_t(c.lowNext)], pixels[size_t(c.high)],
+                    pixels[size_t(c.highNext)]);
 }
 
 vec3 LightFilters::factorOf(const Filter& f, const vec3& point, const vec3& direction,
@@ -201,12 +183,9 @@ vec3 LightFilters::factorOf(const Filter& f, const vec3& point, const vec3& dire
     const mat4 toFilter = f.transform.moves() ? toFilterAt(f, time) : f.toFilter;
     const vec3 p(toFilter * vec4(point, 1.0f));
     vec3 value(1.0f);
-    if (f.type == LightFilterType::Rod) {
-        // Inside of it the light has another strength.
-        float cover = shLights::filterBoxCover(f.box, p);
-        if (f.invert) cover = 1.0f - cover;
-        return vec3(1.0f + f.density * cover * (f.intensity - 1.0f));
-    }
+    if (f.type == LightFilterType::Rod)
+        return vec3(shLights::rodStrength(shLights::filterBoxCover(f.box, p), f.invert, f.density,
+                                          f.intensity));
     if (f.type == LightFilterType::Ramp) {
         const float x = shLights::rampPlace(f.rampType, p, distance, f.start, f.end);
         value = f.ramp.at(x) * f.colors.at(x);
@@ -220,12 +199,13 @@ vec3 LightFilters::factorOf(const Filter& f, const vec3& point, const vec3& dire
             reach = f.directional ? INFINITY : 1.0f;
         }
         vec3 at;
-        if (!shLights::openingCrossed(p, toLight, reach, at)) return value;
-        value = f.type == LightFilterType::Barn ? vec3(shLights::filterBoxCover(f.box, at))
-                                                : texel(f, at);
+        const bool crossed = shLights::openingCrossed(p, toLight, reach, at);
+        if (!crossed && !f.fillsBehind()) return value;
+        value = !crossed                          ? f.fill
+                : f.type == LightFilterType::Barn ? vec3(shLights::filterBoxCover(f.box, at))
+                                                  : texel(f, at);
     }
-    if (f.invert) value = vec3(1.0f) - value;
-    return (vec3(1.0f) + f.density * (value - vec3(1.0f))) * f.intensity;
+    return shLights::filterStrength(value, f.invert, f.density, f.intensity);
 }
 
 vec3 LightFilters::factor(const vec3& point, const vec3& direction, float distance,

@@ -28,12 +28,11 @@ public:
     /// @param distance of the light's point; infinite where the light is at infinity
     vec3 factor(const vec3& point, const vec3& direction, float distance, float time) const;
 
-private:
     /// Values between knots; outside of them the first and last one.
     struct Curve {
         std::vector<float> knots;
         std::vector<vec3> values;
-        enum class Kind { Linear, Constant, CatmullRom, BSpline } kind = Kind::Linear;
+        int kind = shLights::CURVE_LINEAR;
         vec3 at(float x) const;
     };
     struct Filter {
@@ -45,17 +44,23 @@ private:
         bool analytic = false, directional = false, invert = false;
         vec2 shear{0.0f};
         float apex = 0.0f, density = 1.0f, intensity = 1.0f;
-        int rampType = 0, wrap = 0;
+        int rampType = 0;
         float start = 0.0f, end = 1.0f;
         Curve ramp, colors;
         std::shared_ptr<const ImageRGB> image;
-        vec2 imageSize{1.0f};
+        shLights::FilterImage shown; ///< how the image lies in the plane
         vec3 fill{0.0f};
-        bool invertU = false, invertV = false;
-    };
 
+        /// Whether light that does not cross the plane gets `fill`, too.
+        bool fillsBehind() const { return image && shown.wrap == shLights::IMAGE_OFF; }
+    };
+    const std::vector<Filter>& filters() const { return _filters; }
+
+private:
     static Curve curveOf(const LightFilter& filter, bool colors, const std::string& light,
                          Diagnostics& diagnostics);
+    static bool addImage(const LightFilter& from, const std::string& light, LightImages& images,
+                         Diagnostics& diagnostics, Filter& to);
     mat4 toFilterAt(const Filter& filter, float time) const;
     vec3 factorOf(const Filter& filter, const vec3& point, const vec3& direction, float distance,
                   float time) const;

@@ -141,6 +141,12 @@ private:
     /// The lights for the planner to look at; without a tolerance it does not.
     RasterLightPlan lightPlan(const SceneState& state) {
         RasterLightPlan plan;
+        for (const auto& item : state.lights) {
+            const Light& light = *item.second;
+            if (!_settings.enableSceneLights || !light.visible || light.filters.empty()) continue;
+            plan.needFilters();
+            if (light.type == LightType::Dome) plan.needSamples();
+        }
         if (_settings.tolerance < 0.0) return plan;
         for (const auto& item : state.geometry)
             if (item.second->kind == GeometryKind::Volume) plan.needSamples();

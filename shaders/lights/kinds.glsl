@@ -15,3 +15,5 @@ const int LIGHT_IS_SEEN = 4;    // by the camera
 const int LIGHT_HAS_CONE = 8;   // shaping cuts it off
 const int LIGHT_OF_DOME = 16;   // the dominant light of a dome
 const int LIGHT_TWO_SIDED = 32; // a triangle
+// From this bit on: where its filters stand in the tables of lights, plus 1; 0: it has none.
+const int LIGHT_FILTERS_SHIFT = 8;

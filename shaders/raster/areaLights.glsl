@@ -9,7 +9,7 @@
 // Whether the light is even over its whole surface, so that its outline says all.
 bool isOutline(Light l) {
     return !isDelta(l) && l.kind < LTC_SHAPES && l.firstValue < 0 &&
-           l.firstProfile < 0 && l.focus == 0.0 && !hasCone(l);
+           l.firstProfile < 0 && l.focus == 0.0 && !hasCone(l) && l.flags >> LIGHT_FILTERS_SHIFT == 0;
 }
 
 // Whether lobes of the material are all of kinds that transforms stand for. In what is nearly a mirror

@@ -2,6 +2,7 @@
 // The background, which the camera sees where no surface is: area lights as solid shapes, and domes.
 #include "shaders/compat/glsl.glsl"
 #define ALL_LIGHTS
+#define LIGHT_FILTERS
 #include "shaders/raster/pass.glsl"
 #include "shaders/raster/cameraRay.glsl"
 layout(location = 0) out vec4 outColor;
@@ -11,18 +12,18 @@ bool isSeen(Light l) {
 }
 
 // All domes together, as the camera sees them.
-vec4 skyRadiance(vec3 w, float lod) {
+vec4 skyRadiance(vec3 from, vec3 w, float lod) {
     vec4 sum = vec4(0.0);
     for (int i = 0; i < lightInfo.x; ++i)
         if (lights[i].kind == LIGHT_DOME && isSeen(lights[i]))
-            sum += vec4(radianceOfDome(lights[i], w, lod), 1.0);
+            sum += vec4(radianceOfDome(lights[i], w, lod) * filterFactor(lights[i], from, w, LIGHT_FAR), 1.0);
     return vec4(sum.rgb, min(sum.a, 1.0));
 }
 
 void main() {
     vec3 start, direction;
     vec2 range = cameraRay(start, direction);
-    vec4 color = skyRadiance(direction, 0.0);
+    vec4 color = skyRadiance(eye.w != 0.0 ? eye.xyz : start, direction, 0.0);
     float nearest = 1e30;
     float depth = 1.0;
     vec4 shape = vec4(0.0);
@@ -35,7 +36,8 @@ void main() {
         t += range.x;
         if (t >= min(nearest, range.y)) continue;
         nearest = t;
-        shape = vec4(l.radiance * image * shapingFactor(l, -direction), 1.0);
+        vec3 left = filtersToCamera((l.flags >> LIGHT_FILTERS_SHIFT) - 1, start + direction * t, direction);
+        shape = vec4(l.radiance * image * shapingFactor(l, -direction) * left, 1.0);
         vec4 clip = worldToClip * vec4(start + direction * t, 1.0);
         depth = clamp(clip.z / clip.w * 0.5 + 0.5, 0.0, 1.0);
     }

@@ -12,6 +12,7 @@ layout(location = 2) out vec4 outGuide;  // how light the material is; w: prim, 
 layout(location = 3) out vec4 outPlace;
 layout(location = 4) out vec4 outNormal;
 layout(location = 7) uniform vec4 meshLight; // w: modes of RasterMeshLight
+layout(location = 13) uniform int meshFilters; // in lightTables: where those of the mesh light stand, place by place; -1 none
 
 #ifdef MATERIAL_IS_FIBRE
 const float lightTrust = 3.0; // what light through a fibre makes of few directions is noisier than its shadows are wrong
@@ -122,15 +123,16 @@ vec3 along(MaterialSample s) {
             float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * sharper * texel, 1e-20));
             lod = clamp(lod, 0.0, float(lightInfo.y));
             density = samplesOf(l) * domePdf(l, s.wi, lod);
-            radiance = radianceOfDome(l, s.wi, lod);
+            radiance = radianceOfDome(l, s.wi, lod) * filterFactor(l, point.position, s.wi, LIGHT_FAR);
         } else if (kind == LIGHT_DISTANT) {
             if (!distantHit(l.axis2, l.versine, s.wi)) continue;
             density = distantPdf(l.versine) * samplesOf(l);
+            radiance *= filterFactor(l, point.position, s.wi, LIGHT_FAR);
         } else {
             float t;
             vec3 image;
             if (!lightHit(l, point.position, s.wi, t, density, image)) continue;
-            radiance *= image * shapingFactor(l, -s.wi);
+            radiance *= image * shapingFactor(l, -s.wi) * filterFactor(l, point.position, s.wi, t);
             density *= samplesOf(l);
         }
         vec3 shadow = vec3(1.0);
@@ -160,6 +162,10 @@ vec3 glow() {
     vec3 own = materialEmission(point.view);
     if (meshLight.w == 0.0) return own;
     vec3 light = dot(point.geometricNormal, point.view) > 0.0 ? meshLight.rgb : vec3(0.0);
+#ifdef LIGHT_FILTERS
+    if (meshFilters >= 0)
+        light *= filtersToCamera(int(lightTables[meshFilters + vIds.w].x), point.position, -point.view);
+#endif
     if (meshLight.w == 3.0) return light;
     return meshLight.w == 1.0 && MATERIAL_GLOWS ? light * own : light + own;
 }

@@ -64,6 +64,17 @@ vec3 tableValue(int at, TableCell c) {
                     lightTables[at + c.high].xyz, lightTables[at + c.highNext].xyz);
 }
 
+// How far samples are whose light is at infinity.
+const float LIGHT_FAR = 1e30;
+
+#ifdef LIGHT_FILTERS
+#include "shaders/raster/lightFilters.glsl"
+#else
+vec3 filterFactor(Light l, vec3 point, vec3 wi, float reach) {
+    return vec3(1.0);
+}
+#endif
+
 vec3 shapingFactor(Light l, vec3 away) {
     Shaping s = shapingOf(l);
     float c = shapingCosine(s, away);
@@ -123,14 +134,12 @@ bool lightHit(Light l, vec3 origin, vec3 direction, out float t, out float densi
     return density > 0.0;
 }
 
-// A light's sample as a point meets it. wi: to it; reach: how far it is; density: of all samples of the
-// light, by solid angle, 1 of lights that are no area.
-// @returns radiance towards the point, or irradiance of what is no area; with how often the light counts
-vec3 lightSample(Light l, vec3 p, out vec3 wi, out float density, out float reach) {
+// As lightSample(), without filters.
+vec3 unfilteredSample(Light l, vec3 p, out vec3 wi, out float density, out float reach) {
     int kind = l.kind;
     vec3 radiance = l.radiance * l.weight;
     wi = l.sampled;
-    reach = 1e30;
+    reach = LIGHT_FAR;
     density = isDelta(l) ? 1.0 : l.density;
     if (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) density *= l.domeSamples;
     if (!isAtPlace(l)) return radiance;
@@ -159,4 +168,12 @@ vec3 lightSample(Light l, vec3 p, out vec3 wi, out float density, out float reac
     if (c <= 0.0) return vec3(0.0);
     density *= d2 / c;
     return radiance;
+}
+
+// A light's sample as a point meets it. wi: to it; reach: how far it is; density: of all samples of the
+// light, by solid angle, 1 of lights that are no area.
+// @returns radiance towards the point, or irradiance of what is no area; with how often the light counts
+vec3 lightSample(Light l, vec3 p, out vec3 wi, out float density, out float reach) {
+    vec3 radiance = unfilteredSample(l, p, wi, density, reach);
+    return radiance == vec3(0.0) ? radiance : radiance * filterFactor(l, p, wi, reach);
 }

@@ -84,14 +84,16 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
         if (isDelta(l) || kind > LIGHT_DOME || !isLit(l)) continue;
         vec3 radiance = l.radiance;
         if (kind == LIGHT_DOME) {
-            radiance = radianceOfDome(l, direction, clamp(lod, 0.0, float(lightInfo.y)));
+            radiance = radianceOfDome(l, direction, clamp(lod, 0.0, float(lightInfo.y))) *
+                       filterFactor(l, origin, direction, LIGHT_FAR);
         } else if (kind == LIGHT_DISTANT) {
             if (!distantHit(l.axis2, l.versine, direction)) continue;
+            radiance *= filterFactor(l, origin, direction, LIGHT_FAR);
         } else {
             float t, density;
             vec3 image;
             if (!lightHit(l, origin, direction, t, density, image)) continue;
-            radiance *= image * shapingFactor(l, -direction);
+            radiance *= image * shapingFactor(l, -direction) * filterFactor(l, origin, direction, t);
         }
         sum += radiance * l.weight * l.specular;
     }
@@ -120,7 +122,7 @@ vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool
         if (!isLit(l) || isSunOfDome(l)) continue;
         if (l.kind == LIGHT_DOME && l.domeSamples == 0.0) { // nobody samples it: its mean
             found += radianceOfDome(l, direction, max(float(lightInfo.y) - 1.0, 0.0)) * l.weight *
-                     l.specular;
+                     l.specular * filterFactor(l, start + direction * mean, direction, LIGHT_FAR);
             continue;
         }
         vec3 wi;

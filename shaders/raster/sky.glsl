@@ -112,7 +112,8 @@ vec3 skyBySamples() {
         for (int k = 0; k < look.x; ++k) {
             Light l = lights[k];
             if (l.kind != LIGHT_DOME || !isLit(l)) continue;
-            vec3 light = radianceOfDome(l, s.wi, clamp(lod, 0.0, float(lightInfo.y)));
+            vec3 light = radianceOfDome(l, s.wi, clamp(lod, 0.0, float(lightInfo.y))) *
+                         filterFactor(l, point.position, s.wi, LIGHT_FAR);
             if (sky < 0.0) sky = skyReaches(s.wi);
             vec3 shadow = l.firstMap < 0 ? vec3(1.0) : mix(l.shadowColor, vec3(1.0), sky);
             sum += (s.diffuseWeight * l.diffuse + s.specularWeight * l.specular) * light * shadow * l.weight;

@@ -2,6 +2,7 @@
 // A volume prim over what is drawn already: one place where light scatters is drawn from each ray's
 // steps and lit, by light that is scattered there for the first time and by what diffuses.
 #include "shaders/compat/glsl.glsl"
+#define LIGHT_FILTERS
 #include "shaders/raster/pass.glsl"
 #include "shaders/raster/cameraRay.glsl"
 layout(location = 0) out vec4 outColor;
@@ -110,8 +111,9 @@ vec3 litAt(vec3 p, vec3 direction, float g, float jitter) {
         Light l = lights[i];
         if ((l.flags & LIGHT_OF_DOME) != 0) continue;
         if (l.kind == LIGHT_DOME && l.domeSamples == 0.0) { // nobody samples it: its mean
+            vec3 from = evenDirection(vec2(jitter, fract(17.0 * jitter)));
             sum += radianceOfDome(l, direction, max(float(lightInfo.y) - 1.0, 0.0)) * l.weight *
-                   lightInside(p, evenDirection(vec2(jitter, fract(17.0 * jitter))), 1e30, jitter, 0.25 * INV_PI) *
+                   filterFactor(l, p, from, LIGHT_FAR) * lightInside(p, from, LIGHT_FAR, jitter, 0.25 * INV_PI) *
                    (4.0 * PI * l.specular);
             continue;
         }

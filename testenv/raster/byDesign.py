@@ -48,9 +48,15 @@ FEATURES = {
     "motionOfLights": Feature(
         "while the shutter is open lights stand where they are in the middle of that",
         "test_byDesign.py::test_lights_do_not_move_while_the_shutter_is_open"),
-    "lightFilters": Feature(
-        "light filters are not applied, which a warning says",
-        "test_byDesign.py::test_light_filters_are_left_out", ("lightFilters",)),
+    "filtersOfDomes": Feature(
+        "harmonics and prefiltered maps of domes are those of the whole sky, without its light filters, which a warning says",
+        "test_byDesign.py::test_harmonics_know_no_light_filters"),
+    "projections": Feature(
+        "a camera shows its plain perspective, without other projections, distortion and pairs of eyes, which a warning says",
+        "test_byDesign.py::test_cameras_of_other_projections_are_plain", ("fisheye",)),
+    "catchers": Feature(
+        "catchers of shadows and reflections show as plain surfaces, which a warning says",
+        "test_byDesign.py::test_catchers_are_plain", ("catchers",)),
 }
 SCENES = {scene: [name for name, feature in FEATURES.items() if scene in feature.scenes]
           for feature in FEATURES.values() for scene in feature.scenes}

@@ -234,19 +234,50 @@ def Xform "World"
     assert shown[192] < 0.5 * shown[48]
 
 
-def test_light_filters_are_left_out(tmp_path):
-    with open(inProcess.scene("lightFilters"), encoding="utf-8") as file:
-        text = file.read()
+@pytest.mark.parametrize("method, filtered", [("sampled", True), ("filtered", True), ("prefiltered", False),
+                                              ("harmonics", False)])
+def test_harmonics_know_no_light_filters(method, filtered, tmp_path):
+    text = "        rel light:filters = </World/filter>\n        asset inputs:texture:file = @./image.exr@"
+    prims = floorLights.light("DomeLight", text, place="") + '''    def LightFilter "filter"
+    {
+        uniform token lightFilter:shaderId = "PxrIntMultLightFilter"
+        float inputs:intensity = 0.25
+    }
+'''
     images = []
-    for name, contents in (("filtered", text), ("bare", text.replace("rel light:filters", "custom rel unused"))):
-        stage, image, said = (tmp_path / f"{name}.{ending}" for ending in ("usda", "exr", "json"))
-        stage.write_text(contents)
-        inProcess.record(stage, image, "--backend", "raster", "--imageWidth", 16, "--samples", 2, f"--json={said}")
-        images.append(inProcess.pixels(image))
+    bare = prims.replace("rel light:filters", "custom rel no")
+    for name, contents in (("filtered", floorLights.STAGE % prims), ("bare", floorLights.STAGE % bare)):
+        image, said = tmp_path / f"{name}.exr", tmp_path / f"{name}.json"
+        inProcess.record(floorLights.write(tmp_path, contents), image, "--backend", "raster", "--imageWidth", 16,
+                         "--samples", 2, "--method", f"domeLight={method}", f"--json={said}")
+        images.append(inProcess.pixels(image)[8:])  # the floor, without the sky
         warned = {w["prim"] for w in json.loads(said.read_text())["warnings"]
-                  if "not applied by the rasterizer" in w["message"]}
-        assert warned == ({"/World/spot", "/World/ramped"} if name == "filtered" else set())
+                  if "do not change what the method" in w["message"]}
+        assert warned == (set() if filtered or name == "bare" else {"/World/light"})
+    assert images[0].mean() == pytest.approx((0.25 if filtered else 1.0) * images[1].mean(), rel=1e-3)
+
+
+def _as_without(tmp_path, name, feature, plain, words):
+    """The rasterizer draws a test scene as the same stage without a feature, and its warnings have these words."""
+    with open(inProcess.scene(name), encoding="utf-8") as file:
+        text = file.read().replace("@textures/", "@" + os.path.join(inProcess.SCENES, "textures/"))
+    assert feature in text
+    images = []
+    for kind, contents in (("whole", text), ("plain", text.replace(feature, plain))):
+        stage = tmp_path / f"{kind}.usda"
+        stage.write_text(contents)
+        drawn = inProcess.Stage(stage, "--backend", "raster", "--imageWidth", 16, "--samples", 1)
+        images.append(drawn.image(0))
+        assert any(words in warning for warning in drawn.warnings()) == (kind == "whole")
     assert np.array_equal(*images)
+
+
+def test_cameras_of_other_projections_are_plain(tmp_path):
+    _as_without(tmp_path, "fisheye", "token patina:projection", "custom token no", "patina:projection")
+
+
+def test_catchers_are_plain(tmp_path):
+    _as_without(tmp_path, "catchers", "Catcher = 1", "Catcher = 0", "catcher")
 
 
 def test_every_feature_has_its_test():

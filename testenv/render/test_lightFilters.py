@@ -3,6 +3,7 @@
 import json
 import math
 
+import numpy as np
 import pytest
 
 from lightStages import DOWN, STAGE, light
@@ -90,11 +91,99 @@ def test_rod(tmp_path, unfiltered, lines, place, share):
     (['token inputs:rampType = "spherical"', "float inputs:beginDist = 0", "float inputs:endDist = 4"], 0.75),
     (["int inputs:rampType = 1", "float inputs:beginDist = 0", "float inputs:endDist = 2"], 0.5),
     (["int inputs:rampType = 3", "float inputs:beginDist = 0", "float inputs:endDist = 20"], 1.0),
+    (["float inputs:beginDist = 1", "float inputs:endDist = 1"], 0.0),  # a step: the light is beyond it
+    (["float inputs:beginDist = 3", "float inputs:endDist = 3"], 1.0),
 ])
 def test_ramp(tmp_path, unfiltered, lines, share):
     found = floor(tmp_path, lamp(), filter_text("PxrRampLightFilter", lines))
     # The camera's pixels are up to 0.02 away from the origin.
-    assert found == pytest.approx(share * unfiltered, rel=2e-3)
+    assert found == pytest.approx(share * unfiltered, rel=2e-3, abs=1e-6)
+
+
+@pytest.fixture
+def quarters(tmp_path):
+    """An image of four texels: the rows are 0.25 and 0.5, then 0.75 and 1."""
+    import _patina
+
+    values = np.repeat(np.float32([[0.25, 0.5], [0.75, 1.0]])[..., None], 3, axis=2)
+    _patina.write_image(str(tmp_path / "quarters.exr"), values, ["R", "G", "B"])
+
+
+MAP = "asset inputs:map = @./quarters.exr@"
+
+
+# The light crosses the image at the middle of a texel. The image lies flat with its top towards -z.
+@pytest.mark.parametrize("kind", ["PxrGoboLightFilter", "PxrCookieLightFilter"])
+@pytest.mark.parametrize("lines, place, share", [
+    ([], (0.25, 1, 0.25), 0.25),  # the image lies to the right and near: its top left
+    ([], (-0.25, 1, 0.25), 0.5),
+    ([], (0.25, 1, -0.25), 0.75),
+    ([], (-0.25, 1, -0.25), 1.0),
+    ([], (0, 1, 0), 0.625),  # between all four
+    ([], (2, 1, 0), 0.0),  # beside it: the fill colour
+    (["color3f inputs:fillColor = (0.125, 0.125, 0.125)"], (2, 1, 0), 0.125),
+    (["color3f inputs:fillColor = (0.125, 0.125, 0.125)"], (0, 3, 0), 0.125),  # behind: the way does not cross it
+    (["int inputs:tileMode = 1"], (2, 1, 0.25), 0.25),  # its edge goes on
+    (["int inputs:tileMode = 2"], (2.25, 1, 0.25), 0.25),  # it repeats
+    (["int inputs:tileMode = 2"], (0, 3, 0), 1.0),
+    (["bool inputs:invert = 1"], (0.25, 1, 0.25), 0.75),
+    (["float inputs:density = 0.5"], (0.25, 1, 0.25), 0.625),
+    (["float inputs:intensity = 3", "color3f inputs:fillColor = (0.125, 0.125, 0.125)"], (2, 1, 0), 0.375),
+    (["float inputs:scaleU = 2", "float inputs:width = 0.5"], (0.25, 1, 0.25), 0.25),
+    (["float inputs:offsetU = 0.5"], (-0.25, 1, 0.25), 0.25),  # moved by a half to the right
+    (["float inputs:offsetV = 0.5", "int inputs:tileMode = 2"], (0.25, 1, 0.25), 0.75),
+])
+def test_image(tmp_path, unfiltered, quarters, kind, lines, place, share):
+    found = floor(tmp_path, lamp(), filter_text(kind, [MAP, *lines], place))
+    # The camera's pixels are up to 0.02 away from the origin: the image changes by 0.01 there.
+    assert found == pytest.approx(share * unfiltered, rel=5e-3, abs=float(0.01 * unfiltered))
+
+
+MESH = """def Mesh "light" (
+    prepend apiSchemas = ["MeshLightAPI"]
+)
+{
+    float inputs:intensity = 2
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)]
+    uniform token subdivisionScheme = "none"
+    %s
+}
+"""
+
+
+@pytest.mark.parametrize("kind, lines, place, share, tolerance", [
+    ("PxrIntMultLightFilter", ["float inputs:intensity = 0.25"], (0, 1, 0), 0.25, 1e-4),
+    # An opening whose side stands over the middle of the light hides half of it, as of a rect.
+    ("PxrBarnLightFilter", ["float inputs:width = 4", "float inputs:height = 8", "float inputs:radius = 0"], (2, 1, 0), 0.5,
+     0.02),
+])
+def test_mesh_light(tmp_path, kind, lines, place, share, tolerance):
+    whole = floor(tmp_path, MESH % "", samples=256)
+    found = floor(tmp_path, MESH % "rel light:filters = </filter>", filter_text(kind, lines, place), samples=256)
+    assert found == pytest.approx(share * whole, rel=tolerance)
+
+
+def test_filters_of_a_mesh_light_leave_its_glow(tmp_path):
+    """materialSyncMode independent: the light is filtered, and the glow of the material beside it is not."""
+    glow = '''def Material "glow"
+{
+    token outputs:surface.connect = </glow/surface.outputs:surface>
+    def Shader "surface"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:emissiveColor = (1, 1, 1)
+        color3f inputs:diffuseColor = (0, 0, 0)
+        token outputs:surface
+    }
+}
+'''
+    none = filter_text("PxrIntMultLightFilter", ["float inputs:intensity = 0"])
+    bound = 'token light:materialSyncMode = "independent"\n    rel light:filters = %s\n    rel material:binding = </glow>'
+    mesh = MESH.replace('["MeshLightAPI"]', '["MeshLightAPI", "MaterialBindingAPI"]')
+    filtered, whole = (floor(tmp_path, mesh % (bound % target) + glow, none, samples=256) for target in ("</filter>", "None"))
+    assert filtered == pytest.approx(whole / 3, rel=0.02)  # the glow is 1, the light 2
 
 
 def test_multiplier_and_order(tmp_path, unfiltered):

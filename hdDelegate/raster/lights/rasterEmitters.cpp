@@ -219,9 +219,19 @@ float RasterEmitters::brightness(const Source& source, unsigned triangle, bool c
 void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t subset,
                          const std::shared_ptr<const MaterialProgram>& program,
                          const RasterMeshLight& light, const mat4& toWorld, int category,
-                         bool closed, const vec3& origin, const std::vector<InstanceStep>& steps) {
+                         bool closed, const vec3& origin, const std::vector<InstanceStep>& steps,
+                         size_t place) {
     Source source;
     source.glows = program->hasEmission();
+    if (source.glows && light.mode == RasterMeshLight::Independent && !light.filtered.empty()) {
+        // Filters change the light, and not the glow beside it.
+        RasterMeshLight part = light;
+        part.mode = RasterMeshLight::NoMaterialResponse;
+        add(mesh, subset, program, part, toWorld, category, closed, origin, steps, place);
+        part = RasterMeshLight();
+        add(mesh, subset, program, part, toWorld, category, closed, origin, steps, place);
+        return;
+    }
     if (!source.glows && light.mode == RasterMeshLight::NoLight) return;
     const bool usesGlow = source.glows && light.mode != RasterMeshLight::NoMaterialResponse;
     const bool constant = !usesGlow || program->code().emissionCode.empty();
@@ -244,6 +254,7 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
         source.glows && !closed &&
         (light.mode == RasterMeshLight::NoLight || light.mode == RasterMeshLight::Independent);
     source.category = category;
+    source.place = place;
     // Their areas, too.
     std::vector<std::pair<unsigned, float>> candidates;
     for (size_t t = 0; t < mesh->triangles.size(); ++t) {
@@ -363,6 +374,9 @@ RasterEmitter RasterEmitters::choose(float u, float& within, float& chance) cons
     chance = float(own / _sums.back());
     RasterEmitter out = emitterOf(_sources[size_t(_glowing[i].source)], _glowing[i].triangle);
     out.source = _glowing[i].source;
+    const Source& source = _sources[size_t(out.source)];
+    if (!source.light.filtered.empty()) out.filtered = &source.light.filtered;
+    out.place = source.place;
     return out;
 }
 

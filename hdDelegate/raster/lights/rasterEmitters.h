@@ -14,7 +14,7 @@ struct RasterMeshLight {
     enum Mode { NoLight, GlowTintsLight, Independent, NoMaterialResponse };
     Mode mode = NoLight; ///< materialSyncMode of UsdLux, for the shader
     vec3 radiance{0.0f};
-    std::string lightLink;
+    std::string filtered; ///< its path, where it has light filters
 };
 
 /// A triangle that gives light, world space.
@@ -26,6 +26,8 @@ struct RasterEmitter {
     int category = -1;     ///< that is lit; -1: everything
     unsigned triangle = 0; ///< of the mesh of its source
     int source = 0;
+    const std::string* filtered = nullptr; ///< the path of a mesh light that has filters
+    size_t place = 0;                      ///< of its group
 };
 
 /// The light that one place of a triangle gives.
@@ -56,10 +58,11 @@ public:
     /// @param closed no light from inside gets out: of tubes, whose maps show strips alone
     /// @param origin that `toWorld` is relative to
     /// @param steps instances around the place, whose values stand in for primvars
+    /// @param place of the mesh's group
     void add(const std::shared_ptr<const TriangleMesh>& mesh, size_t subset,
              const std::shared_ptr<const MaterialProgram>& program, const RasterMeshLight& light,
              const mat4& toWorld, int category, bool closed, const vec3& origin,
-             const std::vector<InstanceStep>& steps);
+             const std::vector<InstanceStep>& steps, size_t place);
     bool empty() const { return _glowing.empty(); }
 
     /// @returns a triangle; `within` a number in [0,1) that is left of u, `chance` the probability
@@ -86,6 +89,7 @@ private:
         bool sides = false;                     ///< one side may give other light than the other
         bool twoSided = true, mirrored = false; ///< of its triangles, as category
         int category = -1;
+        size_t place = 0;
     };
     /// The kept values of a triangle; the rest is in the mesh.
     struct Glowing {

@@ -25,6 +25,10 @@ struct GpuLight {
     void set(int flag, bool on = true) {
         flags = on ? flags | flag : flags & ~flag;
     }
+    /// @param first of its filters in the tables; -1: it has none
+    void setFilters(int first) {
+        flags |= (first + 1) << shLights::LIGHT_FILTERS_SHIFT;
+    }
     void samplePlace(const glm::vec3& place) {
         sampled = place;
         set(shLights::LIGHT_AT_PLACE);

@@ -28,7 +28,11 @@ public:
 
     void addDome(const EnvironmentMap* map); ///< null: the same from everywhere
     void addArea(const Light& light);
-    /// Volumes and what transmits look at samples of domes: nothing else may be chosen.
+    /// Some light has filters, which programs then take in.
+    void needFilters() { _needsFilters = true; }
+    bool needsFilters() const { return _needsFilters; }
+    /// Volumes and what transmits look at samples of domes, and so does what filters change:
+    /// nothing else may be chosen.
     void needSamples() { _needsSamples = true; }
 
     /// @param material as planned, without walks
@@ -48,7 +52,7 @@ private:
     Option areas(const MethodPlan& material, const std::string& method, bool& measured) const;
 
     double _peak = 0.0;
-    bool _hasDome = false, _needsSamples = false;
+    bool _hasDome = false, _needsSamples = false, _needsFilters = false;
     std::set<std::string> _areas; ///< the shapes, as rows name them
 };
 

@@ -243,6 +243,7 @@ void RasterLights::takeEmitters(uint32_t pass, int samples, const RasterEmitters
         g.set(shLights::LIGHT_TWO_SIDED, e.twoSided);
         g.weight = 1.0f / float(samples);
         g.category = e.category;
+        if (e.filtered) g.setFilters(_filters.ofMesh(*e.filtered, e.place));
         if (_shadows) castShadow(g, -1, turn, bounds, maximum, out);
         out.lights.push_back(g);
     }

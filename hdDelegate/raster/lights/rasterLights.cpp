@@ -32,21 +32,34 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
         for (const auto& item : state.lights) {
             const Light& light = *item.second;
             if (!light.visible) continue;
-            if (!light.filters.empty())
-                diagnostics.warn(light.path, "light:filters",
-                                 "light filters are not applied by the rasterizer");
-            if (light.type == LightType::Mesh) continue; // see RasterEmitters
+            if (light.type == LightType::Mesh) { // see RasterEmitters
+                _filters.addMesh(light, places.places(light.group), timeCode, images, _tables,
+                                 diagnostics);
+                continue;
+            }
+            tellOfDomeMethods(light, diagnostics);
             for (const RasterPlace& place : places.places(light.group))
                 add(light, mat4(place.groupToWorld * exactTransformAt(light.transform, timeCode)),
-                    settings, images, domes, links, diagnostics);
+                    _filters.add(light, place, timeCode, images, _tables, diagnostics), settings,
+                    images, domes, links, diagnostics);
         }
     _tables.upload(maxTables);
     domes.upload(_domeMethods.count("prefiltered") > 0);
 }
 
-void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSettings& settings,
-                       LightImages& images, RasterDomes& domes, const LinkNames& links,
-                       Diagnostics& diagnostics) {
+/// Harmonics and prefiltered maps are of a sky that is the same at every point.
+void RasterLights::tellOfDomeMethods(const Light& light, Diagnostics& diagnostics) const {
+    if (light.type != LightType::Dome || light.filters.empty()) return;
+    for (const char* method : {"prefiltered", "harmonics", "harmonicsUnwindowed"})
+        if (_domeMethods.count(method) > 0)
+            diagnostics.warn(light.path, "light:filters",
+                             std::string("light filters do not change what the method ") + method +
+                                 " of domeLight makes of a dome");
+}
+
+void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
+                       const RenderSettings& settings, LightImages& images, RasterDomes& domes,
+                       const LinkNames& links, Diagnostics& diagnostics) {
     const ResolvedLight is = resolveLight(light, toWorld, diagnostics);
     if (is.kind == ResolvedLight::Kind::None) return;
     const LightPose pose = lightPose(light, is.kind, toWorld, nullptr);
@@ -111,6 +124,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
     g.specular = light.specular;
     g.set(shLights::LIGHT_IS_SEEN, cameraVisible && !s.delta);
     g.set(shLights::LIGHT_IS_DELTA, s.delta);
+    g.setFilters(filters);
     _sources.push_back(s);
     if (light.type == LightType::Dome && s.sunIrradiance != vec3(0.0f)) {
         Source sun = s;

@@ -6,6 +6,7 @@
 #include "hdDelegate/raster/lights/rasterDomes.h"
 #include "hdDelegate/raster/lights/rasterEmitters.h"
 #include "hdDelegate/raster/lights/rasterLight.h"
+#include "hdDelegate/raster/lights/rasterLightFilters.h"
 #include "hdDelegate/raster/lights/rasterLightTables.h"
 #include "hdDelegate/raster/scene/rasterInstances.h"
 
@@ -80,6 +81,7 @@ public:
     /// Pixels may be negative.
     bool takeAway() const { return _takeAway; }
     const RasterLightTables& tables() const { return _tables; }
+    const RasterLightFilters& filters() const { return _filters; }
     static constexpr int maxTables = ///< values of a pass in tables
         maxCoarseSamples * RasterEmission::maxValues;
 
@@ -108,9 +110,11 @@ private:
         const RectImage* image = nullptr;
     };
 
-    void add(const Light& light, const mat4& toWorld, const RenderSettings& settings,
+    /// @param filters of it in the tables; -1: it has none
+    void add(const Light& light, const mat4& toWorld, int filters, const RenderSettings& settings,
              LightImages& images, RasterDomes& domes, const LinkNames& links,
              Diagnostics& diagnostics);
+    void tellOfDomeMethods(const Light& light, Diagnostics& diagnostics) const;
     void addDome(Source& source, const Light& light, LightImages& images, RasterDomes& domes);
     void addShape(Source& source, const Light& light, LightImages& images);
     /// @param u in the unit cube; the third number is for sphere lights
@@ -137,6 +141,7 @@ private:
                  int maximum, Sampled& out) const;
 
     RasterLightTables _tables;
+    RasterLightFilters _filters;
     std::vector<Source> _sources;
     std::set<std::string> _domeMethods;
     int _domeSamples = 1; ///< 0: no material looks at samples of domes

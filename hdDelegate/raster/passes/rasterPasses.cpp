@@ -111,8 +111,8 @@ static bool isDrawnByDepth(const RasterDraw& d) {
            !d.material->glsl.transmits;
 }
 
-void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& visible,
-                                Which which) const {
+void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which,
+                                const RasterLightFilters* filters) const {
     const bool aovs = which == AllForAovs;
     scene.bind(_vertexArray);
     const GlProgram* last = nullptr;
@@ -146,6 +146,7 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
         if (!aovs && which != ColoredPresence) {
             const vec3& l = d.meshLight.radiance;
             gl.Uniform4f(7, l.x, l.y, l.z, float(d.meshLight.mode));
+            gl.Uniform1i(13, filters ? filters->tableOfMesh(d.meshLight.filtered) : -1);
         }
         const bool known = which == Solid && isDrawnByDepth(d);
         if (known) gl.DepthFunc(GL_LEQUAL);
@@ -224,7 +225,8 @@ void RasterPasses::drawVolumes(const RasterScene& scene) {
 }
 
 /// Over what is drawn already.
-void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisible& visible) {
+void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisible& visible,
+                                    const RasterLightFilters& filters) {
     const auto transmits = [](const RasterDraw& d) { return d.material->glsl.transmits; };
     if (std::none_of(scene.draws().begin(), scene.draws().end(), transmits)) return;
     needRefraction();
@@ -237,7 +239,7 @@ void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisibl
     }
     _look->target().bind();
     _refraction->bind();
-    drawSurfaces(scene, visible, Transmitting);
+    drawSurfaces(scene, visible, Transmitting, &filters);
 }
 
 void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
@@ -350,11 +352,11 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
         const Clipping clipping(view);
         drawDepths(scene, visible);
         _look->target().bind();
-        drawSurfaces(scene, visible, Solid);
+        drawSurfaces(scene, visible, Solid, &lights.filters());
     }
     {
         const Clipping clipping(view);
-        drawTransmitting(scene, visible);
+        drawTransmitting(scene, visible, lights.filters());
     }
     if (look) _look->smooth();
     {

@@ -89,9 +89,12 @@ private:
     void drawCasters(const RasterScene& scene, const ShadowView& view, const GlTexture& maps,
                      int layer, const GlTexture* slopes = nullptr) const;
     enum Which { AllForAovs, Solid, Transmitting, ColoredPresence };
-    void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which) const;
+    /// @param filters of mesh lights; null where nothing is lit
+    void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which,
+                      const RasterLightFilters* filters = nullptr) const;
     void drawDepths(const RasterScene& scene, const RasterVisible& visible) const;
-    void drawTransmitting(const RasterScene& scene, const RasterVisible& visible);
+    void drawTransmitting(const RasterScene& scene, const RasterVisible& visible,
+                          const RasterLightFilters& filters);
     void drawVolumes(const RasterScene& scene);
     void needRefraction();
     void drawImage(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,

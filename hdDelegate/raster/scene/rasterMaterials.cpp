@@ -233,8 +233,9 @@ bool RasterMaterials::light(Cached& cached, const RenderSettings& settings) {
     }
     _domeMethods.insert(dome);
     const std::string text = lightingText(dome, area);
-    const bool changed = text != cached.lighting;
+    const bool changed = text != cached.lighting || cached.filtered != _lights.needsFilters();
     cached.lighting = text;
+    cached.filtered = _lights.needsFilters();
     return changed;
 }
 
@@ -283,6 +284,7 @@ std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial
                                                               const std::string& user) {
     const bool faulty = !user.empty() && glFault("material") == user;
     const std::string head = "#define PRIMVARS " + std::to_string(primvars) + "\n" +
+                             (_lights.needsFilters() ? "#define LIGHT_FILTERS\n" : "") +
                              (glsl.presence ? "#define PRESENCE\n" : "") +
                              "#define MATERIAL_GLOWS " + (glsl.emission ? "true\n" : "false\n") +
                              (glsl.transmits ? "#define MATERIAL_TRANSMITS\n" : "") +

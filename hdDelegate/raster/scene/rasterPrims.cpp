@@ -198,6 +198,7 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
             draw.meshLight.radiance /= std::max(
                 areaOf(*_groups[firstGroup].shape->mesh, mat4(places[0].groupToWorld * toGroup)),
                 1e-30f);
+        if (!light.filters.empty()) draw.meshLight.filtered = light.path;
         lit = _parts.links->of(light.lightLink);
     }
     for (size_t g = firstGroup; g < _groups.size(); ++g) {
@@ -211,7 +212,8 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
                 for (const uint32_t i : group.places)
                     _emitters.add(group.shape->mesh, subset, draw.material->program, draw.meshLight,
                                   mat4(places[i].groupToWorld * toGroup), lit,
-                                  (draw.flags & RasterShape::tube) != 0, _origin, places[i].steps);
+                                  (draw.flags & RasterShape::tube) != 0, _origin, places[i].steps,
+                                  i);
             draw.subset = int(subset);
             draw.show(*group.shape);
             if (draw.surface->triangles == 0) continue;

@@ -99,6 +99,7 @@ _ROWS = (
      "render the lights of negative intensity and the others as two images, and denoise each"),
     (r"mesh light|names no mesh", "apply MeshLightAPI to a Mesh, which gives the light its shape"),
     (r"cannot be used, the light", "correct the light's collections `lightLink` and `shadowLink`"),
+    (r"light filters do not change", "take `--method domeLight=sampled` or `filtered`, or no method"),
     (r"light is off|no size|not evaluated",
      "author the value on the light itself, as an input of UsdLux: nothing else of a light is evaluated"),
     # Materials.

@@ -26,7 +26,6 @@ _ROWS = (
      "install the schema of that type, or name the type as `lightFilter:shaderId` of a LightFilter"),
     (r"filter is left out|unknown type '…'", "correct the light's `light:filters`: its targets are light filters of a "
      "type that [lights](../design/lights.md#filters) lists"),
-    (r"applied to mesh lights", "take the filter away, or use a light of UsdLux that is no mesh"),
     (r"ramp whose knots", "write the ramp's knots in ascending order, and a value for each"),
     (r"is no PortalLight", "correct the dome's `portals`: its targets are PortalLights"),
     (r"nothing of the sky", "give the PortalLight a size above 0, and turn its -z axis away from the sky that it lets in"),

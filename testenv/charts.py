@@ -5,9 +5,9 @@
     charts.py [--out FOLDER] [--only KIND]... [--quick]
     charts.py --redraw           draws those that have a table anew, from the table: nothing is measured
 
-Kinds are those of `patina chart`: lobes, scenes, stability, predictions. Each runs in a process of its own; of what it writes
-the files named below go to the folder (default: docs/charts). --quick takes small pictures and few samples, to see whether it
-all works. The whole takes about an hour on two cores.
+Kinds are those of `patina chart`: lobes, scenes, stability, predictions; and features, of `patina bench`. Each runs in a
+process of its own; of what it writes the files named below go to the folder (default: docs/charts). --quick takes small
+pictures and few samples, to see whether it all works. The whole takes about an hour on two cores.
 """
 import argparse
 import glob
@@ -55,6 +55,8 @@ KINDS = {
                     ["--predictions", f"testenv/scenes/{SCENES[0]}.usda", "--backend", "embree", "--imageWidth", "8",
                      "--tolerances", "0.5", "--methodSamples", "4", "--seconds", "1", "--quiet"],
                     ["predictions.csv"]),
+    "features": ([["bench", "features"]], ["bench", "features", "--only", "filters", "--width", "8", "--reference", "16"],
+                 ["features.csv", "feature_*.svg"]),
     "stability": ([["--stability"]], ["--stability", "--points", "6"], ["stability.svg"]),
 }
 LARGEST = 1 << 20  # bytes: documents show the folder
@@ -66,8 +68,10 @@ def run(kind, folder, quick):
     written = {}  # name -> path
     for arguments in [small] if quick else commands:
         with tempfile.TemporaryDirectory() as made:
-            command = [sys.executable, "-m", "patina", "chart", *arguments, "--out", made]
-            print("patina chart", *command[4:-2], flush=True)
+            bench = arguments[0] == "bench"
+            command = [sys.executable, "-m", "patina", *([] if bench else ["chart"]), *arguments,
+                       "--charts" if bench else "--out", made]
+            print("patina", *command[3:-2], flush=True)
             found = subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
             if found.returncode != 0:
                 sys.exit(f"{kind}: {found.stderr.strip()}")
@@ -83,7 +87,7 @@ def run(kind, folder, quick):
 
 
 def redraw(folder):
-    """:returns: paths of the charts of scenes and lobes, drawn from their tables"""
+    """:returns: paths of the charts of scenes, lobes and features, drawn from their tables"""
     import csv
     from patina.chart import lobes, sceneCharts, sceneResults
 
@@ -92,7 +96,11 @@ def redraw(folder):
         with open(os.path.join(folder, "lobes.csv"), encoding="utf-8", newline="") as file:
             rows = [dict(row, ns=float(row["ns"]), mean=float(row["mean"])) for row in csv.DictReader(file)]
         lobes.write_charts(rows, made)
-        return [shutil.copy(path, folder) for kind in ("scenes", "lobes") for pattern in KINDS[kind][2]
+        sys.path.append(os.path.join(ROOT, "testenv", "bench"))
+        import featureBench
+
+        featureBench.draw(featureBench.read(os.path.join(folder, "features.csv")), made)
+        return [shutil.copy(path, folder) for kind in ("scenes", "lobes", "features") for pattern in KINDS[kind][2]
                 for path in sorted(glob.glob(os.path.join(made, pattern)))]
 
 

@@ -234,8 +234,7 @@ def Xform "World"
     assert shown[192] < 0.5 * shown[48]
 
 
-@pytest.mark.parametrize("method, filtered", [("sampled", True), ("filtered", True), ("prefiltered", False),
-                                              ("harmonics", False)])
+@pytest.mark.parametrize("method, filtered", [("filtered", True), ("harmonics", False)])
 def test_harmonics_know_no_light_filters(method, filtered, tmp_path):
     text = "        rel light:filters = </World/filter>\n        asset inputs:texture:file = @./image.exr@"
     prims = floorLights.light("DomeLight", text, place="") + '''    def LightFilter "filter"

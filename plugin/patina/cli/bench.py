@@ -16,6 +16,7 @@ from patina.cli.errors import CommandError, UsageError
 PASSES_ON = True
 # name -> (file of testenv/bench that has main(arguments), what it measures)
 BENCHMARKS = {
+    "features": ("featureBench.py", "features beside the renderer without them: processor time, and error over time as charts"),
     "hydra": ("hydraBench.py", "frames in Hydra: first, after a camera move, rays per second, memory; beside "
                                "hdEmbree and Storm"),
     "lobes": ("lobeBench.py", "what the lobes of a constant material cost at a vertex of a path; beside Mitsuba 3"),

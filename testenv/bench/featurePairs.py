@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Stages with a feature and without it, for `patina bench features`: text of stages, and arguments of `patina record`."""
+import dataclasses
+import os
+
+SCENES = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scenes"))
+
+
+@dataclasses.dataclass(frozen=True)
+class Variant:
+    text: str
+    arguments: tuple = ()
+
+
+@dataclasses.dataclass(frozen=True)
+class Pair:
+    """`with_` has the feature, `without` has not; nothing else differs."""
+    with_: Variant
+    without: Variant
+    samples: int = 64
+
+
+def scene(name):
+    with open(os.path.join(SCENES, name + ".usda"), encoding="utf-8") as file:
+        return file.read().replace("@textures/", f"@{SCENES}/textures/").replace("@./textures/", f"@{SCENES}/textures/")
+
+
+def swapped(text, old, new):
+    assert old in text, f"the stage has no '{old}'"
+    return text.replace(old, new)
+
+
+def _without_filters(text):
+    return swapped(text, "rel light:filters", "custom rel unused")
+
+
+def costs():
+    """:returns: dict: name of a feature -> Pair"""
+    instances, values, caught = scene("instances"), scene("instanceValues"), scene("catchers")
+    filters, lens, negative = scene("lightFilters"), scene("depthOfField"), scene("lightNegative")
+    blades = swapped(lens, "float focalLength", "custom int patina:apertureBlades = 6\n        float focalLength")
+    bent = swapped(lens, "float focalLength", "custom float patina:distortionK1 = 1e-6\n        float focalLength")
+    crypto = tuple(f"--aov={name}" for name in ("cryptoObject", "cryptoMaterial", "cryptoAsset"))
+    raster = ("--backend", "raster")
+    return {
+        "Cryptomatte, three of them": Pair(Variant(instances, crypto), Variant(instances)),
+        "values per instance": Pair(Variant(values), Variant(swapped(swapped(values, "primvars:tint", "primvars:other"),
+                                                                     "primvars:shine", "primvars:others"))),
+        "catchers": Pair(Variant(caught), Variant(swapped(swapped(caught, "shadowCatcher = 1", "shadowCatcher = 0"),
+                                                          "reflectionCatcher = 1", "reflectionCatcher = 0"))),
+        "light filters": Pair(Variant(filters), Variant(_without_filters(filters))),
+        "light filters, rasterizer": Pair(Variant(filters, raster), Variant(_without_filters(filters), raster), 16),
+        "negative lights": Pair(Variant(negative), Variant(swapped(negative, "intensity = -20", "intensity = 20"))),
+        "a lens of six blades": Pair(Variant(blades), Variant(lens)),
+        "distortion of a lens": Pair(Variant(bent), Variant(lens)),
+    }
+
+
+FLOOR = """#usda 1.0
+(
+    upAxis = "Y"
+)
+def Camera "camera"
+{
+    float2 clippingRange = (0.01, 1000)
+    float focalLength = 24
+    float horizontalAperture = 20.955
+    float verticalAperture = 20.955
+    double3 xformOp:translate = (0, 0.9, 2.4)
+    float3 xformOp:rotateXYZ = (-20, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
+def Mesh "floor"
+{
+    color3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-4, 0, 4), (4, 0, 4), (4, 0, -4), (-4, 0, -4)]
+    uniform token subdivisionScheme = "none"
+}
+"""
+LAMP = """def SphereLight "lamp"
+{
+    float inputs:intensity = 300
+    float inputs:radius = 0.15
+    double3 xformOp:translate = (0, 2.4, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+%s}
+"""
+BARN = """def LightFilter "opening"
+{
+    uniform token lightFilter:shaderId = "PxrBarnLightFilter"
+    float inputs:width = 1
+    float inputs:height = 0.5
+    float inputs:radius = 0
+    double3 xformOp:translate = (0, 1.8, 0)
+    float3 xformOp:rotateXYZ = (-90, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
+"""
+
+
+def _cards():
+    """A sheet about the same opening: black, so that nothing but light through the opening reaches the floor."""
+    wide, across, along, up = 40.0, 0.5, 0.25, 1.8
+    parts = ((-wide, -across, -wide, wide), (across, wide, -wide, wide), (-across, across, -wide, -along),
+             (-across, across, along, wide))
+    out = ""
+    for i, (left, right, near, far) in enumerate(parts):
+        out += f"""def Mesh "card{i}"
+{{
+    color3f[] primvars:displayColor = [(0, 0, 0)]
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [({left}, {up}, {near}), ({left}, {up}, {far}), ({right}, {up}, {far}), ({right}, {up}, {near})]
+    uniform token subdivisionScheme = "none"
+}}
+"""
+    return out
+
+
+MANY = 24  # balls along a side
+PAINT = """def Material "paint"
+{
+    token outputs:surface.connect = </paint/surface.outputs:surface>
+    def Shader "surface"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor.connect = </paint/tint.outputs:result>
+        token outputs:surface
+    }
+    def Shader "tint"
+    {
+        uniform token info:id = "UsdPrimvarReader_float3"
+        string inputs:varname = "tint"
+        float3 outputs:result
+    }
+}
+"""
+SKY = 'def DomeLight "sky"\n{\n    float inputs:intensity = 1\n}\n'
+BALL = """{{
+    uniform token subdivisionScheme = "catmullClark"
+    int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
+    int[] faceVertexIndices = [0, 1, 3, 2, 2, 3, 5, 4, 4, 5, 7, 6, 6, 7, 1, 0, 1, 7, 5, 3, 6, 0, 2, 4]
+    point3f[] points = [(-.1, 0, .1), (.1, 0, .1), (-.1, .2, .1), (.1, .2, .1), (-.1, .2, -.1), (.1, .2, -.1), (-.1, 0, -.1),
+                        (.1, 0, -.1)]
+    rel material:binding = </paint>
+{more}}}
+"""
+
+
+def _places():
+    for i in range(MANY):
+        for k in range(MANY):
+            yield (0.16 * (i - MANY / 2), 0.0, 0.16 * (k - MANY / 2) - 0.6), (0.2 + 0.7 * i / MANY, 0.5, 0.2 + 0.7 * k / MANY)
+
+
+def _instanced():
+    places, tints = zip(*_places())
+    ball = BALL.format(more="").replace("\n", "\n    ")
+    return f"""def PointInstancer "balls"
+{{
+    point3f[] positions = {list(places)}
+    color3f[] primvars:tint = {list(tints)} (
+        interpolation = "vertex"
+    )
+    int[] protoIndices = {[0] * len(places)}
+    rel prototypes = </balls/ball>
+    def Mesh "ball" (
+        prepend apiSchemas = ["MaterialBindingAPI"]
+    )
+    {ball}}}
+"""
+
+
+def _copied():
+    out = ""
+    for i, (place, tint) in enumerate(_places()):
+        more = (f"    color3f[] primvars:tint = [{tint}]\n    double3 xformOp:translate = {place}\n"
+                '    uniform token[] xformOpOrder = ["xformOp:translate"]\n')
+        out += f'def Mesh "ball{i}" (\n    prepend apiSchemas = ["MaterialBindingAPI"]\n)\n{BALL.format(more=more)}'
+    return out
+
+
+@dataclasses.dataclass(frozen=True)
+class Curve:
+    """A chart: error over time of the renderer with the feature and without it."""
+    title: str
+    variants: dict  # name of a line -> Variant; the first has the feature and makes the reference
+    samples: tuple = (4, 16, 64)
+    reference: int = 1024
+    width: int = 48
+
+
+def curves():
+    """:returns: dict: name of a file -> Curve"""
+    portals, caustics = scene("portals"), scene("caustics")
+    return {
+        "feature_portals": Curve("A room with a window, lit by a dome", {
+            "with a portal": Variant(portals),
+            "without": Variant(swapped(portals, "rel portals", "custom rel unused"))}),
+        "feature_caustics": Curve("Glass under a small lamp", {
+            "photons": Variant(caustics, ("--method", "caustics=photons")),
+            "paths alone": Variant(caustics)}),
+        "feature_filters": Curve("A lamp over an opening", {
+            "barn doors": Variant(FLOOR + LAMP % "    rel light:filters = </opening>\n" + BARN),
+            "a sheet with a hole": Variant(FLOOR + LAMP % "" + _cards())}),
+        "feature_instances": Curve(f"{MANY * MANY} balls, each of its own colour", {
+            "values per instance": Variant(FLOOR + PAINT + SKY + _instanced()),
+            "a prim for each": Variant(FLOOR + PAINT + SKY + _copied())}),
+    }

@@ -121,9 +121,11 @@ export class PlanPanel {
             page.refresh();
             return this.say("The page draws with the methods of the plan.");
         }
+        const { albedo } = state.current.plan;
+        const more = (albedo && method.albedo ? `; in even light by ${percent(relative(albedo, method.albedo))}` : "") +
+            (method.error === null ? "" : `; predicted error ${short(method.error)}`);
         return this.measure(() => state.useMethod(null), () => state.useMethod({ point: choice.point, name: method.name }),
-                            `${choice.point} ${method.name} instead of ${choice.method}`,
-                            method.error === null ? "" : `; predicted error ${short(method.error)}`);
+                            `${choice.point} ${method.name} instead of ${choice.method}`, more);
     }
 
     async drawCuts() {

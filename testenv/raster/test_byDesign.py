@@ -253,7 +253,11 @@ def test_harmonics_know_no_light_filters(method, filtered, tmp_path):
         warned = {w["prim"] for w in json.loads(said.read_text())["warnings"]
                   if "do not change what the method" in w["message"]}
         assert warned == (set() if filtered or name == "bare" else {"/World/light"})
-    assert images[0].mean() == pytest.approx((0.25 if filtered else 1.0) * images[1].mean(), rel=1e-3)
+    share = images[0].mean() / images[1].mean()
+    if filtered:
+        assert share == pytest.approx(0.25, rel=1e-3)
+    else:  # diffuse lobes are lit by the whole sky, and what is left of the others by samples, which filters change
+        assert 0.5 < share < 1.001
 
 
 def _as_without(tmp_path, name, feature, plain, words):
@@ -272,7 +276,7 @@ def _as_without(tmp_path, name, feature, plain, words):
 
 
 def test_cameras_of_other_projections_are_plain(tmp_path):
-    _as_without(tmp_path, "fisheye", "token patina:projection", "custom token no", "patina:projection")
+    _as_without(tmp_path, "fisheye", "token patina:projection", "custom token no", "rasterizer")
 
 
 def test_catchers_are_plain(tmp_path):

@@ -69,7 +69,7 @@ class SceneEdit:
         """
     def set_camera(self, path: str, **kwargs: typing.Any) -> None:
         """
-        A UsdGeomCamera; keywords are the fields of Camera. inputs: a dict of values by camera_input_names().
+        A UsdGeomCamera; keywords are the fields of Camera. inputs: a dictionary of values by camera_input_names().
         Keywords: transform, orthographic, horizontal_aperture, vertical_aperture, horizontal_aperture_offset, vertical_aperture_offset, focal_length, f_stop, focus_distance, clip_near, clip_far, clipping_planes, shutter_open, shutter_close, exposure_scale, inputs.
         """
     def set_curves(self, path: str, **kwargs: typing.Any) -> None:

@@ -198,7 +198,7 @@ void bindScene(py::module_& m) {
              "type, transform and light_filter_inputs(). portals: of path, "
              "transform, width and height.")
         .def("set_camera", &setCamera, py::arg("path"),
-             "A UsdGeomCamera; keywords are the fields of Camera. inputs: a dict of values by "
+             "A UsdGeomCamera; keywords are the fields of Camera. inputs: a dictionary of values by "
              "camera_input_names().")
         .def("set_material", &setMaterial, py::arg("path"), py::arg("network"),
              "A material; prims name it by its path.")

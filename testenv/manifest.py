@@ -169,6 +169,7 @@ COSTLY = (
     "testenv/raster/test_areaLights.py::test_outlines_keep_*",
     "testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]*",
     "testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last*",
+    "testenv/view/test_planPanel.py::test_a_method_changes_the_picture_as_its_albedo_says",
 )
 
 

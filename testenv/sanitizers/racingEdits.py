@@ -16,7 +16,7 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.normpath(os.path.join(HERE, "..", ".."))
-EDITS = 400  # of each thread in one run
+EDITS = 100  # of each thread in one run
 THREADS = 2  # that edit, see testEditsWhileRendering.cpp
 SECONDS = 900  # after which a run counts as hanging
 _REPORT = re.compile(r"WARNING: ThreadSanitizer: (.*?) \(pid=\d+\)(.*?)SUMMARY: ThreadSanitizer: (.*?)\n", re.DOTALL)

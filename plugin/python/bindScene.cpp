@@ -197,9 +197,10 @@ void bindScene(py::module_& m) {
              "A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, "
              "type, transform and light_filter_inputs(). portals: of path, "
              "transform, width and height.")
-        .def("set_camera", &setCamera, py::arg("path"),
-             "A UsdGeomCamera; keywords are the fields of Camera. inputs: a dictionary of values by "
-             "camera_input_names().")
+        .def(
+            "set_camera", &setCamera, py::arg("path"),
+            "A UsdGeomCamera; keywords are the fields of Camera. inputs: a dictionary of values by "
+            "camera_input_names().")
         .def("set_material", &setMaterial, py::arg("path"), py::arg("network"),
              "A material; prims name it by its path.")
         .def("set_meters_per_unit", &PythonEdit::setMetersPerUnit, py::arg("meters_per_unit"),

@@ -117,14 +117,18 @@ def _write_charts(options):
     print("\n".join(draw(rows, options.charts)))
 
 
-def main(arguments):
+def make_parser():
     parser = argparse.ArgumentParser(prog="patina bench features", description=__doc__)
     parser.add_argument("--charts", metavar="FOLDER", help="error over time as charts, with their table")
     parser.add_argument("--only", metavar="WORDS", help="features, or charts, whose name has these words")
     parser.add_argument("--width", type=int, help="of pictures, in pixels (64; of charts 48)")
     parser.add_argument("--reference", type=int, help="samples of the references of charts")
     parser.add_argument("--runs", type=int, default=RUNS)
-    options = parser.parse_args(arguments)
+    return parser
+
+
+def main(arguments):
+    options = make_parser().parse_args(arguments)
     if options.charts:
         _write_charts(options)
         return 0

@@ -304,17 +304,23 @@ def test_png_holds_the_pixels(tmp_path):
     assert back.shape == (5, 7, 3) and np.abs(back - shown).max() <= 0.5 / 255 + 1e-6
 
 
-def test_the_projects_own_charts():
+def test_the_projects_own_charts(monkeypatch):
     """Every kind of chart is regenerated, by flags that the command has."""
     path = os.path.join(os.path.dirname(__file__), "..", "charts.py")
     spec = importlib.util.spec_from_file_location("charts", path)
     charts = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(charts)
-    assert set(charts.KINDS) == {"scenes", *chart.CHARTS}
+    assert set(charts.KINDS) == {"scenes", "features", *chart.CHARTS}
+    parser = argparse.ArgumentParser(exit_on_error=False)
+    chart.add_arguments(parser)
+    monkeypatch.syspath_prepend(os.path.join(charts.ROOT, "testenv", "bench"))
+    import featureBench
+
     for commands, quick, kept in charts.KINDS.values():
         for flags in (*commands, quick):
-            parser = argparse.ArgumentParser(exit_on_error=False)
-            chart.add_arguments(parser)
+            if flags[0] == "bench":
+                assert flags[1] == "features" and featureBench.make_parser().parse_args(flags[2:])
+                continue
             found = parser.parse_args(flags)
             assert all(os.path.exists(os.path.join(charts.ROOT, stage)) for stage in found.stages)
         assert kept

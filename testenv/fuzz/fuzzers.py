@@ -24,7 +24,7 @@ FUZZERS = {
                             ("plugin/patina/cli/main.py", "plugin/patina/cli/recordFlags.py",
                              "plugin/patina/cli/settingFlags.py", "plugin/patina/cli/errors.py")),
     "randomStages": Fuzzer("generated", "legal stages of all prim types with extreme values, rendered", 4, ()),
-    "bothBackEnds": Fuzzer("generated", "legal stages that both back ends draw, held together per tile", 4, ()),
+    "backEndPairs": Fuzzer("generated", "legal stages that both back ends draw, held together per tile", 4, ()),
     "materialDocuments": Fuzzer("generated", "legal MaterialX documents of all nodes, explained and evaluated", 2, ()),
     "edits": Fuzzer("generated", "random edits while an image is rendered", 2, ()),
     "commandLines": Fuzzer("generated", "every flag of the commands that read files", 2, ()),

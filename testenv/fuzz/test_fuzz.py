@@ -135,14 +135,14 @@ def test_long_words_leave_the_head_of_what_was_told(tmp_path):
 
 def test_back_ends_that_differ_are_told(hand):
     """Points under a scale that is not uniform are stretched by one back end alone, by design."""
-    import bothBackEnds
+    import backEndPairs
 
-    if bothBackEnds.inProcess.without_opengl():
-        pytest.skip(bothBackEnds.inProcess.without_opengl())
-    data = bothBackEnds.make(100)
+    if backEndPairs.inProcess.without_opengl():
+        pytest.skip(backEndPairs.inProcess.without_opengl())
+    data = backEndPairs.make(100)
     stretched = data.replace(b"scale = (0.6, 0.6, 0.6)", b"scale = (3, 0.3, 0.3)")
     assert stretched != data
-    kind, _, answer = generated.outcome(hand, bothBackEnds, stretched, ".usda")
+    kind, _, answer = generated.outcome(hand, backEndPairs, stretched, ".usda")
     assert kind == "promise" and "the back ends differ: " in answer["error"], answer
 
 

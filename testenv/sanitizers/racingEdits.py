@@ -14,6 +14,12 @@ import subprocess
 import sys
 import time
 
+if __name__ == "__main__":
+    sys.path.insert(0, os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")))
+    import checkout
+
+    checkout.enter()
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.normpath(os.path.join(HERE, "..", ".."))
 EDITS = 100  # of each thread in one run

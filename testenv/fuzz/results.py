@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The fuzzers' findings, by their own figures: testenv/fuzz/results.json, from which docs/trust.md is made. A run adds a row to
-its `runs`. The other lists are written by hand: `mended` (defects of Patina), `mistakes` (of the fuzzers), `known` (gaps)."""
+"""The fuzzers' findings, by their own figures: testenv/fuzz/results.json, from which docs/trust.md is made.
+
+A run adds a row to `runs`. The other lists are written by hand: `mended` (defects), `mistakes` (of the fuzzers), `known` (gaps)."""
 import json
 import os
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The fuzzers' findings, by their own figures: testenv/fuzz/results.json, from which docs/trust.md is made.
 
-A run adds a row to `runs`. The other lists are written by hand: `mended` (defects), `mistakes` (of the fuzzers), `known` (gaps)."""
+A run adds a row to `runs`. The other lists are written by hand: `mended` (defects), `mistakes` (of the fuzzers) and `known`
+(gaps)."""
 import json
 import os
 
@@ -23,7 +24,8 @@ KINDS = {
     "hang": "*hang*: the process did not end within its time limit.",
     "library": "*library*: another library failed, and fails without Patina too.",
     "memory": "*memory*: the process ran out of memory.",
-    "promise": "*promise*: a result breaks what Patina claims. An image holds NaN, say, an old image is lost, or back ends differ.",
+    "promise": "*promise*: a result breaks what Patina claims. An image holds NaN, say, an old image is lost, or back ends "
+               "differ.",
     "traceback": "*traceback*: an exception that the command had not foreseen.",
 }
 
@@ -93,17 +95,17 @@ def page():
     mistakes = [(f"`{item['fuzzer']}`", item["counted"], item["was"]) for item in table["mistakes"]]
     return ["# Trust, in figures", "",
             "Fuzzers try inputs that no user has tried yet, and look for crashes, hangs, memory without end, lost images and",
-            f"values that are no numbers. The runs below took {seconds / 3600:.1f} hours on two cores that other work shared, and tried",
-            f"{total:,} inputs. [SECURITY.md](../SECURITY.md) says what Patina claims, [limits](generated/limits.md) how much an",
-            "input may ask for.", "",
-            "`./patina fuzz NAME --results` runs a fuzzer, and adds a row to `testenv/fuzz/results.json`. This page is made from",
-            "that file.", "",
+            f"values that are no numbers. The runs below took {seconds / 3600:.1f} hours on two cores that other work",
+            f"shared, and tried {total:,} inputs. [SECURITY.md](../SECURITY.md) says what Patina claims,",
+            "[limits](generated/limits.md) how much an input may ask for.", "",
+            "`./patina fuzz NAME --results` runs a fuzzer, and adds a row to `testenv/fuzz/results.json`. This page is",
+            "made from that file.", "",
             "## Runs", "",
             "The columns after *inputs per second* count inputs, not causes. All other inputs gave a result, or ended with a",
             "message.", "",
             *(f"- {KINDS[kind]}" for kind in kinds), "",
             *_table(head, rows), "",
-            "A number above 0 is not an open defect. Each one belongs to a row of the next two tables.", "",
+            "The next two tables say what the numbers above 0 were.", "",
             "## Defects that were mended", "",
             *_table(("what was wrong", "found by", "test"), mended), "",
             "## Mistakes of the fuzzers", "",

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes a material in the words of another shading model, for programs that know only that one.
+"""Writes a material as another shading model, for programs that know only that one.
 
 Inputs that vary over the surface become textures over uv 0 to 1, the others stay values. OUT.usda
-gets one Material; the textures lie beside it. Patterns that read positions are baked as they are on
-a unit square in the xy plane; primvars other than texture coordinates as their defaults.
+gets one Material, and the textures are written beside it. Patterns that read positions are baked as on
+a unit square in the xy plane. Primvars other than texture coordinates have their defaults.
 
-Colours are written as 8 bit sRGB PNG or half float EXR, everything else as raw numbers. Normals are
-those of the tangent frame. Numbers beyond 1 need EXR.
+Colours are written as 8 bit sRGB PNG or half float EXR, everything else as raw numbers. Normals are in
+the tangent frame. Numbers above 1 need EXR.
 
-OUT.usda may not be a file that is read, unless --in-place is given: the material is then replaced in
-that file, and everything else in it stays.
+OUT.usda may not be a file that the command reads, unless --in-place is given. Then the material is
+replaced in that file, and everything else in it stays.
 """
 import os
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints numbers of a material: what it reflects and transmits, for given directions.
+"""Prints the light that a material reflects and transmits, for given directions, in numbers.
 
   eval     f (without the cosine) and the density with which wi would be sampled
   sample   directions wi, their weight f cos / pdf, and their density (for a mirror or clear glass
@@ -8,8 +8,8 @@
 
 Directions are unit vectors in the shading frame (z normal, x tangent) and point away from the
 surface; others are made unit vectors. With - for a direction, sets are read from standard input,
-one per line: wo and wi as six numbers for eval, wo for sample and albedo; where one of the two is
-given as a flag, the line holds the other alone.
+one per line: wo and wi as six numbers for eval, wo for sample and albedo. If a flag gives one of the
+two, the line holds only the other.
 
 Methods that walk (randomWalk, positionFree) have no formula: f is then the mean of 256 walks, an
 albedo that of 2048, and densities are estimates that weigh strategies against each other.

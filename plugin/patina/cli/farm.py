@@ -5,10 +5,9 @@
   patina farm shot.usda shot.####.exr --frames 1:240 --engine slurm:16 --engineOption queue=render --engineOption cores=8
   patina farm shot.usda shot.####.exr --frames 1:240 --cut 4 --write-job job.yaml
 
-All flags of `patina record` that are not named below are taken, too, and mean the same for every frame. A frame that is cut
-has the bits of the frame rendered at once. Workers reach the stage, what it reads and the images by the sender's own paths;
-whichever cannot is named before anything is rendered. Parts lie in IMAGE.parts until the image is written; logs of parts
-that failed stay there.
+All other flags of `patina record` may be given too, and hold for every frame. A frame that is cut has the bits of the frame
+rendered at once. Workers use the sender's paths to the stage, its files and the images. A worker that cannot read or write one
+is named before anything is rendered. Parts are kept in IMAGE.parts until the image is written; logs of failed parts stay there.
 """
 import argparse
 import contextlib

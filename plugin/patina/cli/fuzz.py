@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the fuzzers of a checkout for a time: bytes and legal inputs with extreme values, which may be refused with a message,
-and must not crash, hang, take memory without end, lose an image or make values that are no numbers.
+"""Runs the fuzzers of a checkout for a time. They try bytes, and legal inputs with extreme values. Patina may refuse an input
+with a message. It must not crash, hang, take memory without end, lose an image or make values that are no numbers.
 
   patina fuzz --seconds 600
   patina fuzz randomStages edits --seconds 3600 --seed 1000 --json=figures.json

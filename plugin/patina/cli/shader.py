@@ -6,12 +6,12 @@
   patina shader brass.mtlx --target osl --output brass.osl
 
 glsl and essl are Patina's own: the functions that its rasterizer and its pages run, with every sample and density. The others
-are made by MaterialX's generators (PyPI's materialx, which this command installs) from the expanded graph: the closures and
-patterns that are left of the material when shading models are replaced by their graphs, constants are folded, and what no
-light reaches is dropped. mtlx writes that graph; with --form authored the material as it stands, whatever file it is from.
+are made by MaterialX's generators (PyPI's materialx, which this command installs) from the expanded graph. That is the material
+after shading models are replaced by their graphs, constants are folded, and parts that no light reaches are dropped. mtlx
+writes that graph, or with --form authored the nodes as authored, whatever file they are from.
 
-A MaterialX text knows one material, so --set is done before. Of a language with several stages the pixel stage is written,
-and the vertex stage too with --stage vertex.
+A text describes one material, so --set is applied first. For a language with several stages the pixel stage is written;
+--stage chooses another.
 """
 import sys
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes one HTML page that shows materials in a browser: no server, no network, opens from a file.
 
-The page draws with WebGL2, by the very lobes of the rasterizer, and has a slider for every input of
-the materials. It shows the shader, which can be changed and compiled there, and the plan, with what
-other methods would change. It needs Node and npm once, to fetch and bundle the page's script.
+The page draws with WebGL2 and the lobes of the rasterizer, and has a slider for every input of the
+materials. It shows the shader, which can be changed and compiled there, and the plan, with the change
+that other methods would make. It needs Node and npm once, to fetch and bundle the page's script.
 """
 import os
 import sys

@@ -34,7 +34,7 @@ def add_arguments(parser):
                         help="shading model: " + ", ".join(TARGETS))
     parser.add_argument("--resolution", type=int, default=1024, metavar="N",
                         help="width and height of textures, 1 to 16384 (default: 1024)")
-    parser.add_argument("--format", default="png", choices=["png", "exr"], help="of textures (default: png)")
+    parser.add_argument("--format", default="png", choices=["png", "exr"], help="format of the textures (default: png)")
     parser.add_argument("--in-place", action="store_true", dest="in_place",
                         help="OUT may be the stage itself, one of its layers or any other: all other prims in it stay")
     limits.add_flag(parser)

@@ -34,9 +34,9 @@ def add_arguments(parser):
     parser.add_argument("--wo", default="0,0,1", metavar="X,Y,Z", help="outgoing direction (default: 0,0,1)")
     parser.add_argument("--wi", metavar="X,Y,Z", help="incoming direction, for eval")
     parser.add_argument("--count", type=int, default=1, metavar="N", help="samples for each wo (default: 1)")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of sample's random numbers (default: 0)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of sample (default: 0)")
     parser.add_argument("--backend", default="embree", choices=["embree", "raster"],
-                        help="whose code runs: raster is the GLSL on the driver (default: embree)")
+                        help="code to run: raster is the GLSL on the driver (default: embree)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
     limits.add_flag(parser)

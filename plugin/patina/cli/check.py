@@ -38,13 +38,13 @@ def add_arguments(parser):
     parser.add_argument("material", metavar="STAGE|MATERIAL", nargs="?", help=materials.MATERIAL_HELP.replace(
         "the only material", "every material"))
     parser.add_argument("--layers", action="store_true", help="the error of layers, as a table")
-    parser.add_argument("--samples", type=int, default=65536, metavar="N", help="per direction (default: 65536)")
+    parser.add_argument("--samples", type=int, default=65536, metavar="N", help="samples per direction (default: 65536)")
     parser.add_argument("--places", type=int, default=3, metavar="N",
-                        help="of uv per material that varies (default: 3; finite: its square times 16)")
+                        help="points of uv per material that varies (default: 3; finite: its square times 16)")
     parser.add_argument("--tolerance", type=float, default=0.01, metavar="E",
-                        help="of energy, densities and weights (default: 0.01)")
+                        help="allowed error of energy, densities and weights (default: 0.01)")
     parser.add_argument("--reciprocal", action="store_true", help="fail where f(a, b) is not f(b, a)")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the random numbers (default: 0)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the random numbers (default: 0)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
     limits.add_flag(parser)

@@ -30,10 +30,10 @@ def add_arguments(parser):
                              "(default: 1, whole frames)")
     parser.add_argument("--engine", default="local", metavar="ENGINE", help=engines.HELP)
     parser.add_argument("--engineOption", action="append", default=[], metavar="NAME=VALUE",
-                        help="of Dask's class for the engine (repeatable), such as queue=render, cores=8, memory=32GiB, "
-                             "walltime=04:00:00; of pods image=studio/patina and volumes=CLAIM:/PATH")
+                        help="an option of Dask's class for the engine (repeatable), such as queue=render, cores=8, "
+                             "memory=32GiB, walltime=04:00:00; for pods image=studio/patina and volumes=CLAIM:/PATH")
     parser.add_argument("--threads", type=int, default=None, metavar="N",
-                        help="that a task takes (default: the worker's cores)")
+                        help="threads of a task (default: the worker's cores)")
     parser.add_argument("--resume", action="store_true", help="leave out images that are there, and parts that fit")
     parser.add_argument("--allowMixed", action="store_true",
                         help="take workers of other builds and instruction sets: images have no defined bits then")

@@ -27,7 +27,7 @@ def add_arguments(parser):
                         help="render the parts that are missing, here and with the flags of the others, beside IMAGE")
     parser.add_argument("--allowMixed", action="store_true",
                         help="take parts of other builds and instruction sets: the image has no defined bits then")
-    parser.add_argument("--threads", type=int, default=0, metavar="N", help="default: all cores")
+    parser.add_argument("--threads", type=int, default=0, metavar="N", help="threads (default: all cores)")
     limits.add_flag(parser)
     parser.add_argument("--json", metavar="FILE",
                         help="statistics of the frame: --json to standard output, --json=FILE to a file")

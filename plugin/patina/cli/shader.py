@@ -30,13 +30,13 @@ def add_arguments(parser):
                         help="glsl (4.50), essl (GLSL ES 3.00), osl, mdl, msl or mtlx (MaterialX 1.39)")
     parser.add_argument("--output", metavar="FILE", help="file to write (default: standard output)")
     parser.add_argument("--form", default="expanded", choices=["expanded", "authored"],
-                        help="of mtlx: the expanded graph, or the nodes as authored (default: expanded)")
+                        help="for mtlx: the expanded graph, or the nodes as authored (default: expanded)")
     parser.add_argument("--stage", default="pixel", choices=["pixel", "vertex"],
-                        help="of msl: the stage to write (default: pixel)")
+                        help="for msl: the stage to write (default: pixel)")
     parser.add_argument("--largestTexture", type=int, default=1024, metavar="N", dest="largest_texture",
-                        help="of glsl and essl: what --json says of textures is for no more texels than this (default: 1024)")
+                        help="for glsl and essl: largest side of the textures that --json describes (default: 1024)")
     parser.add_argument("--albedoTable", metavar="FILE.exr", dest="albedo_table",
-                        help="of glsl and essl: write the table that lobes look up")
+                        help="for glsl and essl: write the table that lobes look up")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
     limits.add_flag(parser)

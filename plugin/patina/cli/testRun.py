@@ -35,8 +35,8 @@ _ASSET = "StandardShaderBall"  # what tells the folder of public assets from oth
 
 def add_arguments(parser):
     parser.usage = "patina test [--tier TIER] [--room ROOM] [pytest arguments]"
-    parser.add_argument("--tier", choices=TIERS, help="default: full, with --room smoke, with named tests all; unit, smoke and "
-                                                      "full hold those before, long holds only what they leave out")
+    parser.add_argument("--tier", choices=TIERS, help="default: full; with --room smoke; with named tests all. unit, smoke and "
+                        "full each include the tiers before; long has the tests that they leave out")
     parser.add_argument("--room", action="append", default=[], metavar="ROOM", help="only tests of this room (repeatable)")
 
 

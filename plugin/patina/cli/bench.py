@@ -13,7 +13,7 @@ import sys
 
 from patina.cli.errors import CommandError, UsageError
 
-PASSES_ON = True
+PASSES_ON = AS_TYPED = True  # benchmarks read their own flags, --json FILE among them
 # name -> (file of testenv/bench that has main(arguments), what it measures)
 BENCHMARKS = {
     "denoise": ("denoiseBench.py", "denoised images: seconds until they look like the reference; beside Cycles"),

@@ -104,12 +104,12 @@ def _record_arguments(arguments):
     record = parser.parse_intermixed_args(argv)
     record.given = main._given(parser, parser.parse_intermixed_args, argv)
     if not record.image:
-        raise UsageError("patina farm: an IMAGE is wanted")
+        raise UsageError("patina farm: name an IMAGE")
     for name in ("part", "partial", "keepCheckpoint"):
         if getattr(record, name):
-            raise UsageError(f"patina farm: --{name} is the farm's own business")
+            raise UsageError(f"patina farm: the farm sets --{name} itself; leave it out")
     if record.verbose:
-        raise UsageError("patina farm: --verbose is of one render; --json tells what each task took")
+        raise UsageError("patina farm: --verbose describes one render; --json has the times of all tasks")
     overrides.parse(record.set)
     _check_task(parser, arguments, argv, record)
     arguments.record_words = _words(parser, arguments.passed_on, record)

@@ -127,5 +127,5 @@ def _generated(text, arguments, warnings):
         raise CommandError(f"{arguments.material}: MaterialX {generators.version()} cannot write it as {arguments.target}: "
                            f"{error}") from error
     if arguments.stage not in stages:
-        raise CommandError(f"--stage {arguments.stage}: MaterialX wrote none")
+        raise CommandError(f"--stage {arguments.stage}: MaterialX has written no such stage")
     return {"text": stages[arguments.stage], "stages": stages}

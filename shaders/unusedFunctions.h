@@ -11,6 +11,7 @@ namespace patina {
 /// needs all that it names.
 ///
 /// Lines keep their numbers. Text whose braces do not match is returned as it is.
-std::string withoutUnusedFunctions(const std::string& text);
+/// @param callers more text, whose names count like those outside of functions
+std::string withoutUnusedFunctions(const std::string& text, const std::string& callers = "");
 
 } // namespace patina

@@ -32,12 +32,7 @@ CompiledMaterials::program(const std::shared_ptr<const MaterialPrim>& prim,
             lock.unlock();
             return known.get();
         }
-        const auto unused = [](const std::shared_future<Program>& program) {
-            return program.wait_for(std::chrono::seconds(0)) == std::future_status::ready &&
-                   program.get().use_count() == 1;
-        };
-        for (auto it = _entries.begin(); it != _entries.end();)
-            it = unused(it->second.program) ? _entries.erase(it) : std::next(it);
+        forgetUnused();
         entry = _entries.emplace(prim.get(),
                                  Entry{prim, methods, tolerance, promise.get_future().share()});
         ++_built;
@@ -56,6 +51,21 @@ CompiledMaterials::program(const std::shared_ptr<const MaterialPrim>& prim,
         promise.set_exception(std::current_exception());
         throw;
     }
+}
+
+void CompiledMaterials::forgetUnused() {
+    const auto unused = [](const std::shared_future<Program>& program) {
+        return program.wait_for(std::chrono::seconds(0)) == std::future_status::ready &&
+               program.get().use_count() == 1;
+    };
+    constexpr int prims = 4; // so at most about a fourth of all entries are unused ones
+    auto it = _entries.lower_bound(_hand);
+    for (int i = 0; i < prims && !_entries.empty(); ++i) {
+        if (it == _entries.end()) it = _entries.begin();
+        for (const auto end = _entries.upper_bound(it->first); it != end;)
+            it = unused(it->second.program) ? _entries.erase(it) : std::next(it);
+    }
+    _hand = it == _entries.end() ? nullptr : it->first;
 }
 
 size_t CompiledMaterials::programsBuilt() const {

@@ -50,10 +50,15 @@ private:
         std::shared_future<Program> program;
     };
 
+    /// Looks at a few entries, each time at the next ones: with many materials, looking at all for
+    /// each one that is added would take longer than to compile them.
+    void forgetUnused();
+
     TextureSource& _textures;
     Diagnostics& _diagnostics;
     mutable std::mutex _mutex;
     std::multimap<const MaterialPrim*, Entry> _entries;
+    const MaterialPrim* _hand = nullptr; ///< where forgetUnused() goes on
     size_t _built = 0;
 };
 

@@ -2,6 +2,7 @@
 #include "materialNetwork/planner/planProbes.h"
 
 #include "materialNetwork/cpu/bsdfBuilder.h"
+#include "materialNetwork/cpu/microsurface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,6 +74,16 @@ bool isMetallic(const BsdfLobe& l) {
            luminance(sh::fresnelSchlick(1.0f, l.schlick.fresnel)) > 0.2f;
 }
 
+/// Whether a walk between layers asks for the albedo of an interface on top anew at each of its
+/// steps: it is seen from both sides, so no table over the cosine serves, and light does not bounce
+/// between its facets.
+bool asksAnew(BsdfLobe top) {
+    if (top.kind == LobeKind::Dielectric && !top.dielectric.full)
+        top.dielectric.mode = sh::SCATTER_RT;
+    if (top.kind == LobeKind::Schlick) top.schlick.mode = sh::SCATTER_RT;
+    return !canWalkMicrosurface(top);
+}
+
 class ProgramProber {
 public:
     explicit ProgramProber(const ProgramCode& code) : _code(code) {}
@@ -119,7 +130,8 @@ private:
                 const BsdfLobe& l = bsdf.lobe(op.lobe);
                 describe(l, contribution);
                 contribution.share = light[size_t(op.lobe)] / probe.albedo;
-                contribution.tabulated = !code.lobes[size_t(op.lobe)].energy.empty();
+                contribution.tabulated = !code.lobes[size_t(op.lobe)].energy.empty() &&
+                                         !(isTop(int(i)) && asksAnew(l));
             } else if (op.kind == ClosureKind::Layer && op.a >= 0 && op.b >= 0) {
                 layer(op, bsdf, light, contribution);
                 contribution.share /= probe.albedo;
@@ -132,6 +144,12 @@ private:
             contribution.beneath =
                 std::min(beneath(contribution.closure, light) / probe.albedo, 1.0f);
         return probe;
+    }
+
+    bool isTop(int closure) const {
+        return std::any_of(_code.bsdf.begin(), _code.bsdf.end(), [&](const ClosureOp& op) {
+            return op.kind == ClosureKind::Layer && op.a == closure;
+        });
     }
 
     /// A layer shows as its roughest interface over an albedo; over metals their roughness counts

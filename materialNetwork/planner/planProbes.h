@@ -20,7 +20,7 @@ struct ClosureContribution {
     glm::vec3 base{0.0f};     ///< of a layer: the albedo of its base by channel
     float roughness = 0.0f;   ///< root of alpha, mean of both axes; 0: a mirror
     float thickness = 0.0f;   ///< of a film, nm
-    bool tabulated = false;   ///< its albedo is looked up over the cosine, whatever the method
+    bool tabulated = false;   ///< its albedo is looked up over the cosine, by all who ask for it
 };
 
 /// One place of a material from one angle.

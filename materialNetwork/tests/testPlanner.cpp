@@ -69,6 +69,19 @@ Network texturedMetal() {
 
 } // namespace
 
+TEST(Planner, TablesServeInterfacesThatWalksAskAnew) {
+    // Schlick's curve from black: light passes it unbent, so walks do not enter its facets.
+    const Network network = bsdfNetwork(
+        {makeNode("top", "ND_generalized_schlick_bsdf",
+                  {{"color0", grey(0.0f)}, {"roughness", pair(1.0f)}}),
+         makeNode("base", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
+         makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {"top", ""}}, {"base", {"base", ""}}})});
+    const MethodPlan plan = planOf(network, 0.01);
+    EXPECT_EQ(at(plan, "layering").method, "positionFree");
+    EXPECT_NE(at(plan, "directionalAlbedo").method, "quadrature");
+    EXPECT_LT(timeOf(plan), 0.5 * timeOf(planOf(network, 0.0))) << "2304 facets at each step";
+}
+
 TEST(Planner, LargerTolerancesAreNeverSlower) {
     for (const Network& network : {metal(0.3f), metal(0.9f), coat(0.4f, 1.5f), texturedMetal()}) {
         double before = timeOf(planOf(network, 1e-6));

@@ -43,9 +43,10 @@ class Worker:
                 return json.loads(after)
         raise RuntimeError(f"{os.path.basename(self.process.args[0])} ended with status {self.process.wait()}: {last}")
 
-    def draw(self, samples, seed, file):
-        """:returns: {seconds, processor}: wall and processor seconds of the image"""
-        self.process.stdin.write(json.dumps({"samples": samples, "seed": seed, "file": file}) + "\n")
+    def draw(self, samples, seed, file, denoise=True):
+        """:param denoise: False: not even where the scene asks for it
+        :returns: {seconds, processor}: wall and processor seconds of the image"""
+        self.process.stdin.write(json.dumps({"samples": samples, "seed": seed, "file": file, "denoise": denoise}) + "\n")
         self.process.stdin.flush()
         return self._answer()
 

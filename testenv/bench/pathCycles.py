@@ -101,6 +101,12 @@ def sky(path):
     links.new(light.outputs[0], output.inputs["Surface"])
 
 
+def can_denoise():
+    import _cycles
+
+    return getattr(_cycles, "with_openimagedenoise", False)
+
+
 def main(folder):
     started = time.perf_counter()
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -139,8 +145,9 @@ def main(folder):
     cycles.filter_width = 1.0
     file = os.path.join(tempfile.mkdtemp(prefix="pathCycles"), "image.exr")
 
-    def draw(samples, seed, to):
+    def draw(samples, seed, to, denoise):
         cycles.samples, cycles.seed = samples, seed
+        cycles.use_denoising = bool(denoise and held.get("denoise") and can_denoise())
         scene.render.filepath = file
         bpy.ops.render.render(write_still=True)
         if to == os.devnull:

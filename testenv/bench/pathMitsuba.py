@@ -79,7 +79,7 @@ def main(folder, variant):
         made["sky"] = {"type": "envmap", "filename": scene["sky"]}
     loaded = mi.load_dict(made)
 
-    def draw(samples, seed, file):
+    def draw(samples, seed, file, _):
         image = np.array(mi.render(loaded, spp=samples, seed=seed))
         if file != os.devnull:
             np.save(file, image[..., :3])

@@ -124,21 +124,25 @@ def write(folder):
     return path, scene
 
 
-def main(folder):
-    started = time.perf_counter()
+def prepare(folder):
+    """:returns: a function that draws, as pathWorker.serve() takes it"""
     path, scene = write(folder)
     from patina import stage as reader
-    from patina.cli import compiled
+    from patina.cli import compiled, denoiser
 
     module = compiled.load()
+    if scene.get("denoise"):
+        denoiser.prepare(module)
     held, film, renderer = module.Scene(), module.Film(), module.make_renderer("embree")
     with held.edit() as edit:
         reader.read_stage(reader.open_stage(path), edit, reader.StageOptions())
 
-    def draw(samples, seed, file):
+    def draw(samples, seed, file, denoise):
+        denoise = denoise and scene.get("denoise", False)
         renderer.start(held, "/camera", {
             "width": scene["width"], "height": scene["height"], "samples": samples, "seed": seed, "threads": scene["threads"],
             "maxDepth": scene["depth"], "filterRadius": 0.5, "checkpointSeconds": 0.0,
+            "aovs": list(denoiser.GUIDES) if denoise else [],
             "rouletteDepth": 1 if scene.get("roulette", True) else 4096,
             "methods": {"layerTransmittance": "largest",  # as peers do, so that pictures are equally bright
                         **scene.get("methods", {})}}, film)
@@ -146,10 +150,17 @@ def main(folder):
         state = renderer.progress()
         if state["failed"]:
             raise RuntimeError(state["error"])
+        if denoise:
+            denoiser.run(module, film, scene["threads"])
         if file != os.devnull:
             np.save(file, np.asarray(film.resolve("color"))[..., :3])
 
-    pathWorker.serve(draw, started)
+    return draw
+
+
+def main(folder):
+    started = time.perf_counter()
+    pathWorker.serve(prepare(folder), started)
 
 
 if __name__ == "__main__":

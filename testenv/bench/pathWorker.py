@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The common part of the renderers' processes in the path tracing benchmark: scenes on disk, and the talk with the benchmark.
 
-A worker is started with a folder and reads a line of JSON for each image: {"samples", "seed", "file"}. It answers with the
+A worker is started with a folder and reads a line of JSON for each image: {"samples", "seed", "file", "denoise"}. It answers with the
 seconds and the processor seconds that the image took; the first line tells what it took to get ready.
 """
 import json
@@ -46,12 +46,13 @@ def answer(values):
 
 
 def serve(draw, started):
-    """:param draw: function of samples, seed and a file's path; writes an array (height, width, 3) there with numpy.save
+    """:param draw: function of samples, seed, a file's path and whether to denoise where the scene asks for that; writes an
+        array (height, width, 3) there with numpy.save
     :param started: time.perf_counter() before the scene was made"""
-    draw(1, 999, os.devnull)
+    draw(1, 999, os.devnull, True)
     answer({"ready": time.perf_counter() - started})
     for line in sys.stdin:
         asked = json.loads(line)
         wall, cpu = time.perf_counter(), time.process_time()
-        draw(asked["samples"], asked["seed"], asked["file"])
+        draw(asked["samples"], asked["seed"], asked["file"], asked["denoise"])
         answer({"seconds": time.perf_counter() - wall, "processor": time.process_time() - cpu})

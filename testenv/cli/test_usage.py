@@ -3,7 +3,7 @@
 import pytest
 
 import inProcess
-from patina.cli import main
+from patina.cli import bench, main
 
 
 def run(*arguments):
@@ -51,3 +51,10 @@ def test_wrong_usage(arguments):
 ])
 def test_values_that_begin_with_a_minus(before, after):
     assert main._normalise(before) == after
+
+
+def test_benchmarks_read_their_flags_as_they_are_typed(monkeypatch):
+    found = []
+    monkeypatch.setattr(bench, "run", lambda arguments: found.extend(arguments.passed_on))
+    assert run("bench", "path", "--json", "a.json").returncode == 0
+    assert found == ["path", "--json", "a.json"]

@@ -13,17 +13,22 @@ import sys
 
 from patina.cli.errors import CommandError, UsageError
 
-PASSES_ON = True
+PASSES_ON = AS_TYPED = True  # benchmarks read their own flags, --json FILE among them
 # name -> (file of testenv/bench that has main(arguments), what it measures)
 BENCHMARKS = {
+    "denoise": ("denoiseBench.py", "denoised images: seconds until they look like the reference; beside Cycles"),
     "features": ("featureBench.py", "features beside the renderer without them: processor time, and error over time as charts"),
+    "growth": ("growthBench.py", "growth with triangles, instances, prims, prototypes, lights, materials and textures: seconds "
+                                 "to the first image, of a sample, and memory"),
     "hydra": ("hydraBench.py", "frames in Hydra: first, after a camera move, rays per second, memory; beside "
                                "hdEmbree and Storm"),
     "lobes": ("lobeBench.py", "what the lobes of a constant material cost at a vertex of a path; beside Mitsuba 3"),
     "path": ("pathBench.py",
              "path tracing: seconds until the error is small, what a sample takes; beside Mitsuba 3 and Cycles"),
+    "plan": ("planBench.py", "the plan: time to a tolerance with planned methods, beside the same tolerance without a plan"),
     "raster": ("rasterBench.py", "frames of the rasterizer: first, after an edit, after a camera move, and where their time "
                                  "goes; beside Storm"),
+    "rays": ("rayBench.py", "rays per second of a path traced frame, beside the same rays traced with nothing around"),
     "view": ("viewBench.py",
              "pages of `patina view` in headless Chromium: size, seconds to the first picture and to 64 samples"),
 }

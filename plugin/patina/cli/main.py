@@ -115,7 +115,8 @@ def _dispatch(argv):
     parser = _Parser(prog=f"patina {name}", description=module.__doc__)
     module.add_arguments(parser)
     if getattr(module, "PASSES_ON", False):
-        arguments, arguments_left = parser.parse_known_args(_normalise(argv[1:]))
+        words = argv[1:] if getattr(module, "AS_TYPED", False) else _normalise(argv[1:])
+        arguments, arguments_left = parser.parse_known_args(words)
         arguments.passed_on = arguments_left
     else:
         words = _normalise(argv[1:])

@@ -31,7 +31,7 @@ def emit(context, found, kind, bound, categories):
         "left_handed": found.authored("orientation", context.time) == "leftHanded",
         "primvars": read_primvars(context, prim, found.state.primvars) if found.has_primvars() else [],
     }
-    if found.has_primvars():
+    if "primvars:lightGroup" in found.names or found.state.primvars:
         common["light_group"] = text(context, prim, found.state.primvars, "lightGroup")
     if subsets:
         common["subsets"] = [_subset(context, subset, path, group) for subset, path in subsets]
@@ -71,8 +71,8 @@ def points_of(context, prim, skin=None):
         offsets = skin.offsets(context) if context.moving else [0.0]
         return _sampled(context, prim, offsets, [skin.points(context, t) for t in offsets])
     offsets = context.attribute_offsets(attribute)
-    velocities = based.GetVelocitiesAttr()
-    if context.moving and velocities and velocities.HasAuthoredValue():
+    velocities = based.GetVelocitiesAttr() if context.moving else None
+    if velocities and velocities.HasAuthoredValue():
         offsets = list(context.shutter)
         values = based.ComputePointsAtTimes([context.time_at(t) for t in offsets], context.time)
         if len(values) == len(offsets):

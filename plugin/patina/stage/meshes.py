@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from .context import array, get
+from .context import array
 from .primvars import add_builtin
 
 _INTS = {
@@ -26,12 +26,14 @@ def emit(context, found, common, points, skin):
     prim, time = found.prim, context.time
     fields = {}
     for name, key in _INTS.items():
-        fields[key] = array(context, prim, name, get(prim, name, time), 1, np.int32)
+        fields[key] = array(context, prim, name, found.authored(name, time), 1, np.int32)
     for name, key in _FLOATS.items():
-        fields[key] = array(context, prim, name, get(prim, name, time), 1)
+        fields[key] = array(context, prim, name, found.authored(name, time), 1)
     for name, (key, fallback, allowed) in _TOKENS.items():
-        value = get(prim, name, time, fallback)
-        if value not in allowed:
+        value = found.authored(name, time)
+        if value is None:
+            value = fallback
+        elif value not in allowed:
             context.warn(prim.GetPath(), name, f"'{value}' is unknown; {fallback} is used")
             value = fallback
         fields[key] = value
@@ -41,6 +43,6 @@ def emit(context, found, common, points, skin):
         normals = skin.normals(context, found)
         if normals is not None:
             common["primvars"].append(normals)
-    else:
+    elif "normals" in found.names:
         add_builtin(context, prim, "normals", UsdGeom.Mesh(prim).GetNormalsInterpolation(), common["primvars"])
     context.edit.set_mesh(found.path, points=points, refine_level=context.options.refine_level, **fields, **common)

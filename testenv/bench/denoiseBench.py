@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Denoised images: seconds until they look like the reference, beside Cycles.
+
+The scenes are those of `patina bench path`. Every renderer draws them with ever more samples until the mean FLIP (HDR; Andersson
+et al. 2021) beside its own reference is below the last target. A reference is one image of many samples, not denoised. Times
+are of processors, with the denoiser's and without what is done once per scene; a row is the median of the runs, which have
+seeds of their own and take turns over the renderers. Between two numbers of samples the error is taken for a power of time.
+Cycles is denoised where its build can do that.
+"""
+import argparse
+import json
+import math
+import os
+import statistics
+import sys
+import tempfile
+
+import numpy as np
+
+import pathBench
+import pathScenes
+import pathWorker
+
+
+def commands(without):
+    """:returns: name -> command without the folder"""
+    from patina.cli import compiled, denoiser
+
+    denoiser.prepare(compiled.load())
+    return {who: command for who, command in pathBench.peers().items() if who in ("Patina", "Cycles") and who not in without}
+
+
+def folder_for(who, name, folder, options):
+    own = os.path.join(folder, who)
+    os.makedirs(own)
+    pathWorker.save(pathScenes.SCENES[name](own), own, {
+        "width": options.size[0], "height": options.size[1], "depth": options.depth, "threads": options.threads,
+        "denoise": True})
+    return own
+
+
+def time_to(points, target):
+    """:param points: (seconds, error) of ever more samples
+    :returns: seconds at which the error is the target, and whether that is a bound only: "<", ">" or "" """
+    for i, (seconds, error) in enumerate(points):
+        if error > target:
+            continue
+        if i == 0:
+            return seconds, "<"
+        before, higher = points[i - 1]
+        share = math.log(higher / target) / max(math.log(higher / error), 1e-9)
+        return before * (seconds / before) ** share, ""
+    return points[-1][0], ">"
+
+
+def climb(name, who, worker, references, folder, options):
+    """:returns: list of (samples, median of seconds, median of errors) until the last target is met"""
+    from patina.cli import imageMetrics
+
+    file, rungs = os.path.join(folder, "image.npy"), []
+    for samples in options.samples:
+        took, errors = [], []
+        for run in range(options.runs):
+            took.append(worker.draw(samples, run + 1, file)["processor"])
+            errors.append(imageMetrics.mean_flip(np.load(file), references[who], True))
+        rungs.append((samples, statistics.median(took), statistics.median(errors)))
+        if rungs[-1][2] < min(options.targets):
+            break
+    return rungs
+
+
+def measure(name, options):
+    found = {}
+    with tempfile.TemporaryDirectory(prefix="denoiseBench") as folder, open(os.path.join(folder, "log"), "w+",
+                                                                            encoding="utf-8") as log:
+        workers, references = {}, {}
+        try:
+            for who, command in commands(options.without).items():
+                workers[who] = pathBench.start(command, folder_for(who, name, folder, options), log)
+            file = os.path.join(folder, "reference.npy")
+            for who, worker in workers.items():
+                worker.draw(options.reference, 1000, file, denoise=False)
+                references[who] = np.load(file)
+            for who, worker in workers.items():
+                found[who] = climb(name, who, worker, references, folder, options)
+        except RuntimeError as error:
+            log.seek(0)
+            raise SystemExit(f"{name}: {error}\n" + "".join(log.readlines()[-8:])) from error
+        finally:
+            for worker in workers.values():
+                worker.close()
+    return found
+
+
+def show(name, found, options):
+    times = {who: [time_to([rung[1:] for rung in rungs], target) for target in options.targets]
+             for who, rungs in found.items()}
+    own = times["Patina"]
+    for k, target in enumerate(options.targets):
+        cells = []
+        for who in found:
+            seconds, bound = times[who][k]
+            ratio = "" if times[who] is own else f" ({bound and '<' if bound == '>' else ''}{own[k][0] / seconds:.2f})"
+            cells.append(f"{bound} {seconds:.2f} s{ratio}".strip())
+        print(f"| {name} | {target:g} | " + " | ".join(cells) + " |", flush=True)
+
+
+def main(arguments):
+    from patina.cli import imageMetrics
+    from patina.cli.errors import CommandError
+
+    parser = argparse.ArgumentParser(prog="patina bench denoise", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="*", help=f"of {', '.join(pathScenes.SCENES)} (default: all)")
+    parser.add_argument("--size", default="192x108", help="of the images (default: 192x108)")
+    parser.add_argument("--samples", default="1,2,4,8,16,32,64,128,256", help="ever more (default: 1,2,4 ... 256)")
+    parser.add_argument("--reference", type=int, default=1024, help="samples of the references (default: 1024)")
+    parser.add_argument("--targets", default="0.05,0.02", help="mean FLIP, falling (default: 0.05,0.02)")
+    parser.add_argument("--runs", type=int, default=5, help="images of each (default: 5)")
+    parser.add_argument("--depth", type=int, default=8, help="bounces (default: 8)")
+    parser.add_argument("--threads", type=int, default=0, help="of each renderer (default: all)")
+    parser.add_argument("--without", action="append", default=[], choices=["Cycles"], help="leaves a renderer out")
+    parser.add_argument("--json", help="writes the figures to this file")
+    options = parser.parse_args(arguments)
+    options.size = tuple(map(int, options.size.split("x")))
+    options.samples = sorted(map(int, options.samples.split(",")))
+    options.targets = sorted(map(float, options.targets.split(",")), reverse=True)
+    unknown = [name for name in options.scenes if name not in pathScenes.SCENES]
+    if unknown or options.runs < 1:
+        parser.error(f"there is no scene {unknown[0]}" if unknown else "--runs takes at least 1")
+    if imageMetrics.flip_missing():
+        raise CommandError(imageMetrics.flip_missing())
+    results = {}
+    for name in options.scenes or pathScenes.SCENES:
+        results[name] = measure(name, options)
+        if len(results) == 1:
+            print("| scene | mean FLIP | " + " | ".join(who + (", denoised" if who == "Patina" else " (ratio)") for who in results[name]) + " |\n|---|---|"
+                  + "---|" * len(results[name]))
+        show(name, results[name], options)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump({"size": options.size, "reference": options.reference, "scenes": results}, file, indent=1)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

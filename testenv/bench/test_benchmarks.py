@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Benchmarks of a size that tells nothing but that they run, and what they make of the numbers they measure."""
+import json
+import math
+import shutil
+
+import pytest
+
+import denoiseBench
+import growthBench
+import growthStages
+import inProcess
+import planBench
+import rayBench
+
+
+def found(bench, *arguments, folder):
+    file = folder / "figures.json"
+    assert bench.main([*map(str, arguments), "--runs", "1", "--json", str(file)]) == 0
+    return json.loads(file.read_text())
+
+
+@pytest.mark.parametrize("power", [0.0, 1.0, 2.0])
+def test_exponents_are_slopes_of_logarithms(power):
+    rows = [{"size": size, "first": 3.0 * size ** power} for size in (10, 100, 1000)]
+    assert growthBench.exponents(rows, "first") == pytest.approx([power, power])
+
+
+@pytest.mark.parametrize("name,drawn", [("triangles", 200), ("instanced", 1000), ("materials", 200), ("prims", 200),
+                                        ("prototypes", 200), ("instances", 2), ("lights", 0)])
+def test_stages_have_as_many_as_they_say(name, drawn, tmp_path):
+    stage = inProcess.Stage(growthStages.AXES[name][0](str(tmp_path), 200 if name == "triangles" else 100), "-w", "8")
+    image = stage.image(samples=1)
+    floor = 8  # triangles
+    held = stage.renderer.progress()["statistics"]["trianglesStored"] - floor
+    assert held == drawn and not stage.warnings() and image.mean() > 0.0
+    if name == "lights":
+        assert len(stage.scene.paths("lights")) == 100
+    if name == "materials":
+        assert len(stage.scene.paths("materials")) == 100
+
+
+def test_growth_of_prims(tmp_path):
+    rows = found(growthBench, "prims", "--most", 10, "--size", "16x12", "--samples", 2, folder=tmp_path)["axes"]["prims"]
+    assert [row["size"] for row in rows] == [1, 10]
+    assert all(row["first"] > row["open"] and row["peak"] > 0.0 for row in rows)
+
+
+def test_textures_stay_in_their_memory(tmp_path, monkeypatch):
+    monkeypatch.setattr(growthBench, "TEXTURE_MEMORY", 2)
+    monkeypatch.setitem(growthStages.AXES, "textures", (growthStages.textures, [1, 4]))
+    rows = found(growthBench, "textures", "--size", "16x12", "--samples", 2, folder=tmp_path)["axes"]["textures"]
+    assert all(0.0 < row["textures"] <= 2.0 + 10.0 for row in rows)  # ten megabytes are the least that files are read with
+
+
+@pytest.mark.parametrize("plan,without,ratio", [
+    ((2.0, 100, False, 0.0), (4.0, 100, False, 0.0), 0.5),
+    ((2.0, 100, False, 0.0), (4.0, 10, True, 0.0), 0.5),     # a bound: without a plan it takes longer than that
+    ((2.0, 100, True, 0.0), (4.0, 50, True, 0.0), 0.25),     # neither is done: the time of a sample
+])
+def test_ratios_of_renders_that_end_early(plan, without, ratio):
+    assert planBench.ratio_of(plan, without) == ratio
+
+
+def test_a_plan_beside_none(tmp_path):
+    row = found(planBench, inProcess.scene("plastic"), "--width", 8, "--tolerance", 0.5, folder=tmp_path)["stages"]["plastic"]
+    assert row["ratio"] > 0.0 and row["expected"] <= 0.5 and not row["plan"]["ended"]
+
+
+def test_time_to_an_error_is_found_between_two():
+    points = [(1.0, 0.4), (4.0, 0.1)]  # error x seconds is constant
+    assert denoiseBench.time_to(points, 0.2) == (pytest.approx(2.0), "")
+    assert denoiseBench.time_to(points, 0.5) == (1.0, "<")
+    assert denoiseBench.time_to(points, 0.05) == (4.0, ">")
+
+
+def test_denoised_images_come_nearer(tmp_path):
+    pytest.importorskip("pyoidn", reason="pyoidn is not installed")
+    pytest.importorskip("flip_evaluator", reason="flip-evaluator is not installed")
+    rungs = found(denoiseBench, "interior", "--size", "32x18", "--samples", "1,16", "--reference", 64, "--without", "Cycles",
+                  folder=tmp_path)["scenes"]["interior"]["Patina"]
+    assert [samples for samples, *_ in rungs] == [1, 16] and rungs[1][2] < rungs[0][2] < 1.0
+
+
+@pytest.mark.skipif(not shutil.which("c++"), reason="there is no compiler")
+def test_rays_of_a_frame_alone(tmp_path):
+    row = found(rayBench, "interior", "--size", "16x9", "--samples", 2, folder=tmp_path)["scenes"]["interior"]
+    assert row["intersect"] >= 16 * 9 * 2  # a ray of the camera for each sample
+    assert row["occluded"] > 0 and 0 < row["hits"] <= row["intersect"] + row["occluded"]
+    assert math.isfinite(row["frame"][0]) and row["bare"][0] > 0.0

@@ -112,14 +112,14 @@ vec2 octahedral(vec3 w) {
 // Whether light from infinitely far comes to the point along wi, by the map of the cell that wi is
 // in: right but for what is thinner than a cell is wide.
 float skyReaches(vec3 wi) {
-    if (lightInfo.z == 0) return 1.0;
+    if (skySide == 0) return 1.0;
     // A direction beside the sample's may be under the surface's horizon where the sample is not: then
     // one further up is asked.
     vec3 up = dot(wi, point.geometricNormal) < 0.0 ? -point.geometricNormal : point.geometricNormal;
     int cell = 0;
     for (int i = 0; i < 4; ++i) {
-        ivec2 at = min(ivec2(octahedral(wi + up * (0.2 * float(i))) * float(lightInfo.z)), ivec2(lightInfo.z - 1));
-        cell = at.y * lightInfo.z + at.x;
+        ivec2 at = min(ivec2(octahedral(wi + up * (0.2 * float(i))) * float(skySide)), ivec2(skySide - 1));
+        cell = at.y * skySide + at.x;
         if (dot(skyCells[cell].towards.xyz, up) > 0.0) break;
     }
     mat4 m = skyCells[cell].worldToMap;

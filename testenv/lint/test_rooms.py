@@ -5,6 +5,8 @@ import re
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 FOLDERS = ("shaders", "materialNetwork", "hdDelegate", "plugin", "testenv")
+# What shaders/gpuStruct.inc includes is named by a macro.
+INCLUDE = re.compile(r'^\s*#\s*(?:include\s+["<]|define\s+PATINA_FIELDS\s+")([^">]+)[">]', re.MULTILINE)
 USD = ("hdDelegate/hydra/", "plugin/hydra/", "testenv/hydra/")  # the only C++ that includes pxr/
 
 
@@ -41,7 +43,7 @@ def includes():
                     continue
                 path = os.path.join(folder, name)
                 with open(path, encoding="utf-8") as file:
-                    for target in re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', file.read(), re.MULTILINE):
+                    for target in INCLUDE.findall(file.read()):
                         found.append((os.path.relpath(path, ROOT).replace(os.sep, "/"), target))
     return found
 
@@ -92,7 +94,7 @@ def file_includes():
                 if name.endswith((".h", ".cpp", ".inc", ".def", ".glsl")):
                     path = os.path.join(folder, name)
                     with open(path, encoding="utf-8") as file:
-                        targets = re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', file.read(), re.MULTILINE)
+                        targets = INCLUDE.findall(file.read())
                     at = os.path.relpath(path, ROOT).replace(os.sep, "/")
                     found[at] = [t for name in targets for t in (name,
                                                                  os.path.normpath(os.path.join(os.path.dirname(at), name)))]

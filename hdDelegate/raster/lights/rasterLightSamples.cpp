@@ -35,9 +35,7 @@ GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
     }
     case Triangle: break; // see takeEmitters()
     case Point: g.samplePlace(s.position); break;
-    case Line:
-        g.samplePlace(s.position + (u.x - 0.5f) * s.toLight);
-        break;
+    case Line: g.samplePlace(s.position + (u.x - 0.5f) * s.toLight); break;
     case Distant: {
         const vec3 helper = std::fabs(s.toLight.x) < 0.7f ? vec3(1, 0, 0) : vec3(0, 1, 0);
         const vec3 x = glm::normalize(glm::cross(helper, s.toLight));

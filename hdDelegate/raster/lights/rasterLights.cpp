@@ -94,9 +94,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
         cameraVisible &= settings.domeLightCameraVisibility;
         _hasDome = true;
         break;
-    case ResolvedLight::Kind::Point:
-        s.weight = luminance(glm::abs(s.radiance));
-        break;
+    case ResolvedLight::Kind::Point: s.weight = luminance(glm::abs(s.radiance)); break;
     case ResolvedLight::Kind::Line: {
         const float length = glm::length(pose.along);
         s.toLight = pose.along;

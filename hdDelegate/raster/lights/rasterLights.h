@@ -50,10 +50,10 @@ public:
         std::vector<vec4> tables;        ///< see RasterLightTables::writePass()
         std::vector<ShadowView> shadows; ///< in the order of the layers of the shadow maps
         int mapSize = 0;
-        bool fibres = false;        ///< lights have maps for fibres, too
+        bool fibres = false; ///< lights have maps for fibres, too
         /// Which lights are for what, see passFields.glsl.
         int found = 0, firstSampled = 0, firstShared = 0, sharedEvery = 1;
-        bool many = false;          ///< of a first look: all lights have as many samples as help
+        bool many = false; ///< of a first look: all lights have as many samples as help
     };
     /// For a first look: many samples of each light, of which every pixel takes others than its
     /// neighbours, so that what is wrong is noise and not the same everywhere.

@@ -75,8 +75,7 @@ void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& pl
         GpuInstance instance;
         const mat4 toWorld(places[i].groupToWorld * toGroup);
         instance.place(toWorld);
-        instance.instanceIds = {places[i].id,
-                                linksOf(group.prim->categories, places[i].categories),
+        instance.instanceIds = {places[i].id, linksOf(group.prim->categories, places[i].categories),
                                 int(_instances.size()) - group.firstInstance, int(i)};
         _instances.push_back(instance);
         const RasterBox box =

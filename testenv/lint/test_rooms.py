@@ -7,6 +7,7 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 FOLDERS = ("shaders", "materialNetwork", "hdDelegate", "plugin", "testenv")
 # What shaders/gpuStruct.inc includes is named by a macro.
 INCLUDE = re.compile(r'^\s*#\s*(?:include\s+["<]|define\s+PATINA_FIELDS\s+")([^">]+)[">]', re.MULTILINE)
+PUBLIC = {"materialNetwork": 28}  # headers that other rooms include, of a room of a dozen folders; else 16
 USD = ("hdDelegate/hydra/", "plugin/hydra/", "testenv/hydra/")  # the only C++ that includes pxr/
 
 
@@ -122,6 +123,18 @@ def test_a_file_of_one_back_end_that_the_other_includes_is_found():
     assert in_one_back_end(included) == ["hdDelegate/raster/d.inc"]
     included["hdDelegate/compiled/b.h"] = set()
     assert in_one_back_end(included) == []
+
+
+def test_rooms_have_few_public_headers():
+    """A header more that other rooms include is a decision, made here."""
+    known = rooms(section())
+    public = {name: set() for name in known}
+    for path, target in includes():
+        source, to = room_of(path, known), room_of(target, known)
+        if source and to and to != source and target.endswith(".h"):
+            public[to].add(target)
+    for name, headers in public.items():
+        assert len(headers) <= PUBLIC.get(name, 16), f"{name} has {len(headers)} public headers: {sorted(headers)}"
 
 
 def test_arrows_run_one_way():

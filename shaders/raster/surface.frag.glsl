@@ -30,17 +30,17 @@ vec4 primvar(int slot, vec4 fallback) {
 void loadTriangle() {
     Triangle t = triangles[gl_PrimitiveID];
     mat3 n = vNormalMatrix;
-    vec3 ng = n * t.normal.xyz;
+    vec3 ng = n * t.normal;
     vGeometricNormal = ng / max(length(ng), 1e-30);
     // Directions go by the inverse transpose of what normals go by.
     vec3 c0 = cross(n[1], n[2]);
     float determinant = dot(c0, n[0]);
     mat3 linear = mat3(c0, cross(n[2], n[0]), cross(n[0], n[1]));
     float scale = 1.0 / (abs(determinant) > 1e-37 ? determinant : 1e-37);
-    vTangent = linear * t.dPdu.xyz * scale;
-    vBitangent = linear * t.dPdv.xyz * scale;
-    vUvPerLength = t.dPdu.w / max(vScale, 1e-20);
-    vIds = ivec4(floatBitsToInt(t.dPdv.w), vInstance.xyw);
+    vTangent = linear * t.dPdu * scale;
+    vBitangent = linear * t.dPdv * scale;
+    vUvPerLength = t.uvPerLength / max(vScale, 1e-20);
+    vIds = ivec4(t.element, vInstance.xyw);
 }
 
 const int FACETED = 2;
@@ -102,7 +102,7 @@ void setPoint(vec3 view, float coneWidth) {
     point.objectPosition = vObjectPosition;
     point.geometricNormal = vGeometricNormal;
     point.view = view;
-    tubeRadius = length(triangles[gl_PrimitiveID].dPdu.xyz) * vScale;
+    tubeRadius = length(triangles[gl_PrimitiveID].dPdu) * vScale;
     if ((drawInfo.z & STRIP) != 0) {
         setOnStrip(view);
     } else {

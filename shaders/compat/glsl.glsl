@@ -9,8 +9,8 @@
 #define PATINA_INOUT(T) inout T
 #define PATINA_UNUSED(T, name) T name
 
-// Facts that hold for all lobes of a shader may be said before this file, as constants in place of what lobes
-// say: drivers do not see it otherwise, and take four times as long for what never runs.
+// Constants before this file may state facts that hold for all lobes of a shader. Drivers do not find out by
+// themselves, and take four times as long to compile code that never runs.
 // Whether lobes have the energy factors of their wo.
 #ifndef PATINA_ENERGY_KNOWN
 #define PATINA_ENERGY_KNOWN(known) (known)

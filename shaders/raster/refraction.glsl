@@ -97,9 +97,9 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
 }
 
 #ifdef MATERIAL_HAS_INTERIOR
-// Light after a stretch through the medium: what comes from behind, what the medium gives off, and
-// light scattered once. That light is not weakened on its way in; of a white medium in even light
-// nothing is then lost, as when all orders of scattering are counted.
+// Light after a distance through the medium: light from behind, light that the medium emits, and light
+// scattered once. The last is not weakened on its way in. In even light a white medium then loses nothing, as
+// if all orders of scattering were counted.
 vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool boundary,
                    out vec3 transmittance) {
     Medium m = materialMedium();

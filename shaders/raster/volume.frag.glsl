@@ -79,10 +79,11 @@ vec3 diffused(vec3 depth, vec3 layer, vec3 albedo) {
                vec3(0.0));
 }
 
-// Light scattered towards the camera, of irradiance from a direction, per scattering coefficient: once, by
-// the phase function, and many times, as in a layer across that direction. Light that leaves at the sides of
-// clouds, which are no layers, is in the root: `both` is what a white cloud would gather from everywhere,
-// which must not be above 1; the exponent was fitted to the cloud of testenv/scenes/volume.usda.
+// Light scattered towards the camera, of irradiance from a direction, per scattering coefficient. Light that
+// scatters once follows the phase function; light that scatters many times is that of a layer across the
+// direction. Clouds are no layers and lose light at their sides, hence the division by the root: `both` is the
+// light that a white cloud would gather from everywhere, which must not be above 1. The exponent was fitted to
+// the cloud of testenv/scenes/volume.usda.
 vec3 lightInside(vec3 p, vec3 direction, float reach, float jitter, float phase) {
     vec3 depth = vec3(0.0), scattering = vec3(0.0);
     opticalDepth(p, direction, reach, jitter, depth, scattering);

@@ -2,7 +2,7 @@
 """Denoised images: seconds until they look like the reference, beside Cycles.
 
 The scenes are those of `patina bench path`. Every renderer draws them with ever more samples until the mean FLIP (HDR;
-Andersson et al. 2021) beside its own reference is below the last target. A reference is one image of many samples, not
+Andersson et al. 2020) beside its own reference is below the last target. A reference is one image of many samples, not
 denoised. Times are of processors, with the denoiser's and without what is done once per scene; a row is the median of the runs,
 which have seeds of their own. Between two numbers of samples the error is taken for a power of time. Cycles is denoised where
 its build can do that.

@@ -5,12 +5,12 @@
 
 namespace patina {
 
-/// Leaves out of one stage's GLSL what drivers would parse and copy for nothing: functions that no
-/// chain of names leads to from `main` or from what stands outside of functions, and comments.
-/// Names are told apart by spelling alone, so overloads stay or go together, and a macro's body
-/// needs all that it names.
+/// Removes from the GLSL of one stage the text that drivers would parse and copy for nothing:
+/// comments, and functions that neither `main` nor text outside of functions reaches by any chain
+/// of names. Names are told apart by spelling alone. So overloads stay or go together, and a
+/// macro's body needs all names in it.
 ///
-/// Lines keep their numbers. Text whose braces do not match is returned as it is.
+/// Lines keep their numbers. Text whose braces do not match is returned unchanged.
 std::string withoutUnusedFunctions(const std::string& text);
 
 } // namespace patina

@@ -14,11 +14,11 @@ namespace patina {
 /// where OpenGL is software it would only take the path tracer's cores, and embree is made).
 const std::vector<std::string>& backendNames();
 
-/// Makes a renderer by name; null for a name that is not known.
+/// Makes a renderer by name; null for an unknown name.
 ///
-/// raster falls back to the path tracer where there is no OpenGL 4.5, or when the driver fails in
-/// the middle of a render; interactive goes on without its first image then. The scene's
-/// diagnostics say so, once. RenderProgress::backend says what made an image.
+/// If there is no OpenGL 4.5, or the driver fails during a render, raster falls back to the path
+/// tracer, and interactive continues without its first image. The scene's diagnostics say so, once.
+/// RenderProgress::backend names the back end that made an image.
 std::unique_ptr<Renderer> makeBackend(const std::string& name);
 
 } // namespace patina

@@ -12,17 +12,18 @@
 
 namespace patina {
 
-/// A quick renderer's image at once, refined by a slow one, without a jump between them.
+/// Shows a quick renderer's image at once and refines it by a slow one, without a jump between
+/// them.
 ///
-/// Both render at the same time: the slow one, into the host's film, from the moment that the quick
-/// one has shown something (or after a fifth of a second). The listener is given a film of its own
-/// until the end: the quick one's, then refine() of both; largestStep() between two calls is never
-/// above `largestChange`. It is called for the last time with the host's film, which is the slow
-/// renderer's alone. AOVs besides colour are the quick renderer's until the slow one has taken a
-/// sample of every pixel, and then the slow one's.
+/// Both render at the same time. The slow one starts, into the host's film, when the quick one has
+/// shown an image (or after a fifth of a second). Until the end the listener gets another film:
+/// first the quick renderer's, then refine() of both. Between two calls largestStep() is never
+/// above `largestChange`. The last call has the host's film, which is the slow renderer's alone.
+/// AOVs other than colour are the quick renderer's until the slow one has taken a sample of every
+/// pixel.
 ///
-/// When the quick one loses its device, the scene's diagnostics say so and it is not asked again.
-/// Without a listener only the slow one runs.
+/// If the quick renderer loses its device, the scene's diagnostics say so, and it is not used
+/// again. Without a listener only the slow renderer runs.
 class InteractiveRenderer : public Renderer {
 public:
     static constexpr float largestChange = 0.04f; ///< of what eyes see, see toEye()

@@ -42,10 +42,11 @@ dvec3 cameraPlace(const Camera& camera, const RenderSettings& settings);
 /// How large things look from there. @param origin of the space that they are in, see seenFrom()
 ScreenScale screenScale(const Camera& camera, const RenderSettings& settings, const dvec3& origin);
 
-/// Where the origin should be of a space that what is seen is given in by numbers of 32 bits, which
-/// are too coarse for what is small and far away: 0, the world's own, where that is within `far`
-/// sizes, else a corner of a grid, so that small moves of the camera change nothing.
-/// @param middle, size of what is seen, scene units
+/// The best origin of a space that holds the things in view in numbers of 32 bits, which are too
+/// coarse for things that are small and far away. It is 0, the world's own origin, if that is
+/// within `far` sizes. Otherwise it is a corner of a grid, so that small moves of the camera change
+/// nothing.
+/// @param middle, size of the things in view, scene units
 /// @param far sizes
 /// @param cell of the grid, sizes at least
 dvec3 originNear(const dvec3& middle, double size, double far, double cell);

@@ -30,7 +30,7 @@ std::shared_ptr<const DistortionMap> DistortionMap::read(const Camera& camera,
         problem = "it has no green channel";
     if (!problem.empty()) {
         diagnostics.warn(camera.path, input,
-                         "the map " + file + " cannot be taken: " + problem +
+                         "the distortion map " + file + " cannot be used: " + problem +
                              "; the lens does not distort");
         return nullptr;
     }

@@ -24,11 +24,11 @@ private:
     std::weak_ptr<T> _object;
 };
 
-/// Values that take long to make, made once for all who ask for the same. Who needs it holds it;
-/// what nobody holds is forgotten. Where making fails, all who wait are told by the same exception,
-/// and the next who asks tries again. Thread safe: who asks for what another thread makes waits for
-/// it.
-/// @tparam Key is made of a request, and `bool isOf(const Request&)` tells it again
+/// Values that take long to make, made once for all threads that request the same one. A value
+/// lives as long as somebody holds it. A thread that requests a value in the making waits for it.
+/// If making fails, all waiting threads get the same exception, and the next request tries again.
+/// Thread safe.
+/// @tparam Key is made from a request; `bool isOf(const Request&)` compares it with another one
 template <class Request, class Key, class Made> class MadeOnce {
 public:
     using Pointer = std::shared_ptr<const Made>;

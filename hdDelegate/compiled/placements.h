@@ -14,8 +14,8 @@
 
 namespace patina {
 
-/// The instancers that are drawn, indexed by where they stand and by what they draw: who asks where
-/// a prototype is looks at its own instances only. Immutable.
+/// The instancers that are drawn, indexed by the group around them and by their prototypes. To find
+/// the places of a prototype, a back end looks only at that prototype's instances. Immutable.
 class Placements {
 public:
     static constexpr int maxDepth = 8; ///< instancers around each other

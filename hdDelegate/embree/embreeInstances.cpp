@@ -51,7 +51,7 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
         }
         if (!problem.empty()) {
             _diagnostics.warn(prim->path, "transform",
-                              "of an instance " + problem + "; it is not drawn");
+                              "of an instance " + problem + "; that instance is not drawn");
             continue;
         }
         result->targets[i] = finishedGroup(prim->prototypes[prototype]);
@@ -83,8 +83,9 @@ EmbreeScene::currentNode(const std::shared_ptr<const Instancer>& prim) {
 EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth, const View& view) {
     if (EmbreeGroup* finished = finishedGroup(name)) return finished;
     if (depth > TraceContext::maxDepth || _building[name]) {
-        _diagnostics.warn(name, "prototypes",
-                          "instances are nested in themselves or deeper than 8; left out");
+        _diagnostics.warn(
+            name, "prototypes",
+            "a prototype contains itself, or instances nest more than 8 deep; they are left out");
         return nullptr;
     }
     _building[name] = true;

@@ -47,12 +47,12 @@ public:
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     /// Brings the structures to a state of the scene. Prims, materials and prototypes that did not
-    /// change since the last call are kept; where edits are all that changed, what they touch is
-    /// all that is looked at.
+    /// change since the last call are kept. If only edits changed, only the prims that they touch
+    /// are visited.
     /// @param stop is polled; the build gives up early when it becomes true
-    /// @param origin in the world: all places and rays are relative to it, those of instances
-    /// inside of groups aside
-    /// @throws std::bad_alloc; the next update makes whole what this one did not
+    /// @param origin in the world: all places and rays are relative to it, except those of
+    ///        instances inside of groups
+    /// @throws std::bad_alloc; the next update completes the work that this one did not
     void update(const SceneState& state, const Camera& camera, const RenderSettings& settings,
                 const std::atomic<bool>& stop, const dvec3& origin = dvec3(0.0));
     /// Whether the last update may have changed what lights are made from.

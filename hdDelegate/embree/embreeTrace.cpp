@@ -56,7 +56,7 @@ bool EmbreeScene::accepts(const RTCRay& ray) const {
     const bool clipped = ray.tfar < 0.0f; // there is nothing wrong with such a ray
     if (!clipped && !_warnedOfRays.exchange(true))
         _diagnostics.warn("", "rays",
-                          "some start too far away, or have no direction; they meet nothing");
+                          "some start too far away, or have no direction; they hit nothing");
     return false;
 }
 

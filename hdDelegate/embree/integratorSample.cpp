@@ -39,11 +39,14 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     const vec2 offset = _filter.sample(vec2(uFilm));
     const vec2 pixel = vec2(x, y) + 0.5f + offset;
     const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime, vec2(x, y) + 0.5f);
-    if (!ray.seen) {
+    const AovTarget target{film, x, y, glm::length(offset)};
+    if (!ray.seen) { // darkness counts in the means of light's parts as it does in the colour's
+        if (!_lightPaths.empty())
+            _lightPaths.write(LightPathRecord(_lightPaths), target, 1.0f, false);
+        addFeatures(Path(sampler), target);
         film.addColor(x, y, vec3(0.0f), 0.0f);
         return;
     }
-    const AovTarget target{film, x, y, glm::length(offset)};
     counters.clock.enter(nullptr);
     if (_ambientOcclusion) {
         const AmbientOcclusion occlusion{_scene, _settings.ambientOcclusionSamples};

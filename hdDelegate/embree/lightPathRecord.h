@@ -29,15 +29,15 @@ private:
     int _shadow = -1;         ///< place in the film, or -1
 };
 
-/// Shares the light of one path out among the AOVs that its events fit.
+/// Divides the light of one path among the AOVs that its events match.
 ///
-/// Where diffuse and glossy lobes both send light along a path, it has two events at once, and the
-/// throughput is that of their sum: which of them was drawn tells of the densities, not of the
-/// light. So a path is in several states of each automaton, with weights that sum to 1, and each
-/// AOV gets exactly the share of its lobes. The AOVs of a partition sum to the colour.
+/// If diffuse and glossy lobes both send light along a path, its throughput is the sum of both. The
+/// drawn lobe decides densities, not light. So a path is in several states of each automaton, with
+/// weights that sum to 1, and each AOV gets exactly the share of its lobes. The AOVs of a partition
+/// sum to the colour.
 ///
-/// Each contribution is announced by straight(), found() or lit(), and counts once add() says what
-/// is added to the path's radiance.
+/// Each contribution is announced by straight(), found() or lit(), and counts once add() gives the
+/// light that is added to the path's radiance.
 class LightPathRecord {
 public:
     explicit LightPathRecord(const LightPathAovs& aovs);

@@ -11,11 +11,11 @@ namespace patina {
 
 /// Decides which tile takes how many samples next.
 ///
-/// Every tile steps through the same sample counts (film/relativeError.h). Whether it goes on is a
-/// function of its own pixels at some of these, so neither threads, nor the order of tiles, nor an
-/// interruption changes what a finished image contains. A part of a cut frame that begins later
-/// knows nothing of the samples before: it takes all of its own, and the tiles decide when parts
-/// are merged (film/partial.h).
+/// Every tile steps through the same sample counts (film/relativeError.h). At some of them its own
+/// pixels decide whether it goes on. So neither threads, nor the order of tiles, nor an
+/// interruption changes a finished image. A part of a cut frame that begins later does not know the
+/// samples before it. It takes all of its own, and the tiles decide when parts are merged
+/// (film/partial.h).
 class TileSchedule {
 public:
     TileSchedule(const Film& film, const RenderSettings& settings);

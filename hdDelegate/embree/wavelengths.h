@@ -7,12 +7,12 @@
 
 namespace patina {
 
-/// Wavelengths of light, drawn in proportion to the mean of what the three channels see of each.
+/// Wavelengths of light, drawn in proportion to the mean of the three channels' sensitivities.
 ///
-/// A channel's sensitivity is that of linear Rec.709 to one wavelength (sh::filmChannels). Where it
-/// is negative it counts as 0, and the rest is scaled to sum to 1: light of one wavelength shows at
-/// the edge of the gamut that it lies outside of, no path counts negative, and what all wavelengths
-/// have in common stays as it is.
+/// The sensitivity of a channel is that of linear Rec.709 to one wavelength (sh::filmChannels),
+/// with negative parts set to 0 and the rest scaled to sum to 1. So light of one wavelength outside
+/// of the gamut shows at the gamut's edge, no path counts negative, and light whose wavelengths all
+/// stay together keeps its colour.
 class Wavelengths {
 public:
     static const Wavelengths& get();

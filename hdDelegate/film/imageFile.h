@@ -46,15 +46,19 @@ struct ImageOptions {
 /// @throws std::runtime_error with a one-line reason
 void checkImagePath(const std::string& path, const std::vector<std::string>& aovs = {});
 
-/// Writes a film. OpenEXR files hold all AOVs as linear values, in one part: R, G, B, A;
-/// depth.Z, likewise cameraDepth and deviceDepth; albedo.R, .G, .B; normal.X, .Y, .Z, likewise
-/// Neye, position and primvars:NAME (one component: .X, two: .X, .Y); primId, instanceId,
-/// elementId, sampleCount and variance as they are; crypto_object00.R ... (cryptomatte.h). Colour
-/// is multiplied by alpha in OpenEXR; in formats with alpha that are shown on screens it is not,
-/// and formats without alpha show it over black. Radiance (.hdr) holds linear colour. Everything
-/// else is clamped to [0,1] after the display transform.
+/// Writes a film.
 ///
-/// The file appears whole or not at all: what was there before stays when writing fails.
+/// OpenEXR files hold all AOVs as linear values, in one part: R, G, B, A; depth.Z, likewise
+/// cameraDepth and deviceDepth; albedo.R, .G, .B; normal.X, .Y, .Z, likewise Neye, position and
+/// primvars:NAME (one component: .X, two: .X, .Y); primId, instanceId, elementId, sampleCount and
+/// variance under these names; crypto_object00.R ... (cryptomatte.h). Colour is multiplied by
+/// alpha.
+///
+/// Radiance files (.hdr) hold linear colour. All other formats hold the colour after the display
+/// transform, clamped to [0,1]. Formats with alpha store it not multiplied, formats without alpha
+/// show it over black.
+///
+/// The file appears whole or not at all: an earlier file stays when writing fails.
 /// @throws std::runtime_error with a one-line reason
 void writeImage(const Film& film, const std::string& path, const ImageOptions& options = {},
                 const Metadata& metadata = {});

@@ -11,11 +11,14 @@ enum class PixelNoise {
     Shared,      ///< all have the same (rasterizer): many pixels tell no more than one
 };
 
-/// Mean over the pixels x0 <= x < x1, y0 <= y < y1 of |luminance - its limit| / (limit + 0.01), as
-/// their samples let one expect it: what RenderSettings::tolerance is measured by. Rather too high
-/// than too low: of 13 scenes after 16 to 1024 samples, 12 x 7 pixels, it was 1.4 times the true
-/// error (median) and below it in 4 of 100 images; of 3 x 2 pixels, 1.6 times and in 18 of 100,
-/// since the true error of so few is chance itself. 0 where there are no pixels.
+/// The expected mean, over the pixels x0 <= x < x1, y0 <= y < y1, of |luminance - its limit| /
+/// (limit + 0.01), estimated from their samples. RenderSettings::tolerance is compared with it. 0
+/// without pixels.
+///
+/// It is rather too high than too low. For 13 scenes of 12 x 7 pixels after 16 to 1024 samples it
+/// was 1.4 times the true error (median), and below the true error in 4 of 100 images. For 3 x 2
+/// pixels it was 1.6 times, and below in 18 of 100: the true error of so few pixels is itself a
+/// matter of chance.
 double relativeError(const Film& film, int x0, int y0, int x1, int y1,
                      PixelNoise noise = PixelNoise::Independent);
 

@@ -52,10 +52,12 @@ CurveBatch takeApart(const Curves& curves, const PointSteps& points, Diagnostics
         if (count > 0)
             diagnostics.warn(curves.path, input, std::to_string(count) + " curves " + what);
     };
-    report(tooShort, "curveVertexCounts", "have too few points for their basis; not drawn");
-    report(unused, "curveVertexCounts", "have points at the end that make no whole segment");
-    report(truncated, "curveVertexCounts", "go beyond the end of the points; not drawn");
-    report(notFinite, "points", "have points that are not finite; not drawn");
+    report(tooShort, "curveVertexCounts",
+           "have too few points for their basis; they are not drawn");
+    report(unused, "curveVertexCounts",
+           "have points at the end that make no whole segment; these points are ignored");
+    report(truncated, "curveVertexCounts", "need more points than there are; they are not drawn");
+    report(notFinite, "points", "have points that are not finite; they are not drawn");
     if (point < points.count())
         diagnostics.warn(curves.path, "points",
                          std::to_string(points.count() - point) +

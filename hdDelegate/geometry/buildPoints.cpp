@@ -37,7 +37,8 @@ PointSet buildPoints(const Points& prim, const TessellationOptions& options,
                      Diagnostics& diagnostics) {
     const PointSteps points = resamplePoints(prim.points, prim.path, options, diagnostics);
     const size_t count = points.count();
-    if (count == 0) diagnostics.warn(prim.path, "points", "there are none; nothing is drawn");
+    if (count == 0)
+        diagnostics.warn(prim.path, "points", "the prim has no points; nothing is drawn");
     const std::vector<float> widths = perPoint(prim, "widths", 1, count, diagnostics);
     const std::vector<float> normals = perPoint(prim, "normals", 3, count, diagnostics);
     const std::vector<uint16_t> subsetOf = subsetOfElements(prim, count, diagnostics);

@@ -10,13 +10,13 @@
 namespace patina {
 
 /// Moves the vertices of a mesh by the displacement of its materials, and gives it new normals.
-/// - Vertices at the same place move together, by the mean over the corners that meet there, so
-///   that neither seams of texture coordinates, nor material borders, nor hard edges tear open.
-/// - A corner's new normal is the mean over the faces around its vertex that had the same normal
-///   before, weighted by angle: smooth stays smooth, hard edges stay hard.
-/// - When the mesh moves, every step is displaced by the amounts of the first.
-/// - Distances are object units. Patterns see object space as their object space, and as world
-///   space what `objectToWorld` makes of it.
+/// - Vertices at the same place move together, by the mean over the corners that meet there. So
+///   neither seams of texture coordinates, nor material borders, nor hard edges tear open.
+/// - The new normal of a corner is the mean over the faces around its vertex that had the same
+///   normal before, weighted by angle. Smooth stays smooth, hard edges stay hard.
+/// - When the mesh moves, every time step is displaced by the amounts of the first.
+/// - Distances are object units. Patterns see object space as object space, and `objectToWorld`
+///   times it as world space.
 /// @param materials [0] the prim's, [i + 1] that of subset i; null ones displace nothing
 void displace(TriangleMesh& mesh,
               const std::vector<std::shared_ptr<const MaterialProgram>>& materials,

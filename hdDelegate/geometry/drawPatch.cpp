@@ -380,7 +380,7 @@ TriangleMesh drawPatch(const Mesh& mesh, const PointSteps& points,
         for (const vec3& p : step)
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
                 diagnostics.warn(mesh.path, "points",
-                                 "give places that are not finite, with these knots and weights; "
+                                 "give a surface that is not finite, with these knots and weights; "
                                  "the patch is not drawn");
                 return nothing;
             }

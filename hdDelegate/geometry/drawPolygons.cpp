@@ -66,7 +66,8 @@ void useAuthoredNormals(const Mesh& mesh, const Primvar& primvar, const ElementC
     out.normals = {std::move(normals)};
     if (zeros == 0) return;
     diagnostics.warn(mesh.path, "normals",
-                     std::to_string(zeros) + " have no direction; those of the faces are used");
+                     std::to_string(zeros) +
+                         " normals have no direction; the normals of their faces are used");
     repairNormals(out);
 }
 

@@ -28,10 +28,10 @@ std::vector<Authored> usable(const HermiteCurves& curves, size_t points, Diagnos
     const auto report = [&](size_t count, const char* what) {
         if (count > 0)
             diagnostics.warn(curves.path, "curveVertexCounts",
-                             std::to_string(count) + " curves " + what + "; not drawn");
+                             std::to_string(count) + " curves " + what + "; they are not drawn");
     };
     report(tooShort, "have fewer than two points");
-    report(truncated, "go beyond the end of the points");
+    report(truncated, "need more points than there are");
     return list;
 }
 
@@ -80,7 +80,7 @@ std::shared_ptr<const Curves> toBezier(const HermiteCurves& curves, Diagnostics&
     if (!fits)
         diagnostics.warn(
             curves.path, "tangents",
-            "are not as many as the points; those of the way from point to point are used");
+            "differ in number from the points; the directions from point to point are used");
     ElementCounts counts;
     counts.uniform = curves.curveVertexCounts.size();
     counts.varying = counts.vertex = counts.faceVarying =

@@ -165,7 +165,8 @@ Authored takeApart(const NurbsCurves& curves, size_t points, Diagnostics& diagno
     const size_t count = curves.curveVertexCounts.size();
     const bool ranges = curves.ranges.size() == 2 * count;
     if (!ranges && !curves.ranges.empty())
-        diagnostics.warn(curves.path, "ranges", "are not one per curve; curves are drawn whole");
+        diagnostics.warn(curves.path, "ranges",
+                         "differ in number from the curves; whole curves are drawn");
     size_t point = 0, knot = 0;
     for (size_t c = 0; c < count; ++c) {
         NurbsDirection d;

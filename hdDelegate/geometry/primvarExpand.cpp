@@ -53,8 +53,10 @@ bool expandPrimvar(const Primvar& primvar, const ElementCounts& counts, const st
     const std::string input = "primvars:" + primvar.name;
     const int n = primvar.components;
     if (n < 1 || n > 16) {
-        diagnostics.warn(prim, input,
-                         std::to_string(n) + " components per element; the primvar is ignored");
+        diagnostics.warn(
+            prim, input,
+            "has " + std::to_string(n) +
+                " components per element, where 1 to 16 can be used; the primvar is ignored");
         return false;
     }
     const size_t stored = primvar.values.size() / size_t(n);

@@ -11,9 +11,9 @@ namespace patina {
 /// vertex does not do. Semi-sharp edges whose fillet is narrower than a face count as sharp.
 bool hasSharpFeatures(const OpenSubdiv::Far::TopologyLevel& level);
 
-/// Normals of every triangle corner: those of the vertices where the surface is smooth; at creases
-/// the mean over the faces on the same side of the crease, weighted by angle; at sharp corners that
-/// of the face itself.
+/// Normals of every triangle corner. Where the surface is smooth, it is the vertex normal. At a
+/// crease it is the mean over the faces on the same side of the crease, weighted by angle. At a
+/// sharp corner it is the face normal.
 /// @param vertexNormals pointing out
 /// @param flip the positions are those of a left-handed mesh
 std::vector<vec3> sharpNormals(const OpenSubdiv::Far::TopologyLevel& level,

@@ -25,28 +25,24 @@ struct TessellationOptions {
 
 /// Tessellates a mesh.
 ///
-/// With scheme `none` the polygons are drawn as they are: concave ones are cut by ear clipping,
-/// quads along their shorter diagonal. Authored normals are used, and stand still when points
-/// move; without them faces are flat, as UsdGeomMesh says of polygonal meshes.
-///
-/// With a subdivision scheme the level is the smallest that satisfies targetEdge, at least
-/// Mesh::refineLevel, at most maxRefineLevel and what the triangle budget allows. From level 1 on
-/// vertices lie on the limit surface and have its normals (bilinear: flat faces). Level 0 draws the
-/// control cage with smooth normals. Authored normals are ignored, as UsdGeomMesh says.
-///
-/// A NURBS patch has its vertices on the surface, with the surface's normals, and is cut as
-/// subdivision surfaces are, each span of knots by itself. Vertex primvars are rational like
-/// points; a segment, from one knot to the next, counts as a face: uniform primvars have a value
-/// for each, varying ones one at each of its corners. Without a primvar `st` there is one, 0..1
-/// over what is drawn.
-///
-/// Primvars: vertex ones are subdivided like points, varying ones linearly, faceVarying ones by
-/// faceVaryingLinearInterpolation with seams where values differ, uniform ones stay on their face.
-///
-/// Bad input is reported with the prim and attribute and left out: faces with indices out of range
-/// or points that are not finite, faces of fewer than three vertices, primvars with a wrong number
-/// of elements, creases and corners that do not fit the mesh. Topology that OpenSubdiv rejects is
-/// drawn as polygons.
+/// - *Polygons* (scheme `none`) are drawn as they are: concave ones are cut by ear clipping, quads
+///   along their shorter diagonal. Authored normals are used; they do not follow when points move.
+///   Without normals faces are flat, as UsdGeomMesh says of polygonal meshes.
+/// - *Subdivision surfaces* take the smallest level that satisfies targetEdge, but at least
+///   Mesh::refineLevel and at most maxRefineLevel and the triangle budget. From level 1 on vertices
+///   lie on the limit surface and have its normals (bilinear: flat faces). Level 0 draws the
+///   control cage with smooth normals. Authored normals are ignored, as UsdGeomMesh says.
+/// - *A NURBS patch* has its vertices and normals on the surface. Each span of knots is cut by
+///   itself, like a subdivision surface. Vertex primvars are rational like points. A segment
+///   between two knots counts as a face: uniform primvars have a value for each, varying ones a
+///   value at each of its corners. A missing primvar `st` is made, 0..1 over the drawn range.
+/// - *Primvars*: vertex ones are subdivided like points, varying ones linearly, faceVarying ones by
+///   faceVaryingLinearInterpolation, with seams where values differ. Uniform ones stay on their
+///   face.
+/// - *Bad input* is reported with prim and attribute, and left out: faces with indices out of
+///   range, with points that are not finite or with fewer than three vertices; primvars with a
+///   wrong number of elements; creases and corners that do not fit the mesh. A topology that
+///   OpenSubdiv rejects is drawn as polygons.
 TriangleMesh tessellate(const Mesh& mesh, const TessellationOptions& options,
                         Diagnostics& diagnostics);
 

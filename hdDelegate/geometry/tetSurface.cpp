@@ -59,9 +59,10 @@ std::vector<int> wholeTets(const TetMesh& mesh, size_t points, Diagnostics& diag
             ++bad;
     }
     if (bad > 0)
-        diagnostics.warn(mesh.path, "tetVertexIndices",
-                         std::to_string(bad) +
-                             " tetrahedra have points that are not there; not drawn");
+        diagnostics.warn(
+            mesh.path, "tetVertexIndices",
+            std::to_string(bad) +
+                " tetrahedra have indices of points that do not exist; they are not drawn");
     return whole;
 }
 

@@ -10,8 +10,8 @@
 
 namespace patina {
 
-/// The portals that a dome names (UsdLuxPortalLight), as they stand at the frame. Scene indices
-/// alone know them: hosts with a UsdImagingDelegate have none. One that has no size, or is no
+/// The portals that a dome names (UsdLuxPortalLight), at the frame's time. Only scene indices know
+/// them; hosts with a UsdImagingDelegate have none. A portal without a size, or a prim that is no
 /// light, is left out with a warning.
 std::vector<LightPortal> readLightPortals(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                                           const SdfPath& dome);

@@ -75,7 +75,7 @@ void addNode(const HdMaterialNode& given, const SdfPath& material, HdPatinaRende
         else
             param.warn(SdfPath(node.path), name,
                        "values of type " + item.second.GetTypeName() +
-                           " cannot be used; the default is");
+                           " cannot be used; the default is used");
     }
     network.nodes.push_back(std::move(node));
 }

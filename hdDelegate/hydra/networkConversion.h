@@ -9,10 +9,10 @@
 
 namespace patina {
 
-/// Translates what a host gives as a material (HdMaterialNetworkMap) into a network. Only authored
-/// inputs arrive, typed by their value; node definitions tell the rest (a GfVec3f may be a colour).
-/// `colorSpace:NAME` parameters become the colour space of input NAME, `typeName:NAME` its type.
-/// @returns a network without terminals, with a warning, when there is nothing that can be used
+/// Translates a host's material (HdMaterialNetworkMap) into a network. Only authored inputs arrive,
+/// typed by their value. Node definitions tell the rest (a GfVec3f may be a colour). A parameter
+/// `colorSpace:NAME` becomes the colour space of input NAME, `typeName:NAME` its type.
+/// @returns a network without terminals, after a warning, if nothing in the material can be used
 Network networkOf(const VtValue& resource, const SdfPath& material, HdPatinaRenderParam& param);
 
 /// A parameter as a typed constant. @returns false for types that no input has

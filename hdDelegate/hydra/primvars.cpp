@@ -82,7 +82,7 @@ Sampled<std::vector<vec3>> pointsFrom(const HdTimeSampleArray<VtValue, CAPACITY>
             if (!samples.values[i].IsEmpty())
                 param.warn(id, "points",
                            "are of type " + samples.values[i].GetTypeName() +
-                               "; that sample is left out");
+                               " in one of the samples; that sample is left out");
             continue;
         }
         times.push_back(samples.times[i]);

@@ -16,9 +16,9 @@ struct PrimvarUpdate {
     Sampled<std::vector<vec3>> points;
 };
 
-/// Brings the primvars of a scene prim up to date: removes what Hydra no longer lists, fetches what
-/// is dirty, authored or computed (skinning), indexed or not. They are kept sorted by name.
-/// `points` come with their motion samples, those that velocities give included. Primvars that
+/// Brings the primvars of a scene prim up to date: removes those that Hydra no longer lists, and
+/// fetches the dirty ones, authored or computed (skinning), indexed or not. They are kept sorted by
+/// name. `points` come with their motion samples, including those from velocities. Primvars that
 /// drive skinning, texts and empty arrays are left out.
 /// @param all fetch everything, dirty or not
 PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& param,

@@ -10,14 +10,14 @@
 
 namespace patina {
 
-/// Keeps one renderer busy with what a host wants to see, and copies finished frames into the
+/// Keeps one renderer busy with the view that a host wants, and copies finished frames into the
 /// host's buffers.
 ///
-/// Executing never blocks: it starts over when scene, settings, camera, framing or bindings have
-/// changed, and takes what the renderer has finished. The pass is converged once the last frame is
-/// in the buffers, also when a render failed, so that hosts neither stop early nor wait forever.
-/// With render products to write (a UsdRenderSettings prim is active and the host is not
-/// interactive) it writes those instead; the buffers keep their clear values then.
+/// Executing never blocks. It starts over when scene, settings, camera, framing or bindings have
+/// changed, and takes the newest frame that the renderer has finished. The pass is converged when
+/// the last frame is in the buffers, even if the render failed, so hosts neither stop early nor
+/// wait forever. If there are render products to write (a UsdRenderSettings prim is active and the
+/// host is not interactive), it writes those instead, and the buffers keep their clear values.
 class HdPatinaRenderPass final : public HdRenderPass {
 public:
     HdPatinaRenderPass(HdRenderIndex* index, const HdRprimCollection& collection,

@@ -83,7 +83,8 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
     HdPatinaSettings& s = output.settings;
     if (product.type != "raster") {
         param.warn(product.productPath, "productType",
-                   "'" + product.type.GetString() + "' cannot be written; only raster can");
+                   "'" + product.type.GetString() +
+                       "' products cannot be written; only raster products can");
         return false;
     }
     if (output.file.empty()) {

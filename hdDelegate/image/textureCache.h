@@ -7,6 +7,7 @@
 #include <OpenImageIO/imagecache.h>
 
 #include <memory>
+#include <shared_mutex>
 #include <string>
 
 namespace patina {
@@ -34,6 +35,7 @@ public:
 
 private:
     std::shared_ptr<OIIO::ImageCache> _cache;
+    std::shared_mutex _reading; ///< alone while a file is forgotten
 };
 
 } // namespace patina

@@ -248,9 +248,9 @@ const TextureSystem::Image* TextureSystem::tileAt(const Entry& entry, glm::vec2&
     auto& warned = entry.warned[std::min(number, entry.watched)];
     if (!warned.exchange(true, std::memory_order_relaxed)) {
         std::string which = inside ? "tile " + std::to_string(firstTile + int(number))
-                                   : std::string("texture coordinates outside of all tiles");
+                                   : std::string("tile at some texture coordinates");
         _diagnostics.warn(entry.request.prim, entry.request.input,
-                          "texture '" + entry.request.file + "' has nothing for " + which +
+                          "texture '" + entry.request.file + "' has no " + which +
                               "; magenta is shown");
     }
     return nullptr;

@@ -49,8 +49,8 @@ public:
     }
     bool delta() const { return _resolved.delta; }
 
-    /// Samples are taken in three steps, because an image around the scene is larger than caches:
-    /// what one step will read is asked for by the step before.
+    /// Samples are taken in three steps, because an image around the scene is larger than caches.
+    /// Each step requests the memory that the next one reads.
     /// @param normal,twoSided as of LightSet::sample(); constant domes sample by the cosine
     EmitterDraw begin(const vec3& point, const vec3& normal, bool twoSided, const vec2& u,
                       float time) const;

@@ -7,13 +7,14 @@
 
 namespace patina {
 
-/// A density over the cells of a latlong grid that follows the product of what a cell is worth and
-/// the cosine of a surface there, so that few samples of a sky are taken below the horizon.
+/// A density over the cells of a latlong grid, in proportion to the worth of a cell times the
+/// cosine at a surface. So few samples of a sky lie below the horizon.
 ///
 /// The grid is cut into blocks, at most 32 x 16. For each of a number of normals a table holds the
-/// products' sums per block; within a block cells are chosen by their worth alone. All are inverted
-/// cumulative sums, rows first, so that numbers that are spread evenly give samples that are.
-/// A fiftieth follows the worth alone: lobes may have other normals than the surface.
+/// sums of the products per block. Within a block cells are chosen by worth alone. All choices
+/// invert cumulative sums, rows first, so evenly spread numbers give evenly spread samples. A
+/// fiftieth of the samples follows worth alone, because a lobe may have another normal than the
+/// surface.
 class SkyDistribution {
 public:
     SkyDistribution() = default;

@@ -180,7 +180,8 @@ private:
         if (cameraPrim.clippingPlanes.size() > size_t(RasterPasses::maxPlanes))
             _scene->diagnostics().warn(cameraPrim.path, "clippingPlanes",
                                        "the rasterizer clips by the first " +
-                                           std::to_string(RasterPasses::maxPlanes) + " alone");
+                                           std::to_string(RasterPasses::maxPlanes) +
+                                           " planes only");
         checkDevice(0);
         // Somebody looks on: images of what there is until all is there.
         const bool early = _settings.interactive && _listener && _film->resumeToken.empty();

@@ -54,11 +54,11 @@ class Renderer {
 public:
     virtual ~Renderer() = default; ///< stops first
 
-    /// Starts rendering the scene's newest state as seen by a camera. A render that runs is
-    /// stopped first; what an edit did not touch since the last start is kept.
-    /// @param film is resized to the settings. Samples that it already holds are kept and continued
-    ///        when it has a `resumeToken`: the host set it because scene, camera and settings are
-    ///        those of the render that took them.
+    /// Starts rendering the scene's newest state, seen by a camera. A running render is stopped
+    /// first. Everything that no edit touched since the last start is kept.
+    /// @param film is resized to the settings. If it has a `resumeToken`, its samples are kept and
+    ///        continued: the host sets the token if scene, camera and settings are those of the
+    ///        render that took them.
     virtual void start(std::shared_ptr<Scene> scene, const std::string& camera,
                        const RenderSettings& settings, std::shared_ptr<Film> film) = 0;
     virtual void stop() = 0; ///< blocks until no thread works on the film (milliseconds)

@@ -32,7 +32,8 @@ public:
         auto& list = _camera.clippingPlanes;
         const auto sound = [](const vec4& p) { return std::isfinite(p.x + p.y + p.z + p.w); };
         if (std::all_of(list.begin(), list.end(), sound)) return;
-        _diagnostics.warn(_camera.path, "clippingPlanes", "some are not finite and clip nothing");
+        _diagnostics.warn(_camera.path, "clippingPlanes",
+                          "some planes are not finite; they clip nothing");
         list.erase(
             std::remove_if(list.begin(), list.end(), [&](const vec4& p) { return !sound(p); }),
             list.end());

@@ -136,8 +136,9 @@ void checkTogether(CameraLens& lens, const std::string& path, Diagnostics& diagn
     const auto limit = [&](const char* input, float& value, float most) {
         if (value <= most) return;
         diagnostics.warn(path, input,
-                         "is more than " + shortNumber(most) +
-                             " degrees, which this projection can show; that is used");
+                         "is more than the " + shortNumber(most) +
+                             " degrees that this projection can show; " + shortNumber(most) +
+                             " are used");
         value = most;
     };
     if (lens.projection == LensProjection::Cylindrical)
@@ -165,8 +166,7 @@ void applyCameraInputs(const Marks& inputs, Camera& camera, Diagnostics& diagnos
         if (found == inputs.end()) continue;
         const std::string problem = row.take(found->second, camera.lens);
         if (!problem.empty())
-            diagnostics.warn(camera.path, row.name,
-                             problem + ", which cameras take; it is left out");
+            diagnostics.warn(camera.path, row.name, problem + "; the camera attribute is left out");
     }
     checkTogether(camera.lens, camera.path, diagnostics);
 }

@@ -77,7 +77,7 @@ void warnOfInstances(const Instancer& instancer, float timeCode, Diagnostics& di
                          "index out of range; the instance is not drawn");
     if (!problem.empty())
         diagnostics.warn(instancer.path, "transform",
-                         "of an instance " + problem + "; it is not drawn");
+                         "of an instance " + problem + "; that instance is not drawn");
 }
 
 } // namespace patina

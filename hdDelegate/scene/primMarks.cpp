@@ -164,8 +164,8 @@ void applyMarks(const Marks& marks, Geometry& prim, Diagnostics& diagnostics) {
             continue;
         diagnostics.warn(prim.path, "primvars:" + found->first,
                          row.kind == MarkKind::NotRead
-                             ? "is not read; these rays see the prim"
-                             : "has a value that means nothing here; it is left out");
+                             ? "is not read; rays of this kind see the prim"
+                             : "has an unknown value; it is left out");
     }
 }
 

@@ -22,16 +22,17 @@ using ColorTransformPtr = std::shared_ptr<const ColorTransform>;
 /// The colour spaces of an OCIO configuration, seen from the rendering space, which is linear
 /// Rec.709 (D65).
 ///
-/// This is the one place that knows names of colour spaces, for values and textures alike. The
-/// built-in configuration knows those of MaterialX 1.39, of USD's GfColorSpaceNames and the usual
-/// ones of the ACES configurations. With a configuration of the user's, its names come first, and
-/// the built-in ones hold for names that it lacks. "raw", "none", "Non-Color", "data", "identity",
-/// "unknown" and the empty name mean data that is never converted, in any configuration. Upper and
-/// lower case are the same.
-///
-/// A space without a name, as stages may define them, is written as
-/// "chromaticities(rx ry gx gy bx by wx wy gamma bias)": CIE 1931 xy of red, green, blue and white,
-/// then the exponent and the offset of its curve, 2.4 and 0.055 for that of sRGB.
+/// Only this class knows names of colour spaces, for values and textures alike:
+/// - The built-in configuration has the names of MaterialX 1.39, of USD's GfColorSpaceNames, and
+///   the usual ones of the ACES configurations.
+/// - With a configuration of the user's, its names come first. The built-in configuration has the
+///   names that it lacks.
+/// - "raw", "none", "Non-Color", "data", "identity", "unknown" and the empty name mean data that is
+///   never converted, in any configuration.
+/// - Upper and lower case are the same.
+/// - A space without a name, which stages may define, is written as "chromaticities(rx ry gx gy bx
+///   by wx wy gamma bias)": CIE 1931 xy of red, green, blue and white, then the exponent and the
+///   offset of its curve (2.4 and 0.055 for sRGB).
 class ColorSpaces {
 public:
     /// @param configFile an OCIO configuration; empty for the built-in one alone

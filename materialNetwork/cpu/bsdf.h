@@ -105,10 +105,11 @@ public:
     glm::vec3 albedo() const;
 
     /// @returns whether a lobe has no formula. Then eval() gives random values whose mean is right,
-    /// and densities that are never 0 where the value is not, which may weigh strategies against
-    /// each other and must not divide. sample() keeps such lobes apart: a sample of one has the
-    /// weight of this lobe alone, one of any other lobe those of all others, so that nothing is
-    /// divided by an estimate and the mean over samples is that over directions.
+    ///     and densities that are never 0 where the value is not. Such a density may weigh
+    ///     strategies against each other, but must not divide. sample() therefore keeps these lobes
+    ///     apart: a sample of one has the weight of this lobe alone, a sample of any other lobe the
+    ///     weight of all others. So nothing is divided by an estimate, and the mean over samples is
+    ///     the mean over directions.
     bool stochastic() const { return _stochastic; }
     /// Other random values from now on. @param seed one per vertex of a path
     void seed(uint32_t seed) { _seed = seed; }

@@ -60,9 +60,9 @@ public:
     /// @param attributes per slot of primvars(): negative when the prim has no such primvar
     bool isOpaqueWith(const std::vector<int>& attributes) const;
 
-    /// Presence of the surface, 0..1: the chance that a ray meets it at all, instead of passing
-    /// straight on. Light that lobes pass straight on is part of this and not of the Bsdf, so that
-    /// shadow rays see through them; it then depends on viewDirection.
+    /// Presence of the surface, 0..1: the chance that a ray meets it at all, and does not pass
+    /// straight through. Light that lobes let pass straight through is part of the presence and not
+    /// of the Bsdf, so that shadow rays pass too. The presence then depends on viewDirection.
     /// @param transmittance if given: colour of the light that passes, divided by 1 - opacity
     /// @param presence if given: the part that is not absent; it emits, even where light passes
     float opacity(const ShadingPoint& point, glm::vec3* transmittance = nullptr,

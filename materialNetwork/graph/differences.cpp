@@ -105,7 +105,7 @@ private:
             if (_out.nodes.size() > maxNodes) {
                 _diagnostics.warn(node.path, "in",
                                   "too much would have to be evaluated to blur it; "
-                                  "the input is passed on");
+                                  "the input is not blurred");
                 return in;
             }
             const Operand tap = moved(in, [&](const Operand& read, ValueType type, bool world) {

@@ -39,7 +39,7 @@ public:
         if (_nodes > _mostNodes) {
             // Definitions that use others twice, those others twice, and so on.
             _diagnostics.warn(_network.path, "",
-                              "the material comes to more nodes than " + limitText(Limit::nodes) +
+                              "the material expands to more nodes than " + limitText(Limit::nodes) +
                                   "; it is left out");
             Network nothing;
             nothing.path = _network.path;

@@ -8,10 +8,13 @@
 
 namespace patina {
 
-/// Rewrites a graph without changing what it means: constants are folded by running the pattern
-/// functions, neutral operations and choices between constants are removed, closures of weight 0
-/// and layers or mixes with nothing left in one half collapse, equal nodes are merged, and what no
-/// terminal reaches is dropped.
+/// Rewrites a graph without changing its meaning:
+/// - Constants are folded by running the pattern functions.
+/// - Neutral operations, and choices between constants, are removed.
+/// - Closures of weight 0 collapse, and so do layers and mixes with one empty half.
+/// - Equal nodes are merged.
+/// - Nodes that no terminal reaches are dropped.
+///
 /// @param cuts gets one line for each closure or choice that was removed
 Graph simplify(const Graph& graph, std::vector<std::string>& cuts);
 

@@ -17,11 +17,11 @@ public:
     static constexpr int nodeCount = 64;
     static constexpr int fineCount = 512;
 
-    /// Measures the lobe (cpu/energyCurve.cpp). Stays empty for lobes that it does not suit:
-    /// mirrors and lobes nearly as narrow, anisotropic ones, interfaces that are denser on the
+    /// Measures the lobe (cpu/energyCurve.cpp). The curve stays empty for lobes that it does not
+    /// suit: mirrors and nearly mirrors, anisotropic lobes, and interfaces that are denser on the
     /// outside (total reflection has a kink). Methods that sum over many facets (ALBEDO_SAMPLES_16
-    /// and above) are too slow to ask at every point: they get a fine curve, read by cubics, for
-    /// any roughness, for conductors, and for the inner side too.
+    /// and above) are too slow to evaluate at every point. They get a fine curve, read by cubics,
+    /// for any roughness, for conductors, and for the inner side too.
     void measure(const BsdfLobe& lobe);
     bool empty() const { return _nodes.empty() && _fine.empty(); }
     /// Whether at() knows light from this side.

@@ -4,15 +4,16 @@
 #include "materialNetwork/ir/bindMethods.h"
 #include "materialNetwork/ir/closureTree.h"
 
-// The weights of lobes from the tree of closures that they stand in, for both back ends (see
-// closureTree.h). `Out` also knows the lobes:
-//   coverage(lobe)        what a lobe keeps from the base of a layer
-//   setWeight(lobe, w)    the result
-//   walks(op)             whether a layer is walked; then setWalked(w, op) in place of its parts
-// and where layers count what their tops send back down:
-//   albedo(lobe), kinds(lobe), inside(lobe), alpha(lobe), cosine(lobe)  arguments of
-//                         closure/layers.glsl
-//   meets(share)          whether a lobe of this share can be there
+// The weights of lobes, computed from the tree of closures around them, for both back ends (see
+// closureTree.h). `Out` also provides:
+//   coverage(lobe)        the share that a lobe takes from the base of a layer
+//   setWeight(lobe, w)    receives the result
+//   walks(op)             whether a layer is computed by a random walk
+//   setWalked(w, op)      receives the weight of such a layer, in place of its parts
+// and, for layers that count the light which their tops send back down:
+//   albedo(lobe), kinds(lobe), inside(lobe), alpha(lobe), cosine(lobe)   arguments of the
+//                         functions in closure/layers.glsl
+//   meets(share)          whether a lobe of this share can be present
 
 namespace patina {
 

@@ -5,11 +5,11 @@
 
 namespace patina::measure {
 
-/// The methods of the choice point layering: a dielectric interface over diffuse bases (kind
-/// `layer`) and over metals (`layerOverMetal`, along the rougher of both roughnesses), and scaling
-/// over a grey base with the albedo found by each of its methods (`layerBy...`, which no plan looks
-/// up: it adds what directionalAlbedo is off). Times are what a layer adds to its base, for laying
-/// out, one value and one sample.
+/// Measures the methods of the choice point layering: a dielectric interface over diffuse bases
+/// (kind `layer`) and over metals (`layerOverMetal`, by the larger of both roughnesses). Also
+/// measures scaling over a grey base for each method that finds the albedo (`layerBy...`). No plan
+/// looks these rows up, since they only repeat the error of directionalAlbedo. Times are the extra
+/// time of a layer over its base, for set-up, one value and one sample.
 /// @param timed false leaves out the times, which is quick
 std::vector<Row> layering(bool timed);
 

@@ -61,7 +61,7 @@ std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics)
     }
     if (leftOut)
         diagnostics.warn(path, "",
-                         "the materials come to more nodes than five times " +
+                         "the materials expand to more nodes than five times " +
                              limitText(Limit::nodes) + "; the last " + std::to_string(leftOut) +
                              " are left out");
     return std::move(document.materials);

@@ -125,7 +125,7 @@ private:
             const std::string type = source ? source.attribute("type").value() : "";
             if (!source || valueTypeComponents(valueTypeFromName(type)) < 1) {
                 _diagnostics.warn(where(node), child.attribute("name").value(),
-                                  "channels of this connection are not understood and ignored");
+                                  "the channels of this connection are unknown and are ignored");
                 child.remove_attribute("channels");
                 continue;
             }
@@ -151,7 +151,8 @@ private:
         const int available = valueTypeComponents(valueTypeFromName(from));
         if (!in || available < 1 || count < 1 || count > 4 || int(channels.size()) < count) {
             _diagnostics.warn(where(node), "channels",
-                              "'" + channels + "' are no channels of this; zeros are used");
+                              "the connected value has no channels '" + channels +
+                                  "'; zeros are used");
             node.remove_children();
             node.set_name("constant");
             return;

@@ -227,7 +227,7 @@ private:
                 break;
             }
             _diagnostics.warn(node.path, "",
-                              node.def->category + " cannot stand here; it is left out");
+                              node.def->category + " cannot be used at this place; it is left out");
             return -1;
         }
         closure.reflects |= reflects(closure.a) || reflects(closure.b);

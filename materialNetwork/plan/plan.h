@@ -26,20 +26,19 @@ struct PlanClosure {
     bool has(lobe::Trait trait) const { return lobeHas(kind, trait); }
 };
 
-/// A material as back ends render it: closures with their parameters, and the patterns these need.
+/// A material as back ends render it: closures with their parameters, and the patterns that these
+/// need.
 ///
 /// Three meanings that the field leaves open are choice points (methods.h). Their defaults:
-/// - A layer lets through 1 - E of its top. E is the top's directional albedo at wo without tint,
-///   the largest channel where the interface itself is coloured, so that no channel gains energy.
-///   A diffuse or metal top lets through 1 - weight, mix and add follow from their parts, and a
+/// - A layer lets through 1 - E of its top. E is the top's directional albedo at wo without tint.
+///   If the interface itself is coloured, its largest channel counts, so that no channel gains
+///   energy. A diffuse or metal top lets through 1 - weight. Mix and add follow from their parts. A
 ///   product counts by the largest channel of its factor.
-/// - A reflection lobe over a transmission lobe is one interface ("sharedInterface"): the layer has
-/// already
-///   taken what was reflected, so the transmission lobe leaves out its own loss. Without that the
-///   loss would count twice.
-/// - thin_walled surfaces have no inside: transmission goes straight on, tinted once, and nothing
-/// is
-///   absorbed. An interface of mode RT or T that lies under no reflection lobe is a slab with two
+/// - A reflection lobe over a transmission lobe is one interface ("sharedInterface"). The layer has
+///   already taken the reflected light from the base, so the transmission lobe leaves out its own
+///   loss; otherwise it would count twice.
+/// - thin_walled surfaces have no inside. Transmission goes straight through, is tinted once, and
+///   nothing is absorbed. An interface of mode RT or T under no reflection lobe is a slab with two
 ///   faces, between which light bounces: it reflects 2 r / (1 + r) and passes (1 - r) / (1 + r).
 struct Plan {
     Graph graph;                       ///< simplified

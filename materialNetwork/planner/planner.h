@@ -21,21 +21,26 @@ constexpr double methodShare = 0.4;
 /// Share of the tolerance that is kept for paths being cut off.
 constexpr double depthShare = 0.1;
 
-/// Chooses a method at every choice point that matters to a plan and has a truth: those whose
-/// predicted errors sum up to at most methodShare of the tolerance, and with which an image is
-/// done first: error that methods take is missing to noise, which then needs more samples.
+/// Chooses a method at every choice point that has a truth and matters to a plan. The predicted
+/// errors of the chosen methods sum up to at most methodShare of the tolerance. Among those the
+/// combination is taken with which an image is done first: the error of methods leaves less of the
+/// tolerance to noise, which then needs more samples.
 ///
-/// The prediction for one method is the table's mean error at the lobe's own kind, reflectance and
-/// roughness (between the two subjects that enclose it), per quarter of the cosine, over what
-/// is reflected; times the lobe's share of the material's albedo, and on what lies beneath it the
-/// error over what is let through. Of the quarters the mean and the worst count half each, of
-/// places with different parameters the worst. Layers are predicted channel by channel of their
-/// base. Light that meets several surfaces takes the error along each time, which a factor allows
-/// for (bounceFactor). Among methods without bias (sampling) the one with the least noise for its
-/// time is taken. Where the default is not measured, it stays.
+/// How errors are predicted:
+/// - For a lobe, a method has the table's mean error at its kind, reflectance and roughness
+///   (between the two subjects that enclose it), for each quarter of the cosine, over the light
+///   that the lobe reflects.
+/// - The mean over the quarters and the worst quarter count half each. Of places with different
+///   parameters the worst counts.
+/// - The error counts by the lobe's share of the material's albedo. On the lobes beneath it counts
+///   over the light that is let through. Layers are predicted channel by channel of their base.
+/// - Light meets several surfaces and takes the error along each time (bounceFactor).
+///
+/// Among methods without bias (sampling) the one with the least noise for its time is taken. Where
+/// the default is not measured, it stays.
 /// @param plan with the default methods; meanings (points without a truth) are left as they are
-/// @param code made of the same plan, with what is forced and else the defaults; errors are worst
-/// over what is seen in its textures
+/// @param code made from the same plan, with the forced methods and otherwise the defaults; errors
+///        are the worst over the values that its textures show
 MethodPlan planMethods(const Plan& plan, const ProgramCode& code, const Planning& planning);
 
 /// How often light that a camera sees has met surfaces of such an albedo, on the average:

@@ -243,9 +243,9 @@ TEST_F(MtlxHostile, DefinitionsThatMultiplyAreGivenUp) {
     ASSERT_EQ(networks.size(), 1u);
     EXPECT_TRUE(networks[0].empty());
     EXPECT_TRUE(networks[0].nodes.empty());
-    EXPECT_TRUE(
-        reported("main.mtlx:M [] the material comes to more nodes than 200000 (--limit nodes); it "
-                 "is left out"));
+    EXPECT_TRUE(reported(
+        "main.mtlx:M [] the material expands to more nodes than 200000 (--limit nodes); it "
+        "is left out"));
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
 }
 
@@ -262,7 +262,7 @@ TEST_F(MtlxHostile, MaterialsThatMultiplyAreGivenUpTogether) {
         EXPECT_TRUE(network.empty() && network.nodes.empty());
     // Six times 200000 is beyond the bound of the document.
     EXPECT_TRUE(reported(
-        "the materials come to more nodes than five times 200000 (--limit nodes); the last "
+        "the materials expand to more nodes than five times 200000 (--limit nodes); the last "
         "994 are left out"));
     EXPECT_EQ(diagnostics.count(), 6 + 1);
 }

@@ -14,14 +14,16 @@ struct GaussRule {
     std::vector<double> w;
 };
 
-/// Single scattering at a microfacet interface of light that arrives from one
-/// direction: integrals over the visible normals, in the sampling square of
-/// microfacetSampleVisible, with `n` by `n` points. Points crowd where facets of GGX lean far from
-/// the normal, since that tail alone decides how much light is lost at small roughness. Isotropic
-/// lobes are symmetric: half of the square is enough. Along one axis each column has two Gauss
-/// panels that meet at a place of its own, so that kinks (the critical angle, the horizon) fall
-/// differently between the points of each column and average out. Anisotropic lobes take a lattice,
-/// whose error is 3e-3 for `n` 24.
+/// Single scattering at a microfacet interface, of light from one direction: integrals over the
+/// visible normals, in the sampling square of microfacetSampleVisible, with `n` by `n` points.
+///
+/// - Points are dense where facets of GGX lean far from the normal. That tail alone decides how
+///   much light is lost at small roughness.
+/// - Isotropic lobes are symmetric: half of the square is enough.
+/// - Along one axis each column has two Gauss panels, which meet at another place in each column.
+///   So kinks (the critical angle, the horizon) fall differently between the points of each column
+///   and average out.
+/// - Anisotropic lobes take a lattice, whose error is 3e-3 for `n` = 24.
 class InterfaceQuadrature {
 public:
     /// @param ndf sh::NDF_*

@@ -1,18 +1,32 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The machines' findings, by their own figures: testenv/fuzz/results.json, of which docs/trust.md is made. A run adds a
-row; what was mended and what is known and left is written by hand."""
+"""The fuzzers' findings, by their own figures: testenv/fuzz/results.json, from which docs/trust.md is made.
+
+A run adds a row to `runs`. The other lists are written by hand: `mended` (defects), `mistakes` (of the fuzzers) and `known`
+(gaps)."""
 import json
 import os
 
 FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "results.json")
-# Machines that are no fuzzers, and how they are run.
+# Scripts that search like fuzzers: what they try, and how they are run.
 OTHERS = {
-    "randomGraphs": ("legal material graphs, on the processor", "./patina python testenv/stability/randomGraphs.py --seed 1 "
+    "randomGraphs": ("legal material graphs, evaluated in C++", "./patina python testenv/stability/randomGraphs.py --seed 1 "
                                                                 "--count 10000 --results"),
-    "randomGraphsRaster": ("legal material graphs, on the processor and as GLSL, held together",
+    "randomGraphsRaster": ("legal material graphs in C++ and in GLSL, compared",
                            "./patina python testenv/stability/randomGraphs.py --seed 1 --count 1000 --raster 1 --results"),
     "racingEdits": ("random edits by two threads while the path tracer renders, under ThreadSanitizer, without Hydra",
                     "./patina python testenv/sanitizers/racingEdits.py --seconds 3600 --results"),
+}
+
+
+# Kinds of findings, as outcomes.py has them, in words.
+KINDS = {
+    "crash": "*crash*: the process died of a signal.",
+    "hang": "*hang*: the process did not end within its time limit.",
+    "library": "*library*: another library failed, and fails without Patina too.",
+    "memory": "*memory*: the process ran out of memory.",
+    "promise": "*promise*: a result breaks what Patina claims. An image holds NaN, say, an old image is lost, or back ends "
+               "differ.",
+    "traceback": "*traceback*: an exception that the command had not foreseen.",
 }
 
 
@@ -76,24 +90,32 @@ def page():
             covered = "not measured" if not of["lines"] else f"{of['lines'][0]:,} of {of['lines'][1]:,} lines, " \
                 f"{100 * of['lines'][0] / of['lines'][1]:.0f} %"
             parsers.append((", ".join(f"`{source}`" for source in FUZZERS[name].sources), f"`{name}`", covered))
-    head = ("machine", "tries", "inputs", "hours", "inputs per second", *kinds, "command")
+    head = ("fuzzer", "tries", "inputs", "hours", "inputs per second", *kinds, "command")
     mended = [(item["what"], item["by"], f"`{item['test']}`") for item in table["mended"]]
+    mistakes = [(f"`{item['fuzzer']}`", item["counted"], item["was"]) for item in table["mistakes"]]
     return ["# Trust, in figures", "",
-            "Machines look for what users would find: inputs that crash, hang, take memory without end, lose an image or make",
-            f"values that are no numbers. The runs that are noted here took {seconds / 3600:.1f} hours, on two cores that",
-            f"other work shared, and tried {total:,} inputs. Each run adds a row to `testenv/fuzz/results.json`",
-            "(`--results`), of which this page is made. [SECURITY.md](../SECURITY.md) says what is claimed,",
-            "[limits](generated/limits.md) what input may ask for at most.", "",
+            "Fuzzers try inputs that no user has tried yet, and look for crashes, hangs, memory without end, lost images and",
+            f"values that are no numbers. The runs below took {seconds / 3600:.1f} hours on two cores that other work",
+            f"shared, and tried {total:,} inputs. [SECURITY.md](../SECURITY.md) says what Patina claims,",
+            "[limits](generated/limits.md) how much an input may ask for.", "",
+            "`./patina fuzz NAME --results` runs a fuzzer, and adds a row to `testenv/fuzz/results.json`. This page is",
+            "made from that file.", "",
             "## Runs", "",
-            "Kinds count inputs, not causes: *library* is what fails in another library without Patina too. All other inputs",
-            "were fine, or ended with a message.", "",
+            "The columns after *inputs per second* count inputs, not causes. All other inputs gave a result, or ended with a",
+            "message.", "",
+            *(f"- {KINDS[kind]}" for kind in kinds), "",
             *_table(head, rows), "",
-            "## Reach of the parsers' fuzzers", "",
-            "Lines of the sources that the kept inputs of a fuzzer run: of C++ by llvm-cov, of Python's functions by its own",
-            "tracing. The generated inputs reach the rest through the command line, which is not counted.", "",
+            "The next two tables say what the numbers above 0 were.", "",
+            "## Defects that were mended", "",
+            *_table(("what was wrong", "found by", "test"), mended), "",
+            "## Mistakes of the fuzzers", "",
+            "These counts were no defects of Patina. The fuzzers are mended; the counts stay in the table above.", "",
+            *_table(("fuzzer", "counted", "what it was"), mistakes), "",
+            "## Coverage of the parsers", "",
+            "Lines of these sources that the kept inputs of a fuzzer run, measured by llvm-cov (C++) or by tracing (Python",
+            "functions). Generated inputs reach the rest through the command line, which is not counted.", "",
             *_table(("sources", "fuzzer", "reached"), parsers), "",
-            "## Mended", "", *_table(("what was wrong", "found by", "held by"), mended), "",
-            "## Known and left", "", *(f"- {text}" for text in table["known"])]
+            "## Gaps", "", *(f"- {text}" for text in table["known"])]
 
 
 def _table(head, rows):

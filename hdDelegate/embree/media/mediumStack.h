@@ -7,11 +7,11 @@
 
 namespace patina {
 
-/// The media that a path is in: those of the closed objects whose surfaces it went through,
+/// The media that a path is in: those of the closed objects whose surfaces it has entered,
 /// innermost last.
 ///
-/// Objects may be nested, and where they overlap the one that was entered last is what the path
-/// sees: an object inside a liquid replaces the liquid, and behind it the liquid is there again.
+/// Objects may be nested. Where they overlap, the path sees the one that it entered last: an object
+/// inside a liquid replaces the liquid, and behind the object the liquid counts again.
 class MediumStack {
 public:
     MediumStack() = default;

@@ -42,18 +42,21 @@ struct WalkStart {
 /// @param u direction; uPart which strategy; in [0, 1)
 WalkStart startWalk(const WalkMedium& medium, const vec2& u, float uPart);
 
-/// Walks from just beneath a surface until the walk comes out of the same object (after Chiang,
-/// Kutz and Burley 2016, Practical and Controllable Subsurface Scattering for Production Path
-/// Tracing). The boundary bends nothing; other objects inside are not met; where parts of the
-/// object overlap it ends at the outermost. The first steps choose between leaving and scattering
-/// by what is likely to come of either: physical chances would end most walks in a dark medium
-/// inside, and give the rest weights from its colour up to 1. There, directions also turn to the
-/// surface where light went in (after Krivanek and d'Eon 2014, A Zero-Variance-Based Sampling
-/// Scheme for Monte Carlo Subsurface Scattering).
-/// @param entry where light went in; its side seen by the path counts as outside
+/// Walks from just beneath a surface until the walk leaves the same object (after Chiang, Kutz and
+/// Burley 2016, Practical and Controllable Subsurface Scattering for Production Path Tracing).
+///
+/// The boundary refracts nothing. Other objects inside are ignored. Where parts of the object
+/// overlap, the walk ends at the outermost surface.
+///
+/// The first steps choose between leaving and scattering by the light that either is likely to
+/// bring. With physical chances most walks in a dark medium would end inside, and the weights of
+/// the rest would lie between its colour and 1. These steps also turn directions to the surface
+/// where light went in (after Krivanek and d'Eon 2014, A Zero-Variance-Based Sampling Scheme for
+/// Monte Carlo Subsurface Scattering).
+/// @param entry where light went in; the side that the path sees counts as outside
 /// @param back the path saw the back side
 /// @param outside unit, out of the object where light went in
-/// @param origin on the surface, or beneath it where it is a curve or a point
+/// @param origin on the surface, or beneath it for a curve or a point
 /// @param rays is counted up
 WalkExit walkBeneath(const EmbreeScene& scene, const WalkMedium& medium, const Hit& entry,
                      bool back, const vec3& outside, vec3 origin, vec3 direction, Sampler& sampler,

@@ -5,18 +5,18 @@
 
 namespace patina {
 
-/// Faults of a driver that are asked for, to see what happens then: the environment variable
-/// PATINA_GL_FAULT holds some of them, separated by commas.
+/// Faults that a test asks the driver for. The environment variable PATINA_GL_FAULT holds some of
+/// them, separated by commas:
 /// - `lost:N`        the context is lost once N passes are drawn (0: before the first)
-/// - `memory:N`      the driver is out of memory then
+/// - `memory:N`      the driver is out of memory once N passes are drawn
 /// - `program:NAME`  a program whose first stage has that name does not compile (background,
-/// shadow)
-/// - `material:PATH` that of a material does not
+///   shadow)
+/// - `material:PATH` the program of that material does not compile
 /// - `compiling:N`   programs of a material take N milliseconds more
 /// - `storageBlocks:N` shaders may read N buffers
 /// - `uniformBlock:N` uniform blocks hold N bytes
 /// - `textureSize:N` textures of materials may have N x N pixels
-/// @returns what stands behind the colon; empty without such a fault
+/// @returns the text behind the colon; empty without such a fault
 std::string glFault(const std::string& kind);
 
 } // namespace patina

@@ -70,8 +70,8 @@ struct ShadowView {
     glm::vec4 towards{0.0f}; ///< position of the light; direction to it where w is 0
     int category = -1;       ///< of what casts; -1: everything
     bool clampsNear = false; ///< what is nearer casts from the near plane
-    /// Surfaces that cast no shadow, as shaders/raster/lightShape.glsl has it: what is inside of a
-    /// sphere light, and what lies in the plane of the emitter, which rounding else puts before a
+    /// Surfaces that cast no shadow, as in shaders/raster/lightShape.glsl: those inside of a sphere
+    /// light, and those in the plane of a flat emitter, which rounding would otherwise put before a
     /// sample.
     enum Own { Nothing, Sphere, Plane };
     Own own = Nothing;

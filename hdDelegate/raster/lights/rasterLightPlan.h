@@ -14,13 +14,13 @@ namespace patina {
 /// of a small sun.
 double peakShare(const EnvironmentMap& map);
 
-/// Chooses how materials are lit by domes (`domeLight`, `environmentSamples`) and by areas
-/// (`areaLight`), by the lights that a scene has.
+/// Chooses, for a scene's lights, how materials are lit by domes (`domeLight`,
+/// `environmentSamples`) and by areas (`areaLight`).
 ///
-/// Samples converge, so what they cost is the time of as many passes as their noise needs to fall
-/// to what is left for it; a method without noise takes the fewest passes that there are, and its
-/// error has to be within what the material's own methods leave of methodShare of the tolerance.
-/// The faster one is taken. Domes are looked up between the measured skies by their peakShare().
+/// Samples converge. Their cost is the time of as many passes as their noise needs to fall to its
+/// share of the tolerance. A method without noise costs the fewest possible passes. Its error has
+/// to fit into the rest of methodShare of the tolerance that the material's own methods leave. The
+/// faster one is taken. A dome is looked up between the measured skies by its peakShare().
 class RasterLightPlan {
 public:
     /// peakShare() of the skies that rows are of (hdDelegate/raster/measure/measuredSky).

@@ -16,10 +16,10 @@
 
 namespace patina {
 
-/// The lights of a scene, for passes that each take one sample of every light (more of domes).
-/// All pixels of a pass share the samples, so that a shadow map tells what they reach; passes add
-/// up to soft shadows. Where a pass has no room for the shadow maps of all lights, it takes some of
-/// them, which then count more, so that the mean of the passes is right.
+/// The lights of a scene, for passes that each take one sample of every light (more of domes). All
+/// pixels of a pass share the samples, so a shadow map can tell which points a sample reaches.
+/// Passes add up to soft shadows. If a pass has no room for the shadow maps of all lights, it takes
+/// some of the lights. These count more, so that the mean of the passes is right.
 class RasterLights {
 public:
     static constexpr int minEmitterSamples = 2; ///< of all glowing triangles together, per pass

@@ -8,9 +8,9 @@
 
 namespace patina {
 
-/// Visibility of the sky, for directions that are no light's samples: small shadow maps, one
-/// for each cell of an octahedral grid of directions. Passes redraw some of them from other
-/// directions of their cells, so that the edges of shadows blur instead of standing still.
+/// Visibility of the sky in directions that are no light's samples: small shadow maps, one for each
+/// cell of an octahedral grid of directions. Passes redraw some of them from other directions of
+/// their cells, so the edges of shadows blur instead of standing still.
 class RasterSky {
 public:
     static constexpr int side = 12; ///< cells

@@ -22,16 +22,17 @@ struct SkyHarmonics {
 /// The nine functions in a direction (Green 2003), constants included.
 void shHarmonics(const glm::vec3& direction, float out[9]);
 
-/// Projects a sky by summing over the cells of a latlong grid of 256 by 128, 36 directions in each.
+/// Projects a sky by summing over the cells of a latlong grid of 256 by 128, with 36 directions in
+/// each cell.
 ///
-/// The light within 6 degrees of the brightest direction above the level around it is split off
-/// as a directional light when it gives at least a tenth of all flux. The rest is windowed by
-/// 1 / (1 + lambda l^2 (l + 1)^2) (Sloan 2008), with the smallest lambda that keeps the irradiance
-/// from ringing below zero anywhere.
+/// If the light within 6 degrees of the brightest direction, above the level around it, is at least
+/// a tenth of all flux, it becomes a directional light. The rest is windowed by 1 / (1 + lambda l^2
+/// (l + 1)^2) (Sloan 2008), with the smallest lambda that keeps the irradiance from ringing below
+/// zero anywhere.
 /// @param radiance of a direction; negative and not finite values count as zero
 /// @param splitSun false keeps all of it in the harmonics
-/// @param windows false leaves the harmonics as they are: bright spots ring, with light of less
-/// than nothing behind
+/// @param windows false leaves the harmonics as they are: bright spots then ring, with negative
+///        light behind them
 SkyHarmonics makeSkyHarmonics(const std::function<glm::vec3(const glm::vec3&)>& radiance,
                               bool splitSun = true, bool windows = true);
 

@@ -13,10 +13,11 @@
 
 namespace patina {
 
-/// First looks: passes in which pixels find light by other samples than their neighbours, and are
-/// smoothed over the surface (shaders/raster/firstLook.frag.glsl). Ordinary passes, which converge,
-/// follow. Films hold the means of passes as they are, and a share of what smoothing does to them
-/// that falls to none: smoothing is wrong where light or surface change from pixel to pixel.
+/// First looks: the first passes, in which neighbouring pixels use different samples of the lights,
+/// and the result is smoothed over the surface (shaders/raster/firstLook.frag.glsl). Ordinary
+/// passes, which converge, follow. The film holds the plain means, plus a share of the change that
+/// smoothing makes. That share falls to 0, since smoothing is wrong where light or surface change
+/// from pixel to pixel.
 class RasterLook {
 public:
     static constexpr int passes = 8;

@@ -10,11 +10,14 @@ namespace patina {
 /// How finely a prim is drawn, by its size on screen.
 class RasterDetail {
 public:
-    /// A chord of c pixels leaves a circle of R pixels by c^2 / 8R. Where that is less than
-    /// `largestGap`, edges may be twice as long as the settings ask for, unless the prim is
-    /// displaced: normals are smooth. Where shorter edges are asked for than the default's, the gap
-    /// is smaller with their square. Small round shapes have shorter ones instead, as the path
-    /// tracer's always do. Against the edge of what glows a quarter of the gap is seen as well.
+    /// A chord of c pixels leaves a circle of R pixels by c^2 / 8R. The edges of a prim follow from
+    /// that:
+    /// - If the gap is less than `largestGap`, edges may be twice as long as the settings say,
+    ///   since normals are smooth. Displaced prims are excepted.
+    /// - If the settings ask for shorter edges than the default's, the gap shrinks with their
+    ///   square.
+    /// - Small round shapes have shorter edges instead, as always in the path tracer.
+    /// - Prims that glow have a quarter of the gap: it shows against their edge.
     RasterDetail(const Geometry& prim, const PrimExtent& extent, const RasterCamera& camera,
                  const RenderSettings& settings, float edgeLength, bool displaced, bool glows);
 

@@ -18,7 +18,7 @@ def shots_at(prim, arguments, time, decimals):
     products = _products(prim)
     if arguments.image:
         if len(products) > 1:
-            prim.warn(prim.path, "products", f"has {len(products)}; {products[0].GetPath()} alone is rendered, to IMAGE")
+            prim.warn(prim.path, "products", f"has {len(products)} products; only {products[0].GetPath()} is rendered, to IMAGE")
         products = products[:1] or [None]
     elif not products:
         raise CommandError(f"{prim.path} has no products: name an IMAGE")
@@ -46,7 +46,7 @@ def _products(prim):
             continue
         kind = product.GetAttribute("productType").Get()
         if kind not in (None, "raster"):
-            prim.warn(target, "productType", f"'{kind}' cannot be written; only raster can")
+            prim.warn(target, "productType", f"'{kind}' products cannot be written; only raster products can")
             continue
         found.append(product)
     return found

@@ -76,7 +76,7 @@ def applied(arguments, prim):
     merged.materialPurpose = _material_purpose(prim)
     space = prim.prim.GetAttribute("renderingColorSpace")
     if space and space.HasAuthoredValue() and space.Get() not in ("", "lin_rec709", "lin_rec709_scene", "lin_srgb"):
-        prim.warn(prim.path, "renderingColorSpace", f"'{space.Get()}' is not rendered in; linear Rec.709 is")
+        prim.warn(prim.path, "renderingColorSpace", f"rendering in '{space.Get()}' is not supported; linear Rec.709 is used")
     merged.method = list(arguments.method)
     forced = {text.partition("=")[0] for text in arguments.method}
     for attribute in prim.prim.GetAuthoredAttributes():
@@ -110,7 +110,7 @@ def _material_purpose(prim):
     authored = attribute.Get() if attribute and attribute.HasAuthoredValue() else ["full"]
     wanted = [purpose for purpose in authored or [] if purpose]
     if len(wanted) > 1:
-        prim.warn(prim.path, "materialBindingPurposes", f"only '{wanted[0]}' and bindings for all purposes are looked at")
+        prim.warn(prim.path, "materialBindingPurposes", f"only bindings for '{wanted[0]}' and for all purposes are used")
     return wanted[0] if wanted else ""
 
 
@@ -118,7 +118,7 @@ def _setting(merged, prim, name, key, value):
     """A `patina:` attribute."""
     if key == "backend":
         if value not in (*_BACKENDS, "auto", "interactive"):
-            prim.warn(prim.path, name, f"there is no back end '{value}'; it is left as it was")
+            prim.warn(prim.path, name, f"there is no back end '{value}'; the setting keeps its value")
         merged.backend = value if value in _BACKENDS else merged.backend
         return
     if key == "denoise":
@@ -131,7 +131,7 @@ def _setting(merged, prim, name, key, value):
     try:
         checked = settingFlags.value_of(row, value)
     except (TypeError, ValueError):
-        prim.warn(prim.path, name, f"{value} is not allowed; it is left as it was")
+        prim.warn(prim.path, name, f"{value} is not allowed; the setting keeps its value")
         return
     if key in settingFlags.names():
         setattr(merged, key, checked)

@@ -134,7 +134,7 @@ def array(context, prim, name, value, components, dtype=np.float32):
     if not fits:
         if found is None or found.size:
             kind = "integers" if dtype == np.int32 else "numbers"
-            context.warn(prim.GetPath(), name, f"is no array of {components} {kind} per element; it is taken as empty")
+            context.warn(prim.GetPath(), name, f"is no array with {components} {kind} per element; it is treated as empty")
         return np.zeros(shape, dtype)
     return found.astype(dtype, copy=False)
 

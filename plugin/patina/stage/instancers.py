@@ -17,7 +17,7 @@ def emit_instancer(context, found, names, linking):
         return
     offsets, samples = _matrices(context, schema, len(indices))
     if samples is None:
-        context.warn(path, "positions", "or another array does not fit protoIndices; nothing is drawn of it")
+        context.warn(path, "positions", "or another array has another length than protoIndices; nothing is drawn of the instancer")
         return
     samples = [local @ np.array(matrix_at(context, prim, group.anchor, t)) for t, local in zip(offsets, samples)]
     keep = _mask(schema, context.time, len(indices))
@@ -119,8 +119,8 @@ def emit_instances(context, outer, prototype, founds, linking):
                 sample[i] = np.array(matrix_at(context, founds[i].prim, founds[i].state.group.anchor, t))
         transforms = (times, samples)
     if not is_finite(matrices).all():
-        context.warn(founds[0].prim.GetPath(), "xformOpOrder", "or that of another instance of its prototype gives a "
-                     "transform that is not finite; none is used")
+        context.warn(founds[0].prim.GetPath(), "xformOpOrder", "gives a transform that is not finite, here or at another "
+                     "instance of the prototype; none is used")
         matrices[~is_finite(matrices)] = np.eye(4)
     categories = [linking.categories(found) for found in founds]
     context.edit.set_instancer(

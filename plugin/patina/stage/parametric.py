@@ -83,5 +83,5 @@ def _range(context, prim, name):
         found = np.zeros(0)
     if found.shape == (2,) and np.isfinite(found).all() and found[0] < found[1]:
         return found
-    context.warn(prim.GetPath(), name, "is not two numbers that ascend; all that the knots span is drawn")
+    context.warn(prim.GetPath(), name, "is not two ascending numbers; the whole range of the knots is drawn")
     return None

@@ -18,7 +18,7 @@ def emit(context, found, common):
             context.warn(path, "", f"fields of type {prim.GetTypeName() or 'none'} are not read")
             continue
         if _moved(context, prim, found.prim):
-            context.warn(path, "xformOpOrder", "a field is not moved apart from its volume")
+            context.warn(path, "xformOpOrder", "its own transform is not used; a field moves with its volume")
         names.append(name)
         files.append(resolve(context, prim.GetAttribute("filePath")))
         grids.append(get(prim, "fieldName", context.time) or name)

@@ -38,6 +38,7 @@ FOLDERS = {  # folder: tier, rooms
     "hdDelegate/hydra/": ("unit", "hydra"),
     "plugin/patina/stage/": ("smoke", "stage"),
     "plugin/": ("full", "cli"),
+    "testenv/bench/": ("full", "testenv"),
     "testenv/cli/": ("full", "cli"),
     "testenv/farm/": ("smoke", "farm cli film"),
     "testenv/film/": ("smoke", "film python"),

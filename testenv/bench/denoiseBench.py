@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Denoised images: seconds until they look like the reference, beside Cycles.
 
-The scenes are those of `patina bench path`. Every renderer draws them with ever more samples until the mean FLIP (HDR; Andersson
-et al. 2021) beside its own reference is below the last target. A reference is one image of many samples, not denoised. Times
-are of processors, with the denoiser's and without what is done once per scene; a row is the median of the runs, which have
-seeds of their own and take turns over the renderers. Between two numbers of samples the error is taken for a power of time.
-Cycles is denoised where its build can do that.
+The scenes are those of `patina bench path`. Every renderer draws them with ever more samples until the mean FLIP (HDR;
+Andersson et al. 2020) beside its own reference is below the last target. A reference is one image of many samples, not
+denoised. Times are of processors, with the denoiser's and without what is done once per scene; a row is the median of the runs,
+which have seeds of their own. Between two numbers of samples the error is taken for a power of time. Cycles is denoised where
+its build can do that.
 """
 import argparse
 import json
@@ -134,8 +134,8 @@ def main(arguments):
     for name in options.scenes or pathScenes.SCENES:
         results[name] = measure(name, options)
         if len(results) == 1:
-            print("| scene | mean FLIP | " + " | ".join(who + (", denoised" if who == "Patina" else " (ratio)") for who in results[name]) + " |\n|---|---|"
-                  + "---|" * len(results[name]))
+            heads = [who + (", denoised" if who == "Patina" else " (ratio)") for who in results[name]]
+            print("| scene | mean FLIP | " + " | ".join(heads) + " |\n|---|---|" + "---|" * len(heads))
         show(name, results[name], options)
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:

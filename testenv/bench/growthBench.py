@@ -68,14 +68,16 @@ def exponents(rows, part):
 
 
 def show(name, rows):
-    print(f"\n{name} | open, translate, build and draw | first image | a sample of all pixels | memory\n---|---|---|---|---")
+    print(f"\n| {name} | open, translate, build and draw | first image | a sample of all pixels | memory |\n"
+          "|---|---|---|---|---|")
     for i, row in enumerate(rows):
         slope = {part: f" ({exponents(rows[i - 1:i + 1], part)[0]:.2f})" if i else "" for part in ("first", "sample", "peak")}
         texels = f", {row['textures']:.0f} of texels" if row["textures"] else ""
-        print(f"{row['size']:,} | {row['open']:.2f} + {row['read']:.2f} + {row['draw']:.2f} s | {row['first']:.2f} s"
-              f"{slope['first']} | {1e3 * row['sample']:.1f} ms{slope['sample']} | {row['peak']:.0f} MB{slope['peak']}{texels}",
-              flush=True)
+        print(f"| {row['size']:,} | {row['open']:.2f} + {row['read']:.2f} + {row['draw']:.2f} s | "
+              f"{row['first']:.2f} s{slope['first']} | {1e3 * row['sample']:.1f} ms{slope['sample']} | "
+              f"{row['peak']:.0f} MB{slope['peak']}{texels} |", flush=True)
     if len(rows) > 1:
+        print()
         steps = [1e3 * (b["sample"] - a["sample"]) / math.log10(b["size"] / a["size"]) for a, b in zip(rows, rows[1:])]
         print(f"steepest: first image {max(exponents(rows, 'first')):.2f}, memory {max(exponents(rows, 'peak')):.2f} "
               "(target: at most 1)"

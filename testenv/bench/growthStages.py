@@ -50,7 +50,8 @@ class Made:
         self.set(surface, "info:id", Sdf.ValueTypeNames.Token, "UsdPreviewSurface", uniform=True)
         self.set(surface, "inputs:diffuseColor", Sdf.ValueTypeNames.Color3f, Gf.Vec3f(*map(float, color)))
         self.set(surface, "outputs:surface", Sdf.ValueTypeNames.Token, None)
-        self._connect(self.layer.GetPrimAtPath(path), "outputs:surface", Sdf.ValueTypeNames.Token, path + "/surface.outputs:surface")
+        self._connect(self.layer.GetPrimAtPath(path), "outputs:surface", Sdf.ValueTypeNames.Token,
+                      path + "/surface.outputs:surface")
         if not image:
             return
         place, texture = self.prim(path + "/st", "Shader"), self.prim(path + "/image", "Shader")

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The common part of the renderers' processes in the path tracing benchmark: scenes on disk, and the talk with the benchmark.
 
-A worker is started with a folder and reads a line of JSON for each image: {"samples", "seed", "file", "denoise"}. It answers with the
-seconds and the processor seconds that the image took; the first line tells what it took to get ready.
+A worker is started with a folder and reads a line of JSON for each image: {"samples", "seed", "file", "denoise"}. It answers
+with the seconds and the processor seconds that the image took; the first line tells what it took to get ready.
 """
 import json
 import os

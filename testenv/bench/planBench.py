@@ -35,8 +35,8 @@ ASSETS = (
     "test_assets/schemaTests/usdGeom/primitives/all_primitives.usda",
     "test_assets/schemaTests/usdGeom/meshes/subdiv_catmullClark/subdiv_catmullClark.usda",
 )
-SCENES = ("diffuseBox", "hair", "instances", "lightDome", "plastic", "roughConductor", "roughGlass", "shaderball", "subdivision",
-          "texturedMesh", "volume", "lightSphere")
+SCENES = ("diffuseBox", "hair", "instances", "lightDome", "lightSphere", "plastic", "roughConductor", "roughGlass",
+          "shaderball", "subdivision", "texturedMesh", "volume")
 
 
 def stages_of(options):
@@ -70,8 +70,8 @@ class Once:
         self.stage.settings.update(maxDepth=-1, methods=methods, threads=options.threads)
 
     def seconds(self, seed):
-        """:returns: processor seconds, samples of a pixel, whether it ended before the tolerance was reached, and the error that
-            the plan expects"""
+        """:returns: processor seconds, samples of a pixel, whether it ended before the tolerance was reached, and the error
+            that the plan expects"""
         film, stage, begin, wall = self.stage.module.Film(), self.stage, time.process_time(), time.perf_counter()
         stage.renderer.start(stage.scene, stage.camera, {**stage.settings, "seed": seed}, film)
         stage.renderer.wait()

@@ -30,8 +30,9 @@ def recorder(folder):
     needed = subprocess.run(["ldd", _patina.__file__], capture_output=True, text=True, check=True).stdout
     embree = re.search(r"libembree(\d)\S* => (\S+)", needed)
     file = os.path.join(folder, "rayRecorder.so")
+    compat = os.path.join(ROOT, "hdDelegate", "embree", "compat.h")
     command = [os.environ.get("CXX", "c++"), "-std=c++17", "-O2", "-shared", "-fPIC", f"-DPATINA_EMBREE_MAJOR={embree[1]}",
-               "-I", ROOT, os.path.join(HERE, "rayRecorder.cpp"), "-Wl,--no-as-needed", embree[2], "-ldl", "-o", file]
+               "-include", compat, os.path.join(HERE, "rayRecorder.cpp"), "-Wl,--no-as-needed", embree[2], "-ldl", "-o", file]
     try:
         built = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError as error:

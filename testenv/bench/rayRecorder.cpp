@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stands between a renderer and Embree (LD_PRELOAD): notes the rays that are traced while it is
-// asked to, and traces them once more, with nothing around. testenv/bench/rayBench.py builds it.
+// asked to, and traces them once more, with nothing around. testenv/bench/rayBench.py builds it,
+// with hdDelegate/embree/compat.h before it.
 //
 // Rays that callbacks of a scene trace are not noted: they are traced again with the ray that asked
 // for them. Contexts are plain ones, so scenes whose callbacks need more cannot be replayed.
-#include "hdDelegate/embree/compat.h"
-
 #include <dlfcn.h>
 #include <vector>
 

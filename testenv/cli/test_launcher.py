@@ -191,7 +191,8 @@ def test_arguments_may_need_more(checkout, words, requirements):
     (("test", "--room", "farm", "--tier", "full"), "cluster compare denoise farm jobs test"),
     (("test", "--tier", "long"), "browser cluster compare denoise docs farm jobs long shader stubs test"),
     (("test", __file__ + "::test_x"), "browser cluster compare denoise docs farm jobs long shader stubs test"),
-    (("bench", "path"), "long"), (("bench",), ""), (("farm", "a.usda"), "cluster farm"),
+    (("bench", "path"), "long"), (("bench",), ""), (("bench", "denoise"), "compare denoise"),
+    (("farm", "a.usda"), "cluster farm"),
     (("docs", "site"), "docs"), (("fuzz",), "fuzz"), (("shader", "a.mtlx", "--target", "glsl"), "")])
 def test_only_what_is_used_is_installed(checkout, arguments, wanted):
     checkout.say_installed(everything=False)

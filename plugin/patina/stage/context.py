@@ -5,6 +5,7 @@ from pxr import Gf, Usd, UsdGeom
 
 from .colorSpaces import ColorSpaces
 from .errors import one_line
+from .fallbacks import Fallbacks
 
 MAX_MOTION_SAMPLES = 16
 
@@ -24,6 +25,7 @@ class Context:
         self.skinned = []  # (prim whose space it is, points) of what UsdGeom.BBoxCache does not know
         self.cyclic = False  # there are instancers that hold themselves: UsdGeom.BBoxCache never ends there
         self.color_spaces = ColorSpaces()
+        self.light_fallbacks = Fallbacks()
         self.portals = None  # paths of the portals that domes name, once they are asked for
         self._xforms = {}
 

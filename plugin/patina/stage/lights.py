@@ -90,8 +90,10 @@ def is_mesh_light(prim):
 
 def _input(context, prim, name, authored=False):
     """:returns: value of an input, also under the name that it had before OpenUSD 21.02"""
-    attribute = _attribute_of(context, prim, name, authored)
-    return attribute.Get(context.time) if attribute else None
+    if context.light_fallbacks.is_authored(prim, name):
+        attribute = _attribute_of(context, prim, name, authored)
+        return attribute.Get(context.time) if attribute else None
+    return None if authored else context.light_fallbacks.of(name, lambda: _attribute_of(context, prim, name))
 
 
 def _attribute_of(context, prim, name, authored=False):
@@ -109,6 +111,11 @@ def _attribute_of(context, prim, name, authored=False):
 
 
 def _set_color(context, prim, name, key, fallback, fields):
+    if not context.light_fallbacks.is_authored(prim, name):
+        value = _input(context, prim, name)
+        if value is not None:
+            fields[key] = vector(context, prim, "inputs:" + name, fallback, value)
+        return
     attribute = _attribute_of(context, prim, name)
     if attribute is None:
         return
@@ -227,5 +234,6 @@ def _geometry_of(context, prim, group):
     return group.path(target)
 
 
+@functools.lru_cache(maxsize=None)
 def _snake(name):
     return "".join("_" + c.lower() if c.isupper() else c for c in name)

@@ -17,7 +17,8 @@
 #include <tuple>
 #include <utility>
 
-#define PATINA_FN [[gnu::always_inline]] inline
+#define PATINA_FN inline
+#define PATINA_FN_RARE [[gnu::noinline]] inline
 #define PATINA_IN(T) const T&
 #define PATINA_OUT(T) T&
 #define PATINA_UNUSED(T, name) T

@@ -42,7 +42,8 @@ PATINA_FN vec3 nodeFlat() {
 }
 
 // Where a tap of a blur lies, in units of the uv set.
-PATINA_FN vec2 blurTap(float size, int blur, int tap, bool gaussian, PATINA_IN(SurfacePoint) p) {
+PATINA_FN_RARE vec2 blurTap(float size, int blur, int tap, bool gaussian,
+                            PATINA_IN(SurfacePoint) p) {
     return max(size, 0.0f) * patternBlurTap(p.seed, blur, tap, gaussian);
 }
 PATINA_FN vec4 nodeMoveTexcoord(vec4 v, float size, int blur, int tap, bool gaussian,

@@ -21,7 +21,7 @@ PATINA_FN mat3 nodeMultiply3(mat3 a, mat3 b) {
     return b * a;
 }
 // A matrix without an inverse has the identity for it.
-PATINA_FN mat3 nodeInvert3(mat3 m) {
+PATINA_FN_RARE mat3 nodeInvert3(mat3 m) {
     float d = determinant(m);
     return d != 0.0f && isFinite(1.0f / d) ? inverse(m) : mat3(1.0f);
 }

@@ -2,8 +2,8 @@
 // Image nodes that bring their own placement: glTF's, latitude-longitude maps, three planes.
 
 // glTF's own transform turns the other way round about the upper left corner.
-PATINA_FN vec4 gltfTexel(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate, vec2 offset,
-                         int order, NodeTexture map, PATINA_IN(SurfacePoint) p) {
+PATINA_FN_RARE vec4 gltfTexel(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
+                              vec2 offset, int order, NodeTexture map, PATINA_IN(SurfacePoint) p) {
     if (!hasTexture(map)) return missing;
     vec2 inverseScale =
         vec2(scale.x != 0.0f ? 1.0f / scale.x : 0.0f, scale.y != 0.0f ? 1.0f / scale.y : 0.0f);

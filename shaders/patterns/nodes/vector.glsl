@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes that look at a vector as a whole.
 
-PATINA_FN float nodeDotProduct(vec4 a, vec4 b, NodeSize size) {
+PATINA_FN_RARE float nodeDotProduct(vec4 a, vec4 b, NodeSize size) {
     float sum = 0.0f;
     for (int i = 0; i < size; ++i)
         sum += a[i] * b[i];

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mathematics of pattern nodes, beyond plain arithmetic. Needs shaders/lib/degenerate.glsl.
-#ifndef PATINA_ATAN2
-#define PATINA_ATAN2(y, x) atan(y, x)
-#endif
+#include "shaders/patterns/whole.glsl"
 #include "shaders/patterns/color.glsl"
 #include "shaders/patterns/normalMap.glsl"
 #include "shaders/patterns/place2d.glsl"

@@ -5,17 +5,19 @@
 
 #include "shaders/shaders.h"
 
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
 #define PATINA_FN inline
 #define PATINA_OUT(T) T&
-#define PATINA_ATAN2(y, x) std::atan2(y, x)
 
 namespace patina {
 namespace sh {
-using uint = unsigned int;
+#include "shaders/compat/cppPatterns.h"
 #include "shaders/patterns.glsl"
 } // namespace sh
 } // namespace patina
 
 #undef PATINA_FN
 #undef PATINA_OUT
-#undef PATINA_ATAN2

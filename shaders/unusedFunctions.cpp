@@ -152,7 +152,7 @@ bool reachesOut(const std::string& directives, size_t begin, size_t end) {
 
 } // namespace
 
-std::string withoutUnusedFunctions(const std::string& text) {
+std::string withoutUnusedFunctions(const std::string& text, const std::string& callers) {
     std::string kept = withoutComments(text);
     std::string code = kept, directives, outside;
     partDirectives(code, directives);
@@ -165,6 +165,7 @@ std::string withoutUnusedFunctions(const std::string& text) {
         if (reachesOut(directives, f.begin, f.end)) wanted.insert(f.name);
     }
     addNames(outside, 0, outside.size(), true, wanted);
+    addNames(callers, 0, callers.size(), true, wanted);
     addNames(directives, 0, directives.size(), false, wanted);
     std::set<std::string> reached;
     while (!wanted.empty()) {

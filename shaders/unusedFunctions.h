@@ -11,6 +11,7 @@ namespace patina {
 /// macro's body needs all names in it.
 ///
 /// Lines keep their numbers. Text whose braces do not match is returned unchanged.
-std::string withoutUnusedFunctions(const std::string& text);
+/// @param callers more text, whose names count like those outside of functions
+std::string withoutUnusedFunctions(const std::string& text, const std::string& callers = "");
 
 } // namespace patina

@@ -103,7 +103,7 @@ def nodes():
         models.append((f"`{MODELS}/{name}`", ", ".join(dict.fromkeys(f"`{d.get('node')}`" for d in defined))))
     return ["# Nodes", "",
             f"Categories that the table of node definitions (`{NODES}`) has, by file, and those that are graphs in data files.",
-            "Most have one definition for each type. A closure that is known but not modelled is warned of.", "",
+            "Most have one definition for each type. A closure that is known but not modelled gets a warning.", "",
             *table(("family", "categories"), rows), "", *table(("data file", "categories"), models)]
 
 
@@ -131,11 +131,12 @@ def limits():
     rows = [(f"`{name}`", f"{default:,}", f"{least:,} to {most:,}", text)
             for name, (default, least, most, text) in known.table().items()]
     return ["# Limits", "",
-            "The most that input may ask for: a hostile or broken file ends in a message, not in memory without end.",
-            "Input beyond a limit is left out, the prim and the limit are named, and the rest is shown. Defaults are beyond",
-            "what real scenes hold. `--limit NAME=VALUE` sets one (`record`, `merge`, `explain`, `bsdf`, `check`, `bake`,",
-            '`shader`, `view`); `PATINA_LIMITS="NAME=VALUE ..."` in the environment sets them in every host. The table is',
-            "`materialNetwork/limits.def`.", "", *table(("limit", "default", "may be", "of what"), rows)]
+            "Limits keep a hostile or broken file from taking memory without end. Input beyond a limit is left out,",
+            "with a message that names the prim and the limit, and the rest is shown. The defaults are above the",
+            "needs of real scenes.",
+            "", "- `--limit NAME=VALUE` sets one (`record`, `merge`, `explain`, `bsdf`, `check`, `bake`, `shader`, `view`).",
+            '- `PATINA_LIMITS="NAME=VALUE ..."` in the environment sets them in every host.', "",
+            "The table is `materialNetwork/limits.def`.", "", *table(("limit", "default", "may be", "counts"), rows)]
 
 
 def methods():
@@ -143,10 +144,12 @@ def methods():
 
     module = compiled.load()
     lines = ["# Methods at choice points", "",
-             "`--method POINT=NAME` forces one; the first of each table is the default. Errors are the largest over",
-             "the measured subjects of mean and largest error; cost is time over the default's. *noise* is the standard",
-             "deviation of one sample's weight, *effort* time x variance over the default's. `patina chart --lobes` measures "
-             "them."]
+             "`--method POINT=NAME` forces a method. The first method of each table is the default.",
+             "`patina chart --lobes` measures the figures.", "",
+             "- *Error*: the mean and the largest error, each of the subject where it is worst.",
+             "- *Of*: the quantity that the error is in. *noise* is the standard deviation of one sample's weight, *effort* is",
+             "  time x variance over the default's.",
+             "- *Cost*: time over the default's."]
     for point, known in module.choice_points():
         rows = []
         for name, description in known:
@@ -165,7 +168,7 @@ def methods():
 def aovs():
     from patina.cli import recordFlags, rows as tables
 
-    kinds = {"Mean": "mean of the samples", "First": "of the sample nearest the pixel's centre",
+    kinds = {"Mean": "mean of the samples", "First": "the sample nearest the pixel's centre",
              "Coverage": "ids by their share of the samples"}
     counted = {"sampleCount": "count", "variance": "estimate"}
     table_rows = [row for row in tables.read("hdDelegate/film/aovs.def", "AOV") if row.values[0] not in ("primvars", "lpe")]
@@ -182,15 +185,16 @@ def aovs():
     rows.append(("`primvars:NAME`", "1 to 3", "a primvar; texture coordinates have two components", kinds["First"], "0.0",
                  "`primvars:st`"))
     return ["# AOVs", "", "The table is `hdDelegate/film/aovs.def`. `color` and `alpha` are always written.", "",
-            *table(("name", "components", "holds", "per pixel", "where nothing is", "in `--aov all`"), rows)]
+            *table(("name", "components", "holds", "value of a pixel", "value of an empty pixel", "in `--aov all`"), rows)]
 
 
 def marks():
     from patina.cli import rows as tables
 
     rows = [(f"`primvars:{row.text(0)}`", row.text(2)) for row in tables.read("hdDelegate/scene/primMarks.def", "MARK")]
-    return ["# Marks of prims", "", "Primvars that say which rays see a prim, and what mattes make of it. The table is",
-            "`hdDelegate/scene/primMarks.def`. Of several the lower ones are stronger. They are constant and inherited.",
+    return ["# Marks of prims", "", "Primvars that decide which rays see a prim, and whether it is a matte or a",
+            "catcher. They are constant and inherited. If a prim has several, the ones further down",
+            "are stronger. The table is `hdDelegate/scene/primMarks.def`.",
             "[Visibility and catchers](../design/pathTracer.md#visibility-mattes-and-catchers) has the meanings.", "",
             *table(("primvar", "meaning"), rows)]
 
@@ -200,9 +204,9 @@ def cameras():
 
     rows = [(f"`{row.text(0)}`", row.text(2)) for row in tables.read("hdDelegate/scene/cameraInputs.def", "CAMERA_INPUT")]
     return ["# Attributes of cameras", "", "Attributes that a camera may have beyond UsdGeomCamera's. The table is",
-            "`hdDelegate/scene/cameraInputs.def`. Of several the lower ones are stronger. Each may also be a primvar of the",
-            "camera, `primvars:` before its name, which is weaker. Defaults stand in brackets. [Cameras](../design/cameras.md)",
-            "has the meanings.", "", *table(("attribute", "meaning"), rows)]
+            "`hdDelegate/scene/cameraInputs.def`. If a camera has several, the ones further down are stronger. Each",
+            "may also be a primvar of the camera, with `primvars:` before its name, which is weaker. Defaults are in brackets.",
+            "[Cameras](../design/cameras.md) has the meanings.", "", *table(("attribute", "meaning"), rows)]
 
 
 def library():
@@ -210,11 +214,11 @@ def library():
 
     rows = [(e.group, f"`library:{e.name}`", e.title, e.source) for e in catalog.entries()]
     return ["# Material library", "",
-            "Materials that come with Patina, as MaterialX documents in `materialNetwork/library`. A name stands for its",
-            "material wherever a command asks for one: `patina explain library:gold`,",
+            "Materials that come with Patina, as MaterialX documents in `materialNetwork/library`. Every command that takes a",
+            "material takes a name of this list: `patina explain library:gold`,",
             "`patina view library:gold -o gold.html`, `patina shader library:gold --target mtlx --output gold.mtlx`.",
             "`patina view --library -o library.html` makes a page of all, with pictures of both back ends.",
-            "*Designed* numbers were chosen by eye; all others have a source.", "",
+            "Numbers marked *designed* were chosen by eye; all others have a source.", "",
             "![All materials, as the path tracer shows them](../pictures/library.png)", "",
             *table(("group", "name", "title", "sources"), rows)]
 
@@ -226,7 +230,8 @@ def by_design():
     rows = [(f"`{name}`", f.instead, ", ".join(f"`{s}`" for s in f.scenes), f"`testenv/raster/{f.test}`")
             for name, f in byDesign.FEATURES.items()]
     return ["# Differences of the rasterizer by design", "",
-            "The list is `testenv/raster/byDesign.py`. Test scenes that have a feature are not held together as a whole.", "",
+            "The list is `testenv/raster/byDesign.py`. Each difference has a test of its own. Test scenes with such a",
+            "feature are left out of the test that holds whole pictures of both back ends together.", "",
             *table(("feature", "the rasterizer instead", "test scenes", "test of the difference"), rows)]
 
 
@@ -235,11 +240,14 @@ def messages():
     from patina.cli import advice, causes
 
     lines = ["# Messages", "",
-             "Warnings name a prim and an input, say what is wrong, and what is shown instead. Here … stands for what",
-             "differs from scene to scene. An *error* means that something that was authored is missing from the picture; a",
-             "*warning*, that a default or an approximation is used. `patina record --strict` fails at either. Of something",
-             "that a command cannot do at all it tells in one line, and ends with 1 (or 2 for wrong usage, 75 if the same may "
-             "work later)."]
+             "A message names a prim and an input, says what is wrong, and what is shown instead. In this list …",
+             "stands for names and numbers of the scene. `/World/ball.points: are not all finite` is the message *are not all",
+             "finite*, at the input `points` of the prim `/World/ball`.", "",
+             "- An *error* means that something that was authored is missing from the picture.",
+             "- A *warning* means that a default or an approximation is used.",
+             "- `patina record --strict` fails at either.", "",
+             "If a command can show nothing at all, it ends with one line that says why, and with status 1 (2 for",
+             "wrong usage, 75 if the same may work later)."]
     for area, listed in messageTexts.texts().items():
         rows = [(causes.severity({"message": text}), text, advice.advice(text)) for text in listed]
         lines += ["", f"## {area}", "", *table(("", "message", "what to do"), rows)]

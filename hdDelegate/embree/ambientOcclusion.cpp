@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/ambientOcclusion.h"
 
+#include "materialNetwork/maths.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -47,7 +49,7 @@ float AmbientOcclusion::sample(const CameraRay& ray, Sampler& sampler,
     // one ray to the next its angle turns by the golden angle.
     constexpr float turnX = -0.73736888f, turnY = -0.67549029f; // cos, sin of 2 pi 0.6180340
     const vec2 shift = sampler.next2();
-    const float phi = 6.2831853071795865f * shift.y;
+    const float phi = 2.0f * pi * shift.y;
     vec2 around(std::cos(phi), std::sin(phi));
     int seen = 0;
     for (int begin = 0; begin < rays; begin += EmbreeScene::packet) {

@@ -2,6 +2,7 @@
 #include "hdDelegate/embree/integrator.h"
 
 #include "hdDelegate/embree/caustics/photonPass.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -171,7 +172,7 @@ vec3 Integrator::photonLight(const Path& path, const SurfacePoint& point, const 
         const float c = cosine(photon.towards, s.geometricNormal);
         if (c > 0.0f) sum += (f.diffuse + f.specular) * photon.flux / std::max(c, 1e-3f);
     });
-    return sum / (3.14159265f * radius * radius);
+    return sum / (pi * radius * radius);
 }
 
 void Integrator::meetCaustics(Path& path, const SurfacePoint& point, const Bsdf& bsdf,

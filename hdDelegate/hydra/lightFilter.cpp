@@ -70,7 +70,7 @@ public:
         if (components == 1)
             field = values;
         else if (!value.IsEmpty())
-            tellBadArray(names);
+            warnOfArray(names);
     }
     void read(const char* names, vec3& field) const {
         std::vector<vec3> values;
@@ -82,7 +82,7 @@ public:
         const VtValue value = get(names);
         const std::vector<float> values = floatsOf(value, components);
         if (components != 3) {
-            if (!value.IsEmpty()) tellBadArray(names);
+            if (!value.IsEmpty()) warnOfArray(names);
             return;
         }
         field.clear();
@@ -91,24 +91,24 @@ public:
     }
     /// Warns of inputs that are not evaluated. Of a filter that came as parameters only those are
     /// known that the table lists.
-    void tellOfOthers() const {
+    void warnOfOthers() const {
         for (const IgnoredFilterInput& row : ignoredFilterInputs) {
             const VtValue value = get(row.names);
-            if (!value.IsEmpty() && !isIdle(value, row.idle)) tell(row.names);
+            if (!value.IsEmpty() && !isIdle(value, row.idle)) warn(row.names);
         }
         for (const auto& parameter : _node.parameters)
             if (!isKnown(withoutPrefix(parameter.first.GetString())))
-                tell(parameter.first.GetString());
+                warn(parameter.first.GetString());
     }
     bool has(const char* names) const { return !get(names).IsEmpty(); }
 
 private:
-    void tellBadArray(const char* names) const {
+    void warnOfArray(const char* names) const {
         _param.warn(_light, "light:filters",
                     _id.GetString() + " has an input " + names +
                         " that is no array of finite numbers; the fallback is used");
     }
-    void tell(const std::string& input) const {
+    void warn(const std::string& input) const {
         _param.warn(_light, "light:filters",
                     _id.GetString() + " has an input " + input + " that is not evaluated");
     }
@@ -196,7 +196,7 @@ std::vector<LightFilter> readLightFilters(HdSceneDelegate& delegate, HdPatinaRen
 #define PATINA_FILTER_INPUT(type, field, names, fallback, description)                             \
     inputs.read(names, filter.field);
 #include "hdDelegate/scene/lightFilterInputs.inc"
-        inputs.tellOfOthers();
+        inputs.warnOfOthers();
         // Rods are there to block.
         if (row->type == LightFilterType::Rod && !inputs.has("intensity ri:intensity"))
             filter.intensity = 0.0f;

@@ -10,11 +10,11 @@
 namespace patina {
 
 /// Writes the products of the active UsdRenderSettings prim, one after the other, in the
-/// background: each with its own camera, resolution, conform policy, data window and render vars.
+/// background. Each has its own camera, resolution, conform policy, data window and render vars.
 ///
-/// Only `raster` products are images. A render var's source is an AOV of the film (as Hydra or the
-/// film names it, `Ci`, `a` and `z` included), or with sourceType primvar a primvar. The file
-/// appears whole, or what was there before stays.
+/// Only `raster` products are images. The source of a render var is an AOV of the film (named as in
+/// Hydra or the film, `Ci`, `a` and `z` included), or with sourceType primvar a primvar. A file
+/// appears whole, or the earlier file stays.
 class HdPatinaRenderProducts {
 public:
     explicit HdPatinaRenderProducts(HdPatinaDelegateState& state);

@@ -15,18 +15,19 @@ enum class EnvironmentFormat { Automatic, Latlong, MirroredBall, Angular, CubeMa
 /// Unknown names are automatic: a vertical cross when the image is 3 wide and 4 high, else latlong.
 EnvironmentFormat environmentFormat(const std::string& name);
 
-/// An image that surrounds the scene, with a density to sample it by.
+/// An image that surrounds the scene, with a density for samples.
 ///
-/// Directions are in the dome's frame: y is the pole, and all formats have +z in their middle and
-/// -x at its right, as OpenEXR's latlong has: longitude 0 is +z, longitude pi/2 is +x, and the
-/// image's left edge has longitude pi. A mirrored ball shows the reflection that a distant viewer
-/// of a mirror ball sees, with +z reflected in the middle; angular is the same with radius
-/// proportional to angle. The cross has rows (. +y .), (+x +z -x), (. -y .), (. -z .), the last
-/// upside down.
+/// Directions are in the dome's frame: y is the pole. All formats have +z in their middle and -x at
+/// their right, as in OpenEXR's latlong:
+/// - latlong: longitude 0 is +z, longitude pi/2 is +x, and the left edge has longitude pi.
+/// - mirrored ball: the reflection that a distant viewer of a mirror ball sees, with +z in the
+///   middle.
+/// - angular: the same with the radius proportional to the angle.
+/// - cross: rows (. +y .), (+x +z -x), (. -y .), (. -z .), the last upside down.
 ///
-/// Radiance is the bilinear interpolation of the texels; the density is constant over cells of a
-/// latlong grid, follows the cosine too (SkyDistribution), and covers what bilinear interpolation
-/// spreads into neighbours.
+/// Radiance is the bilinear interpolation of the texels. The density is constant over cells of a
+/// latlong grid, follows the cosine as well (SkyDistribution), and covers the neighbours into which
+/// bilinear interpolation spreads light.
 class EnvironmentMap {
 public:
     EnvironmentMap(std::shared_ptr<const ImageRGB> image, EnvironmentFormat format);

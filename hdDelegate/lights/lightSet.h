@@ -68,12 +68,12 @@ struct LightHit {
 
 /// All lights of a scene during one shutter. Immutable, so threads share it; equal inputs give
 /// equal results. Light index i < lightCount() is LightSetInput::lights[i]; index lightCount() + t
-/// is triangle t. Lights that give no light (zero power, no size, broken transforms) keep their
-/// index but are never sampled nor hit.
+/// is triangle t. Lights without effect (zero power, no size, broken transforms) keep their index,
+/// but are never sampled or hit.
 ///
-/// One light is chosen by a light tree (Conty Estevez and Kulla 2018), with lights at infinity
-/// beside the tree, then a direction towards it. pdf functions give the density with which
-/// sample() with the same point, normal and time would have found a direction, for multiple
+/// A light tree chooses one light (Conty Estevez and Kulla 2018), with lights at infinity beside
+/// the tree; then a direction towards it is drawn. The pdf functions give the density with which
+/// sample(), with the same point, normal and time, would have found a direction, for multiple
 /// importance sampling.
 class LightSet {
 public:

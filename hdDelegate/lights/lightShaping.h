@@ -3,6 +3,7 @@
 
 #include "hdDelegate/image/iesProfile.h"
 #include "hdDelegate/scene/light.h"
+#include "materialNetwork/maths.h"
 #include "shaders/lights.h"
 
 #include <memory>
@@ -38,8 +39,8 @@ private:
                                vec3(0.0f),
                                0.0f,
                                false,
-                               3.14159265f,
-                               3.14159265f};
+                               pi,
+                               pi};
     std::shared_ptr<const IesProfile> _profile;
     float _profileScale = 1.0f, _angleScale = 0.0f, _level = 1.0f;
 };

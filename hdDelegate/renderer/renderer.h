@@ -26,15 +26,18 @@ struct RenderProgress {
     bool temporary = false;    ///< what failed may work when it is tried again: memory ran out
     bool mayWait = false;      ///< a listener that is told this may wait until its image is seen
     std::string backend;       ///< what the film's samples were made by: embree, raster
-    /// "rays", "paths", "secondsBuild" (of this start), "trianglesStored", "instances", "bytes" (of
-    /// meshes and acceleration structures), "textureBytes" (in memory; where some are read by tiles
-    /// also "textureTileBytes", "textureTilePeakBytes", "textureTileCapacity" and
-    /// "textureTilesMade" of those); and counts since the renderer was made, which tell what
-    /// edits cost: "surfacesBuilt", "surfacesTessellated" (the others were only moved),
-    /// "groupsBuilt" (acceleration structures), "programsBuilt", "lightsBuilt", "primsLookedAt" (to
-    /// see whether they have to be built). While programs are
-    /// compiled "materialsReady" and "materialsWanted", with secondsLeft of that; and
-    /// "materialsDrawn" for the first time, for which software compiles once more.
+    /// Numbers by name:
+    /// - "rays", "paths", "secondsBuild" (of this start), "trianglesStored", "instances", "bytes"
+    ///   (of meshes and acceleration structures);
+    /// - "textureBytes" in memory; if some textures are read by tiles, also "textureTileBytes",
+    ///   "textureTilePeakBytes", "textureTileCapacity" and "textureTilesMade" of those;
+    /// - counts since the renderer was made, which show the cost of edits: "surfacesBuilt",
+    ///   "surfacesTessellated" (the others were only moved), "groupsBuilt" (acceleration
+    ///   structures), "programsBuilt", "lightsBuilt", "primsLookedAt" (visited to see whether they
+    ///   have to be built);
+    /// - while programs are compiled, "materialsReady" and "materialsWanted", with secondsLeft of
+    ///   that, and "materialsDrawn": programs drawn with for the first time, for which software
+    ///   OpenGL compiles once more.
     std::map<std::string, double> statistics;
     /// Threads' seconds by path of the material that was hit ("": displayColor; "camera": until a
     /// path hits something), see embree/materialClock.h. Empty unless settings ask for it.

@@ -89,7 +89,7 @@ vec3 blackbodyColor(float kelvin) {
     const vec3 rgb = p1 + 0.5f * t *
                               ((p2 - p0) + t * ((2.0f * p0 - 5.0f * p1 + 4.0f * p2 - p3) +
                                                 t * (3.0f * (p1 - p2) + p3 - p0)));
-    const float y = glm::dot(rgb, vec3(0.2126f, 0.7152f, 0.0722f));
+    const float y = luminance(rgb);
     return glm::max(rgb / y, vec3(0.0f));
 }
 

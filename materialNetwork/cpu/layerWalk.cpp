@@ -19,7 +19,7 @@ constexpr int sureBounces = 6;  // that no roulette ends
 
 /// Most that a walk may carry: where colours above 1 gain light at every bounce there is no finite
 /// sum, and infinity times 0 is no number.
-constexpr float mostThroughput = 1e15f;
+constexpr float maxThroughput = 1e15f;
 
 /// Shares of the density: the base as seen through a smooth top, and diffuse light.
 constexpr float throughTopShare = 0.7f, diffuseShare = 0.3f;
@@ -28,7 +28,7 @@ const EnergyCurve noCurve;
 
 /// @returns false when roulette ends the walk
 bool goesOn(int bounces, glm::vec3& throughput, HashedNumbers& random) {
-    throughput = glm::min(throughput, glm::vec3(mostThroughput));
+    throughput = glm::min(throughput, glm::vec3(maxThroughput));
     const float maximum = std::max(throughput.x, std::max(throughput.y, throughput.z));
     if (!(maximum > 0.0f)) return false;
     if (bounces < sureBounces || maximum >= 1.0f) return true;

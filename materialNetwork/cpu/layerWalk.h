@@ -22,12 +22,12 @@ struct LayeredPoint : std::enable_shared_from_this<LayeredPoint> {
 
 /// The choice point layering, method positionFree: light bounces between the interface on top of a
 /// layer and its base until it leaves (Guo, Hasan and Zhao 2018, "Position-Free Monte Carlo
-/// Simulation for Arbitrary Layered BSDFs"). The layer is infinitely thin, so that only directions
-/// matter. The top reflects and refracts; its tint colours only what it reflects outwards. The base
-/// is any BSDF, with layers of its own.
+/// Simulation for Arbitrary Layered BSDFs"). The layer is infinitely thin, so only directions
+/// matter. The top reflects and refracts; its tint colours only the light that it reflects
+/// outwards. The base is any BSDF, with layers of its own.
 ///
-/// Values are random: a walk from wo that at every visit of the base is connected to wi through the
-/// top, from both ends of the connection (balance heuristic). Densities are estimates, see
+/// Values are random: a walk from wo that is connected to wi through the top at every visit of the
+/// base, from both ends of the connection (balance heuristic). Densities are estimates, see
 /// Bsdf::stochastic(). All directions are in world space.
 class LayerWalk {
 public:

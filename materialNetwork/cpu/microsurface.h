@@ -9,11 +9,11 @@ namespace patina {
 /// The choice point energyCompensation, method randomWalk: light bounces between the facets of a
 /// Smith surface until it leaves (Heitz, Hanika, d'Eon and Dachsbacher 2016, "Multiple-Scattering
 /// Microfacet BSDFs with the Smith Model"; GGX and Beckmann, uniform heights). Reflection and
-/// transmission share one walk: a lobe of one of them is what leaves on its side.
+/// transmission share one walk: each of these lobes is the light that leaves on its side.
 ///
-/// There is no formula for the value: evaluating gives a random one whose mean is right, and the
-/// density is an estimate that is never 0 where the value is not. It may weigh strategies
-/// against each other, and must not divide.
+/// The value has no formula. An evaluation gives a random one whose mean is right. The density is
+/// an estimate that is never 0 where the value is not. It may weigh strategies against each other,
+/// but must not divide.
 
 /// @returns whether this lobe can be walked: an interface or a metal that is rough, and refracts
 /// measurably where it transmits

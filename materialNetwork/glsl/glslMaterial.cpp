@@ -2,7 +2,6 @@
 #include "materialNetwork/glsl/glslMaterial.h"
 
 #include "materialNetwork/ir/lobeFacts.h"
-#include "materialNetwork/ir/registerFile.h"
 #include "materialNetwork/glsl/glslClosures.h"
 #include "materialNetwork/glsl/glslLayers.h"
 #include "materialNetwork/glsl/glslLobes.h"
@@ -60,7 +59,9 @@ public:
         const std::string textures =
             glslTextureText(_textures, _code.textures, _features.textureArrays, _out.textures,
                             _out.parameters, _out.leftOut);
-        std::string head = _rare ? "#include \"shaders/raster/moreNodes.glsl\"\n" : "";
+        std::string head;
+        for (const std::string& file : _files)
+            head += "#include \"" + file + "\"\n";
         head += "layout(std140, binding = 1) uniform Parameters { vec4 parameters[" +
                 number(std::max(1, int(_out.parameters.size()))) +
                 "]; };\nvec4 materialParameter(int i) { return parameters[i]; }\n" + textures;
@@ -94,51 +95,30 @@ private:
         return [this](int r) { return reg(r); };
     }
 
-    std::string sampler(int handle) {
-        auto& list = _textures;
-        const auto found = std::find(list.begin(), list.end(), handle);
-        const int i = int(found - list.begin());
-        if (found == list.end()) list.push_back(handle);
-        return "texture" + number(i);
-    }
-
-    GlslPattern pattern(const Instruction& instruction) {
-        const GlslPattern p = glslPattern(
-            instruction,
-            {[&](int i, int row) {
-                 return reg(_code.inputPool[instruction.firstInput + uint32_t(i)] + row);
-             },
-             [&](int handle) { return sampler(handle); }});
-        _rare |= p.rare;
-        return p;
+    int texture(int handle) {
+        const auto found = std::find(_textures.begin(), _textures.end(), handle);
+        if (found != _textures.end()) return int(found - _textures.begin());
+        _textures.push_back(handle);
+        return int(_textures.size()) - 1;
     }
 
     void declareRegisters(const std::vector<Instruction>& code) {
-        const size_t parameters = _out.parameters.size();
-        for (const Instruction& i : code) {
-            const size_t outputs = std::max<size_t>(1, pattern(i).outputs.size());
-            for (size_t k = 0; k < outputs; ++k)
-                if (_declared.insert(i.output + int(k)).second)
-                    line("vec4 r" + number(i.output + int(k)) + ";");
-        }
-        _out.parameters.resize(parameters);
+        for (const Instruction& i : code)
+            for (int k = 0; k < i.pattern->outputRows(); ++k)
+                if (_declared.insert(i.output + k).second)
+                    line("vec4 r" + number(i.output + k) + ";");
     }
 
-    /// A node without GLSL becomes the value that it has at one point.
     void instructions(const std::vector<Instruction>& code) {
         for (const Instruction& i : code) {
-            const size_t parameters = _out.parameters.size();
-            std::vector<std::string> values = pattern(i).outputs;
-            if (values.empty()) {
-                _out.parameters.resize(parameters);
-                _out.leftOut.push_back("a pattern without GLSL shows one value everywhere");
-                RegisterFile registers(_code);
-                registers.run(_code, code, ShadingPoint());
-                _out.parameters.push_back(registers.data()[i.output]);
-                values = {"parameters[" + number(int(_out.parameters.size()) - 1) + "]"};
-            }
-            for (size_t k = 0; k < values.size(); ++k)
-                line("    r" + number(i.output + int(k)) + " = " + values[k] + ";");
+            line("    " +
+                 glslPattern(i, {[&](int input, int row) {
+                                     return reg(_code.inputPool[i.firstInput + uint32_t(input)] +
+                                                row);
+                                 },
+                                 [&](int row) { return "r" + number(i.output + row); },
+                                 [&](int handle) { return texture(handle); }}));
+            if (i.pattern->file) _files.insert(i.pattern->file);
         }
     }
 
@@ -154,7 +134,7 @@ private:
     /// Also where nothing lets light through yet, which an input of the page may change.
     bool asksForDispersion() const {
         return std::any_of(_code.surfaceCode.begin(), _code.surfaceCode.end(),
-                           [](const Instruction& i) { return i.pattern->spectral; }) &&
+                           [](const Instruction& i) { return i.pattern->spectral(); }) &&
                std::any_of(_code.lobes.begin(), _code.lobes.end(), [](const LobeTemplate& t) {
                    return t.methods.get<method::Dispersion>() != method::Dispersion::None;
                });
@@ -323,8 +303,8 @@ private:
     GlslMaterial& _out;
     std::string _text;
     std::set<int> _declared;
-    std::vector<int> _textures; ///< handles in the order of `texture0`...
-    bool _rare = false;         ///< a pattern needs moreNodes.glsl
+    std::vector<int> _textures;   ///< handles in the order of `texture0`...
+    std::set<std::string> _files; ///< of functions that patterns call
 };
 
 } // namespace

@@ -11,17 +11,15 @@ namespace patina {
 
 /// The parts that the text of a pattern is made of.
 struct GlslPatternNames {
-    /// Text of a row of input i, a vec4; only matrices have more than row 0.
+    /// Row of input i, a vec4; only matrices have more than row 0.
     std::function<std::string(int input, int row)> input;
-    /// Name of the function that reads the texture of a handle.
-    std::function<std::string(int handle)> texture;
+    /// Row of the outputs, a vec4.
+    std::function<std::string(int row)> output;
+    /// Number of the texture with a handle, as texel() takes it.
+    std::function<int(int handle)> texture;
 };
 
-struct GlslPattern {
-    std::vector<std::string> outputs; ///< an expression per register; empty where there is no GLSL
-    bool rare = false;                ///< needs shaders/raster/moreNodes.glsl
-};
-
-GlslPattern glslPattern(const Instruction& instruction, const GlslPatternNames& names);
+/// A statement that calls the function of a pattern and writes its outputs.
+std::string glslPattern(const Instruction& instruction, const GlslPatternNames& names);
 
 } // namespace patina

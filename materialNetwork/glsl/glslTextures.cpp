@@ -35,7 +35,7 @@ std::string glslTextureText(const std::vector<int>& handles, const TextureSource
         leftOut.push_back("more than " + std::to_string(glslTextureUnits) +
                           " textures: those beyond the " + std::to_string(last) +
                           "th are shown at one common size");
-    std::string samplers, functions;
+    std::string samplers, functions, reads;
     int layers = 0;
     bool used = false;
     for (size_t i = 0; i < handles.size(); ++i) {
@@ -69,8 +69,12 @@ std::string glslTextureText(const std::vector<int>& handles, const TextureSource
                    std::to_string(int(tiling.wrapT)) + ")";
         functions += "vec4 texture" + std::to_string(i) + "(vec2 uv, float footprint) { return " +
                      call + "; }\n";
+        reads += "    if (map == " + std::to_string(i) + ") return texture" + std::to_string(i) +
+                 "(uv, footprint);\n";
         textures.push_back(std::move(t));
     }
+    functions +=
+        "vec4 texel(int map, vec2 uv, float footprint) {\n" + reads + "    return vec4(0.0);\n}\n";
     return (used ? "#include \"shaders/raster/textureArrays.glsl\"\n" : "") + samplers + functions;
 }
 

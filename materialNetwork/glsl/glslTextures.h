@@ -23,8 +23,8 @@ struct GlslTexture {
 /// Texture units that a material may use: OpenGL promises 16 to every stage.
 constexpr int glslTextureUnits = 16;
 
-/// Gives textures their units, and writes the functions `texture<i>(uv, footprint)`. Those beyond
-/// the units share the last one.
+/// Gives textures their units, and writes the functions `texture<i>(uv, footprint)` and
+/// `texel(i, uv, footprint)`. Those beyond the units share the last one.
 /// @param parameters gets tables of the tiles
 /// @param leftOut gets what cannot be shown as it should
 /// @param arrays whether there may be arrays; else UDIM shows its first tile, and there may be more

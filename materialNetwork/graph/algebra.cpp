@@ -98,9 +98,12 @@ bool foldPattern(const GraphNode& node, std::vector<Value>& outputs) {
     if (def.inputs.size() > maxInputs || def.outputs.size() > maxOutputs) return false;
     glm::vec4 registers[(maxInputs + maxOutputs) * rows];
     uint16_t inputs[maxInputs];
+    size_t count = 0;
     for (size_t i = 0; i < node.inputs.size(); ++i) {
-        inputs[i] = uint16_t(i * rows);
-        valueRows(node.inputs[i].value, registers + i * rows);
+        if (isTextType(def.inputs[i].type)) continue;
+        inputs[count] = uint16_t(count * rows);
+        valueRows(node.inputs[i].value, registers + count * rows);
+        ++count;
     }
     const size_t first = maxInputs * rows;
     PatternData data;

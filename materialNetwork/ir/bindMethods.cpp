@@ -149,7 +149,7 @@ private:
         f.disperses = _methods.get<method::Dispersion>() != method::Dispersion::None &&
                       f.hasTransmission &&
                       std::any_of(_ir.surfaceCode.begin(), _ir.surfaceCode.end(),
-                                  [](const Instruction& i) { return i.pattern->spectral; });
+                                  [](const Instruction& i) { return i.pattern->spectral(); });
         f.heroWavelengths = _methods.get<method::Dispersion>() == method::Dispersion::Hero;
         f.hasInterior = (!_ir.vdf.empty() || !_ir.volumeEdf.empty()) && !f.isThinWalled &&
                         (f.hasTransmission || f.passThroughEnters);

@@ -116,10 +116,11 @@ void IrBuilder::emit(const std::vector<bool>& roots, std::vector<Instruction>& c
         instruction.function = node.def->pattern->function;
         instruction.output = Register(_register[i]);
         instruction.firstInput = uint32_t(_ir.inputPool.size());
-        instruction.inputCount = uint16_t(node.inputs.size());
         instruction.data = _data[i];
-        for (const Operand& operand : node.inputs)
-            _ir.inputPool.push_back(registerOf(operand));
+        for (size_t k = 0; k < node.inputs.size(); ++k)
+            if (!isTextType(node.def->inputs[k].type))
+                _ir.inputPool.push_back(registerOf(node.inputs[k]));
+        instruction.inputCount = uint16_t(_ir.inputPool.size() - instruction.firstInput);
         code.push_back(instruction);
     }
 }
@@ -191,7 +192,7 @@ MaterialIr IrBuilder::build() {
     _ir.opacityFromPrimvars = !_ir.opacityCode.empty();
     for (const Instruction& instruction : _ir.opacityCode)
         for (size_t i = 0; i < n; ++i)
-            if (nodeOf(int(i)).def->pattern == instruction.pattern && nodeOf(int(i)).def->varying &&
+            if (nodeOf(int(i)).def->pattern && nodeOf(int(i)).def->varying &&
                 instruction.output == _register[i])
                 _ir.opacityFromPrimvars &=
                     _data[i].slot >= 0 || nodeOf(int(i)).def->category == "UsdPrimvarReader";

@@ -16,8 +16,8 @@ struct MtlxDocument {
 
 /// Parses the text of a `.mtlx` document (1.38 or 1.39).
 /// @param path of the file, for messages and relative file names
-/// @param wantMaterials false when only the node definitions are of interest (a model library)
-/// @returns false, after a warning, when the text is no MaterialX document at all
+/// @param wantMaterials false to read only the node definitions (of a model library)
+/// @returns false, after a warning, if the text is no MaterialX document at all
 bool parseMtlx(const std::string& text, const std::string& path, bool wantMaterials,
                MtlxDocument& out, Diagnostics& diagnostics);
 

@@ -66,10 +66,10 @@ private:
             return;
         }
         // Of all included documents together.
-        const uint64_t mostBytes = limitOf(Limit::documentBytes), most = limitOf(Limit::markup);
+        const uint64_t maxBytes = limitOf(Limit::documentBytes), most = limitOf(Limit::markup);
         std::string text, problem;
         pugi::xml_document xml;
-        if (readRegularFile(target, mostBytes - std::min(_bytes, mostBytes), text, problem) &&
+        if (readRegularFile(target, maxBytes - std::min(_bytes, maxBytes), text, problem) &&
             loadXml(text, xml, problem, most - std::min<uint64_t>(_markup, most)))
             _markup += markupOf(text);
         _bytes += text.size();

@@ -8,7 +8,7 @@ namespace {
 
 constexpr NodeRow closure(const char* id, const char* category, const char* inputs,
                           const char* outputs, ClosureKind kind, const char* types = nullptr) {
-    return {id, category, inputs, outputs, nullptr, Algebra::None, types, nullptr, false, kind};
+    return {id, category, inputs, outputs, nullptr, Algebra::None, types, nullptr, kind};
 }
 
 const NodeRow rows[] = {

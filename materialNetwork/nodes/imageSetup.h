@@ -9,7 +9,7 @@ namespace patina {
 /// filter. @returns a handle, or -1, after a warning, where the input "default" stands in for it
 int openImage(PatternSetup& setup, const char* input);
 
-/// openImage() of the input "file" as PatternData::handle.
+/// openImage() of the input "file" as the first of PatternData::textures.
 void prepareImage(PatternSetup& setup, PatternData& data);
 
 } // namespace patina

@@ -92,13 +92,15 @@ struct NodeDef {
     ClosureKind closure = ClosureKind::None;
     const Pattern* pattern = nullptr; ///< null for closures, and for strings
     PatternPrepare prepare = nullptr; ///< reads strings, opens textures, asks for primvars
-    bool varying = false;             ///< reads the shading point, so it cannot be folded
+    bool varying = false;             ///< reads the shading point or is prepared: never folded
     Algebra algebra = Algebra::None;
 
     int findInput(const std::string& name) const;  ///< -1 when there is none
     int findOutput(const std::string& name) const; ///< "" finds the first; -1 when there is none
 };
 
+/// A type without a register.
+bool isTextType(ValueType type);
 /// A closure or shader type: not a number, not a string.
 bool isClosureType(ValueType type);
 

@@ -74,6 +74,10 @@ int NodeDef::findOutput(const std::string& name) const {
     return outputs.size() == 1 ? 0 : -1;
 }
 
+bool isTextType(ValueType type) {
+    return type == ValueType::String || type == ValueType::Filename;
+}
+
 bool isClosureType(ValueType type) {
     return type >= ValueType::Bsdf;
 }
@@ -151,10 +155,10 @@ void NodeTable::addOne(const NodeRow& row, const std::string& type) {
         def->outputs.push_back({space == std::string::npos ? "out" : text.substr(space + 1),
                                 valueTypeFromName(text.substr(0, space))});
     }
-    def->pattern = row.pattern.pattern;
+    def->pattern = row.pattern.function ? &row.pattern : nullptr;
     def->prepare = row.prepare;
     def->algebra = row.algebra;
-    def->varying = row.varying;
+    def->varying = row.prepare || row.pattern.varies();
     def->closure = row.closure;
     _byId.emplace(def->id, def.get());
     _byCategory.emplace(def->category, def.get());

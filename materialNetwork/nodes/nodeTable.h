@@ -11,14 +11,6 @@
 
 namespace patina {
 
-/// A pattern, or none; rows name it.
-struct PatternRef {
-    constexpr PatternRef(std::nullptr_t = nullptr) {}
-    constexpr PatternRef(const Pattern& named) : pattern(&named) {}
-
-    const Pattern* pattern = nullptr;
-};
-
 /// One row of the table of node definitions, as it is written in materialNetwork/nodes.
 ///
 /// Inputs and outputs are text: "color3 color=.18, float roughness=0, vector3 normal=@Nworld,
@@ -30,12 +22,11 @@ struct NodeRow {
     const char* id;
     const char* category;
     const char* inputs;
-    const char* outputs;          ///< "float out" or just "float", which is named out
-    PatternRef pattern = nullptr; ///< the C++ function with its GLSL
+    const char* outputs; ///< "float out" or just "float", which is named out
+    Pattern pattern = nullptr;
     Algebra algebra = Algebra::None;
     const char* types = nullptr; ///< for `$`, separated by spaces
     PatternPrepare prepare = nullptr;
-    bool varying = false;
     ClosureKind closure = ClosureKind::None;
 };
 

@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -14,11 +15,10 @@ namespace patina {
 
 /// Compile-time data of an instruction.
 struct PatternData {
-    int size = 1;    ///< components of the first input
-    int handle = -1; ///< texture
-    int slot = -1;   ///< primvar
-    int mode = 0;    ///< whatever a string or uniform input selects
-    glm::vec4 value{0.0f};
+    int size = 1;                   ///< components of the first input
+    int textures[3] = {-1, -1, -1}; ///< handles, in the order of the function's parameters
+    int slot = -1;                  ///< primvar
+    int mode = 0;                   ///< whatever a string or uniform input selects
 };
 
 /// Run-time data of an instruction. While constants are folded there is no point.
@@ -32,57 +32,98 @@ struct PatternContext {
 /// the size of a vector hold anything.
 struct PatternCall {
     glm::vec4* registers;
-    const uint16_t* inputs; ///< register of each input of the node definition
+    const uint16_t* inputs; ///< register of each input of the node definition but texts
     uint16_t output;        ///< register of the first output, further ones follow
     const PatternData& data;
     const PatternContext& context;
 
     const glm::vec4& in(int i) const { return registers[inputs[i]]; }
     float x(int i) const { return registers[inputs[i]].x; }
-    /// An integer input; 0 for what is no number, and limited far beyond what any node knows.
-    int whole(int i) const {
-        const float v = x(i);
-        return v > -1e9f ? int(v < 1e9f ? v : 1e9f) : v <= -1e9f ? -1000000000 : 0;
-    }
     glm::vec4& out(int i = 0) const { return registers[output + i]; }
+    const glm::vec4& row(int i, int k) const { return registers[inputs[i] + k]; } ///< of a matrix
     const ShadingPoint& point() const { return *context.point; }
+    /// The primvar of the node; components that it lacks are those of the fallback.
+    glm::vec4 primvar(glm::vec4 fallback) const {
+        if (data.slot >= 0 && context.point->primvars)
+            context.point->primvars->read(data.slot, &fallback.x);
+        return fallback;
+    }
 };
 
 using PatternFunction = void (*)(const PatternCall& call);
 
-/// The computation of a node, for both back ends: rows of nodes name it, and so does what is
-/// compiled of them.
-///
-/// The text has the outputs as GLSL expressions, separated by `;`. $0..$9 and ${10}... are inputs
-/// (all vec4), $A0 and $B0 input 0 as mat3 and mat4; $s is the size of the first input, $m the
-/// mode, $p the slot of the primvar. $t(uv, footprint) reads the texture and is input 1 where there
-/// is none; $X, $Y and $Z do so with the three textures of a projection and input 3. A text that
-/// begins with `3|` or `4|` is a matrix: an output for each of its rows.
-struct Pattern {
-    PatternFunction function = nullptr;
-    const char* glsl = nullptr;
-    const char* glslWithout = nullptr; ///< in place of `glsl` where there is no texture
-    bool rare = false;                 ///< the text needs shaders/raster/moreNodes.glsl
-    bool spectral = false;             ///< reads ShadingPoint::wavelength
+/// What a parameter of a pattern's function takes, or what it gives.
+enum class PatternType : uint8_t {
+    None,
+    Float,
+    Int,
+    Bool,
+    Vec2,
+    Vec3,
+    Vec4,
+    Mat3,
+    Mat4,
+    Primvar, ///< of the node, or its next input where there is none
+    // No inputs of the node; shaders/compat/nodes.glsl has their names.
+    PrimvarOrZero,
+    PrimvarOrBlack,
+    Size,
+    Mode,
+    Texture,
+    Wavelength,
+    Point
 };
 
-constexpr Pattern pattern(const char* glsl, PatternFunction function) {
-    return {function, glsl, nullptr, false};
+/// Registers that a value takes: a matrix has one for each row.
+constexpr int patternRows(PatternType type) {
+    return type == PatternType::None   ? 0
+           : type == PatternType::Mat3 ? 3
+           : type == PatternType::Mat4 ? 4
+                                       : 1;
 }
-/// That has other values for each wavelength; the text is that for no one wavelength.
-constexpr Pattern spectralPattern(const char* glsl, PatternFunction function) {
-    return {function, glsl, nullptr, false, true};
-}
-constexpr Pattern pattern(const char* glsl, const char* without, PatternFunction function) {
-    return {function, glsl, without, false};
-}
-/// With functions of shaders/raster/moreNodes.glsl beside those of shaders/raster/material.glsl.
-constexpr Pattern rarePattern(const char* glsl, PatternFunction function) {
-    return {function, glsl, nullptr, true};
-}
-constexpr Pattern rarePattern(const char* glsl, const char* without, PatternFunction function) {
-    return {function, glsl, without, true};
-}
+
+struct PatternParameter {
+    PatternType type;
+    bool output;
+
+    constexpr bool isInput() const { return !output && type <= PatternType::Primvar; }
+};
+
+/// The computation of a node, for both back ends: a function of the shader dialect, as the compiler
+/// sees it. PATINA_PATTERN() makes it (patternFunctions.h); rows of nodes hold it.
+struct Pattern {
+    constexpr Pattern(std::nullptr_t = nullptr) {}
+
+    PatternFunction function = nullptr;
+    const char* name = nullptr; ///< of the function
+    const char* file = nullptr; ///< of shaders/patterns/nodes, where it is
+    const PatternParameter* parameters = nullptr;
+    int parameterCount = 0;
+    PatternType result = PatternType::None; ///< the first output, else that is a parameter
+
+    constexpr bool takes(PatternType type) const {
+        for (int i = 0; i < parameterCount; ++i)
+            if (parameters[i].type == type) return true;
+        return false;
+    }
+    /// Has other values for each wavelength.
+    constexpr bool spectral() const { return takes(PatternType::Wavelength); }
+    /// Reads the shading point, so that it cannot be folded.
+    constexpr bool varies() const {
+        for (int i = 0; i < parameterCount; ++i)
+            if (parameters[i].type >= PatternType::Primvar &&
+                parameters[i].type != PatternType::Size)
+                return true;
+        return false;
+    }
+    /// Registers of all outputs.
+    constexpr int outputRows() const {
+        int n = patternRows(result);
+        for (int i = 0; i < parameterCount; ++i)
+            n += parameters[i].output ? patternRows(parameters[i].type) : 0;
+        return n;
+    }
+};
 
 /// Requests that a node may make while its instruction is compiled.
 class PatternSetup {

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // MaterialX image nodes.
+#define PATINA_NODE_FUNCTIONS "shaders/patterns/nodes/texture.glsl"
 #include "materialNetwork/nodes/imageSetup.h"
 #include "materialNetwork/nodes/nodeTable.h"
-
-#include <algorithm>
-#include <cmath>
+#include "materialNetwork/nodes/patternFunctions.h"
 
 namespace patina {
 
 namespace {
-
-using glm::vec2;
-using glm::vec4;
-using Call = const PatternCall&;
 
 TextureWrap addressMode(PatternSetup& setup, const char* input) {
     const std::string mode = setup.text(input);
@@ -23,45 +18,6 @@ TextureWrap addressMode(PatternSetup& setup, const char* input) {
         setup.warn(input, "unknown address mode '" + mode + "'; periodic is used");
     return TextureWrap::Repeat;
 }
-
-void write(Call c, vec2 uv, float footprint) {
-    if (c.data.handle < 0) {
-        c.out() = c.in(1);
-        return;
-    }
-    const vec4 t = c.context.textures->sample(c.data.handle, uv, footprint);
-    c.out() = t;
-}
-
-void writeScalar(Call c, vec2 uv, float footprint) {
-    write(c, uv, footprint);
-    c.out() = vec4(c.out().x);
-}
-
-vec2 tiledUv(Call c) {
-    const vec2 image(c.in(5)), tile(c.in(6));
-    const vec2 uv = vec2(c.in(2)) * vec2(c.in(3)) - vec2(c.in(4));
-    return vec2(image.x != 0.0f ? uv.x / image.x * tile.x : 0.0f,
-                image.y != 0.0f ? uv.y / image.y * tile.y : 0.0f);
-}
-
-float tiledFootprint(Call c) {
-    const vec2 scale = glm::abs(vec2(c.in(3)));
-    return c.point().uvFootprint * std::max(scale.x, scale.y);
-}
-
-constexpr Pattern imageTuple = pattern(
-    "$t($2.xy, point.uvFootprint)", [](Call c) { write(c, vec2(c.in(2)), c.point().uvFootprint); });
-constexpr Pattern imageScalar = pattern("vec4($t($2.xy, point.uvFootprint).x)", [](Call c) {
-    writeScalar(c, vec2(c.in(2)), c.point().uvFootprint);
-});
-
-constexpr Pattern tiledTuple =
-    pattern("$t(nodeTiledUv($2, $3, $4, $5, $6), nodeTiledFootprint($3))",
-            [](Call c) { write(c, tiledUv(c), tiledFootprint(c)); });
-constexpr Pattern tiledScalar =
-    pattern("vec4($t(nodeTiledUv($2, $3, $4, $5, $6), nodeTiledFootprint($3)).x)",
-            [](Call c) { writeScalar(c, tiledUv(c), tiledFootprint(c)); });
 
 #define PATINA_IMAGE "filename file=, $ default=0, vector2 texcoord=@UV0, "
 #define PATINA_ADDRESS                                                                             \
@@ -78,13 +34,13 @@ constexpr Pattern tiledScalar =
 const NodeRow rows[] = {
     {"ND_image_float", "image",
      "filename file=, float default=0, vector2 texcoord=@UV0, " PATINA_ADDRESS PATINA_FRAMES,
-     "float", imageScalar, Algebra::None, nullptr, prepareImage, true},
-    {"ND_image_$", "image", PATINA_IMAGE PATINA_ADDRESS PATINA_FRAMES, "$", imageTuple,
-     Algebra::None, tupleTypes, prepareImage, true},
-    {"ND_tiledimage_$", "tiledimage", PATINA_TILED, "$", tiledScalar, Algebra::None, "float",
-     prepareImage, true},
-    {"ND_tiledimage_$", "tiledimage", PATINA_TILED, "$", tiledTuple, Algebra::None, tupleTypes,
-     prepareImage, true},
+     "float", PATINA_PATTERN(nodeScalarImage), Algebra::None, nullptr, prepareImage},
+    {"ND_image_$", "image", PATINA_IMAGE PATINA_ADDRESS PATINA_FRAMES, "$",
+     PATINA_PATTERN(nodeImage), Algebra::None, tupleTypes, prepareImage},
+    {"ND_tiledimage_$", "tiledimage", PATINA_TILED, "$", PATINA_PATTERN(nodeScalarTiledImage),
+     Algebra::None, "float", prepareImage},
+    {"ND_tiledimage_$", "tiledimage", PATINA_TILED, "$", PATINA_PATTERN(nodeTiledImage),
+     Algebra::None, tupleTypes, prepareImage},
 };
 
 } // namespace
@@ -115,7 +71,7 @@ int openImage(PatternSetup& setup, const char* input) {
 }
 
 void prepareImage(PatternSetup& setup, PatternData& data) {
-    data.handle = openImage(setup, "file");
+    data.textures[0] = openImage(setup, "file");
 }
 
 NodeRows textureNodes() {

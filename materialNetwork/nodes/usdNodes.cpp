@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // UsdUVTexture of the UsdPreviewSurface specification.
+#define PATINA_NODE_FUNCTIONS "shaders/patterns/nodes/usd.glsl"
 #include "materialNetwork/nodes/nodeTable.h"
+#include "materialNetwork/nodes/patternFunctions.h"
 
 namespace patina {
 
 namespace {
-
-using glm::vec2;
-using glm::vec4;
-using Call = const PatternCall&;
 
 /// "useMetadata" without metadata in the file means black, as the specification says; MaterialX
 /// spells repeat "periodic".
@@ -39,28 +37,8 @@ void prepareUvTexture(PatternSetup& setup, PatternData& data) {
     request.wrapT = wrapMode(setup, "wrapT");
     request.input = "inputs:file";
     const int handle = setup.openTexture(request);
-    if (setup.textureValid(handle) || !setup.authored("fallback")) data.handle = handle;
+    if (setup.textureValid(handle) || !setup.authored("fallback")) data.textures[0] = handle;
 }
-
-/// Outputs r, g, b, a, rgb, rgba.
-constexpr char uvTextureGlsl[] = "vec4(($t($1.xy, point.uvFootprint) * $2 + $3).x); "
-                                 "vec4(($t($1.xy, point.uvFootprint) * $2 + $3).y); "
-                                 "vec4(($t($1.xy, point.uvFootprint) * $2 + $3).z); "
-                                 "vec4(($t($1.xy, point.uvFootprint) * $2 + $3).w); "
-                                 "($t($1.xy, point.uvFootprint) * $2 + $3); "
-                                 "($t($1.xy, point.uvFootprint) * $2 + $3)";
-constexpr Pattern uvTexture =
-    pattern(uvTextureGlsl, "vec4($4.x); vec4($4.y); vec4($4.z); vec4($4.w); $4; $4", [](Call c) {
-        vec4 t = c.in(4);
-        if (c.data.handle >= 0)
-            t = c.context.textures->sample(c.data.handle, vec2(c.in(1)), c.point().uvFootprint) *
-                    c.in(2) +
-                c.in(3);
-        for (int i = 0; i < 4; ++i)
-            c.out(i) = vec4(t[i]);
-        c.out(4) = t;
-        c.out(5) = t;
-    });
 
 #define PATINA_UV_TEXTURE                                                                          \
     "filename file=, vector2 st=@UV0, vector4 scale=1, vector4 bias=0, vector4 fallback=0 0 0 1, "
@@ -70,11 +48,11 @@ const NodeRow rows[] = {
     {"UsdUVTexture", "UsdUVTexture",
      PATINA_UV_TEXTURE "string wrapS=useMetadata, string wrapT=useMetadata, "
                        "string sourceColorSpace=auto",
-     PATINA_UV_OUTPUTS, uvTexture, Algebra::None, nullptr, prepareUvTexture, true},
+     PATINA_UV_OUTPUTS, PATINA_PATTERN(nodeUvTexture), Algebra::None, nullptr, prepareUvTexture},
     {"ND_UsdUVTexture", "UsdUVTexture",
      PATINA_UV_TEXTURE "string wrapS=periodic, string wrapT=periodic, "
                        "string sourceColorSpace=auto",
-     PATINA_UV_OUTPUTS, uvTexture, Algebra::None, nullptr, prepareUvTexture, true},
+     PATINA_UV_OUTPUTS, PATINA_PATTERN(nodeUvTexture), Algebra::None, nullptr, prepareUvTexture},
 };
 
 } // namespace

@@ -29,9 +29,10 @@ struct MeasuredMethod {
     /// are evenly spaced from 0 to axisEnd; beyond nothing is known.
     const char* axis;
     float axisEnd;
-    /// Mean absolute error and mean of what it is of, bin by bin, in each the quarters of the
-    /// cosine of the view, grazing first. Of scenes the columns are others: sizes on screen for
-    /// `subdivision`, depths for `roulette`; those of `pathDepth` are all alike.
+    /// Mean absolute error, and mean of the quantity that it is an error of, for each bin and each
+    /// quarter of the cosine of the view, grazing first. Rows about scenes have other columns:
+    /// sizes on screen for `subdivision`, depths for `roulette`; for `pathDepth` all columns are
+    /// equal.
     float errors[methodBins * methodCosines], truths[methodBins * methodCosines];
 };
 

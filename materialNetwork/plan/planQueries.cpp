@@ -92,7 +92,7 @@ namespace {
 bool readsWavelength(const Graph& graph, const Operand& operand) {
     if (operand.isConstant()) return false;
     const GraphNode& node = graph.nodes[size_t(operand.node)];
-    if (node.def->pattern && node.def->pattern->spectral) return true;
+    if (node.def->pattern && node.def->pattern->spectral()) return true;
     return std::any_of(node.inputs.begin(), node.inputs.end(),
                        [&](const Operand& input) { return readsWavelength(graph, input); });
 }

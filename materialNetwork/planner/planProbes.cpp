@@ -3,6 +3,7 @@
 
 #include "materialNetwork/cpu/bsdfBuilder.h"
 #include "materialNetwork/cpu/microsurface.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,9 @@ constexpr int varyingPlaces = 64;
 constexpr int cosines = 4;
 constexpr float metalShare = 0.95f; ///< of a base that is called metal
 
-float luminance(const glm::vec3& c) {
-    const float y = 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+/// What is no number, or below zero, counts as none.
+float amountOf(const glm::vec3& c) {
+    const float y = luminance(c);
     return std::isfinite(y) && y > 0.0f ? y : 0.0f;
 }
 
@@ -54,16 +56,16 @@ void describe(const BsdfLobe& l, ClosureContribution& out) {
     case LobeKind::Conductor:
         out.roughness = rootOf(l.conductor.alpha);
         out.reflectance =
-            luminance(sh::fresnelConductor(1.0f, l.conductor.ior, l.conductor.extinction));
+            amountOf(sh::fresnelConductor(1.0f, l.conductor.ior, l.conductor.extinction));
         out.thickness = l.conductor.film.thickness;
         return;
     case LobeKind::Schlick:
         out.roughness = rootOf(l.schlick.alpha);
-        out.reflectance = luminance(sh::fresnelSchlick(1.0f, l.schlick.fresnel));
+        out.reflectance = amountOf(sh::fresnelSchlick(1.0f, l.schlick.fresnel));
         out.thickness = l.schlick.film.thickness;
         return;
     case LobeKind::Sheen: out.roughness = std::sqrt(std::max(l.sheen.roughness, 0.0f)); return;
-    default: out.reflectance = luminance(l.albedo);
+    default: out.reflectance = amountOf(l.albedo);
     }
 }
 
@@ -71,7 +73,7 @@ void describe(const BsdfLobe& l, ClosureContribution& out) {
 bool isMetallic(const BsdfLobe& l) {
     if (l.kind == LobeKind::Conductor) return true;
     return l.kind == LobeKind::Schlick && l.schlick.mode == sh::SCATTER_R &&
-           luminance(sh::fresnelSchlick(1.0f, l.schlick.fresnel)) > 0.2f;
+           amountOf(sh::fresnelSchlick(1.0f, l.schlick.fresnel)) > 0.2f;
 }
 
 /// Whether a walk between layers asks for the albedo of an interface on top anew at each of its
@@ -118,7 +120,7 @@ private:
         probe.cosine = cosine;
         std::vector<float> light(code.lobes.size());
         for (size_t i = 0; i < light.size(); ++i) {
-            light[i] = luminance(bsdf.lobe(int(i)).weight * bsdf.lobe(int(i)).albedo);
+            light[i] = amountOf(bsdf.lobe(int(i)).weight * bsdf.lobe(int(i)).albedo);
             probe.albedo += light[i];
         }
         if (!(probe.albedo > 0.0f)) return probe;
@@ -167,16 +169,16 @@ private:
         }
         for (int lobe : lobesOf(op.b)) {
             const BsdfLobe& l = bsdf.lobe(lobe);
-            const float w = luminance(l.weight);
+            const float w = amountOf(l.weight);
             weight += w;
-            base += w * luminance(l.albedo);
+            base += w * amountOf(l.albedo);
             weights += l.weight;
             bases += l.weight * l.albedo;
             out.share += light[size_t(lobe)];
             if (!isMetallic(l)) continue;
             ClosureContribution below;
             describe(l, below);
-            metal += w * luminance(l.albedo);
+            metal += w * amountOf(l.albedo);
             rough = std::max(rough, below.roughness);
         }
         if (metal > 0.0f && metal >= metalShare * base) {

@@ -646,7 +646,7 @@ def web_light_meshes(scene: Scene) -> list[str]:
     """
 def web_lights(scene: Scene) -> dict[str, typing.Any]:
     """
-    lights: (path, floats in the layout of shaders/web/lights.glsl); table: the values (n, 4) that they point into; domes: dicts of path, texture, radiance, axes and, where the image is no latlong map, pixels of one; notes: texts on what is left out.
+    lights: (path, floats in the layout of shaders/lights/fields.glsl); table: the values (n, 4) that they point into; domes: dicts of path, texture, radiance, axes and, where the image is no latlong map, pixels of one; notes: texts on what is left out.
     """
 def web_material(network: Network, methods: dict[str, str] = {}, largest_texture: int = 1024) -> dict[str, typing.Any]:
     """

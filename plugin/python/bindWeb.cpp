@@ -9,12 +9,14 @@
 #include "materialNetwork/material.h"
 #include "shaders/shaderText.h"
 #include "shaders/shaders.h"
+#include "shaders/unusedFunctions.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace py = pybind11;
 
@@ -74,6 +76,17 @@ std::vector<std::string> lobesOf(const MaterialProgram& program) {
     return list;
 }
 
+/// The text with the functions of its nodes, of whose files it needs few.
+std::string withNodeFunctions(const std::string& text) {
+    std::string includes, own, error;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        (line.compare(0, 10, "#include \"") == 0 ? includes : own) += line + "\n";
+    const std::string functions = flattenShader("nodes", includes, error).text;
+    if (!error.empty()) throw std::runtime_error(error);
+    return withoutUnusedFunctions(functions, own) + own;
+}
+
 py::dict webMaterial(const Network& network, const MethodChoices& methods, int largestTexture) {
     Diagnostics diagnostics;
     TextureSystem textures(diagnostics);
@@ -85,9 +98,7 @@ py::dict webMaterial(const Network& network, const MethodChoices& methods, int l
         glsl = makeGlslWebMaterial(program->ir());
     }
     py::dict dict;
-    std::string error;
-    dict["text"] = flattenShader("material", glsl.text, error).text;
-    if (!error.empty()) throw std::runtime_error(error);
+    dict["text"] = withNodeFunctions(glsl.text);
     py::list parameters;
     for (const glm::vec4& p : glsl.parameters)
         for (int c = 0; c < 4; ++c)

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/geometry/tessellate.h"
 #include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/lights/lightFields.h"
 #include "hdDelegate/lights/lightImages.h"
 #include "hdDelegate/lights/resolvedLight.h"
 #include "hdDelegate/scene/lightUnits.h"
@@ -23,7 +24,6 @@ namespace patina {
 
 namespace {
 
-constexpr float degree = pi / 180.0f;
 constexpr int largestImage = 128;          ///< of rect lights, texels along a side
 constexpr int domeWidth = 512;             ///< of domes that are no latlong maps
 constexpr size_t maxTriangles = 4096;      ///< of a mesh light
@@ -38,10 +38,6 @@ struct WebLights {
     py::list direct, domes;
 };
 
-/// The numbers are those of shaders/web/lights.glsl; shapes come as in AreaShape::Kind.
-enum Kind { Point = 100, Distant, Triangles, Line };
-constexpr int texels = 14;
-
 std::array<float, 3> triple(const vec3& v) {
     return {v.x, v.y, v.z};
 }
@@ -55,13 +51,14 @@ vec3 notNegative(const Light& light, const vec3& radiance, WebLights& out) {
 }
 
 /// A rect's image, means over its cells, top row first.
-/// @returns first value, width and height
-vec3 addImage(const Light& light, WebLights& out) {
+void addImage(const Light& light, LightFields& row, WebLights& out) {
     const auto image =
         out.images.image(light.textureFile, light.textureColorSpace, light.path, "texture:file");
     const int w = std::clamp(image->width, 1, largestImage);
     const int h = std::clamp(image->height, 1, largestImage);
-    const vec3 place(float(out.table.size()), float(w), float(h));
+    row.firstValue = int(out.table.size());
+    row.columns = w;
+    row.rows = h;
     for (int y = 0; y < h; ++y)
         for (int x = 0; x < w; ++x) {
             vec3 sum(0.0f);
@@ -71,25 +68,25 @@ vec3 addImage(const Light& light, WebLights& out) {
             for (int k = y0; k < y1; ++k)
                 for (int i = x0; i < x1; ++i)
                     sum += image->pixels[size_t(k) * size_t(image->width) + size_t(i)];
-            out.table.emplace_back(glm::max(sum / float((x1 - x0) * (y1 - y0)), vec3(0.0f)), 0.0f);
+            // Samples are even over the rect: they have the density 1 beside even ones.
+            out.table.emplace_back(glm::max(sum / float((x1 - x0) * (y1 - y0)), vec3(0.0f)), 1.0f);
         }
-    return place;
 }
 
-/// @returns first value of the light's profile (-1 none), thetas, phis
-vec3 addProfile(const Light& light, WebLights& out) {
+void addProfile(const Light& light, LightFields& row, WebLights& out) {
     const auto profile = lightProfile(light, out.diagnostics);
-    if (!profile) return {-1.0f, 0.0f, 0.0f};
+    if (!profile) return;
     const ProfileGrid grid = profileGrid(light, *profile, 181, 37);
-    const vec3 place(float(out.table.size()), float(grid.thetas), float(grid.phis));
+    row.firstProfile = int(out.table.size());
+    row.profileThetas = grid.thetas;
+    row.profilePhis = grid.phis;
     for (float value : grid.values)
         out.table.emplace_back(value, 0.0f, 0.0f, 0.0f);
-    return place;
 }
 
 /// The largest triangles of the mesh that a light belongs to: corner and running share of the area,
 /// and two edges, one of them with the normal's side.
-bool addTriangles(const Scene& scene, const Light& light, vec4* row, WebLights& out) {
+bool addTriangles(const Scene& scene, const Light& light, LightFields& row, WebLights& out) {
     const auto state = scene.snapshot();
     const auto found = state->geometry.find(light.geometry.empty() ? light.path : light.geometry);
     if (found == state->geometry.end() || found->second->kind != GeometryKind::Mesh) return false;
@@ -125,8 +122,9 @@ bool addTriangles(const Scene& scene, const Light& light, vec4* row, WebLights& 
     }
     for (const Triangle& t : all)
         kept += double(t.area);
-    row[10] = vec4(float(out.table.size()), float(all.size()), 0.0f, -1.0f);
-    row[2].w = float(kept);
+    row.firstValue = int(out.table.size());
+    row.columns = int(all.size());
+    row.density = float(1.0 / kept);
     double sum = 0.0;
     for (const Triangle& t : all) {
         sum += double(t.area);
@@ -136,81 +134,52 @@ bool addTriangles(const Scene& scene, const Light& light, vec4* row, WebLights& 
     }
     vec3 radiance = notNegative(light, lightBaseRadiance(light), out);
     if (light.normalize) radiance /= float(whole);
-    row[1] = vec4(radiance * float(whole / kept), 1.0f);
+    row.radiance = radiance * float(whole / kept);
     return true;
 }
 
-/// The texels of shaders/web/lights.glsl; empty for a light that gives none.
+/// A row of the texture of shaders/web/lights.glsl.
+std::vector<float> texelsOf(const LightFields& row) {
+    std::vector<float> floats;
+#define PATINA_ROW(vector, type, number, initial)                                                  \
+    floats.insert(floats.end(), {row.vector.x, row.vector.y, row.vector.z, float(row.number)});
+#define PATINA_NUMBERS(type, a, b, c, d, initial)                                                  \
+    floats.insert(floats.end(), {float(row.a), float(row.b), float(row.c), float(row.d)});
+#include "shaders/lights/fields.glsl"
+#undef PATINA_ROW
+#undef PATINA_NUMBERS
+    return floats;
+}
+
+/// The texels of a light; empty for one that gives none.
 std::vector<float> lightRow(const Scene& scene, const Light& light, const mat4& toWorld,
                             WebLights& out) {
-    vec4 row[texels] = {};
-    row[10] = vec4(-1.0f);
-    Kind kind = Triangles;
-    vec3 radiance;
-    LightPose pose;
+    LightFields row;
     if (light.type == LightType::Mesh) {
         if (!addTriangles(scene, light, row, out)) return {};
-        radiance = vec3(row[1]);
-        pose.position = vec3(toWorld[3]);
-        pose.shaping = LightShaping(light, toWorld, nullptr);
+        row.kind = shLights::LIGHT_MESH;
+        row.set(shLights::LIGHT_AT_PLACE);
+        row.diffuse = light.diffuse;
+        row.specular = light.specular;
+        row.setShaping(LightShaping(light, toWorld, nullptr));
     } else {
-        const ResolvedLight is = resolveLight(light, toWorld, out.diagnostics);
-        pose = lightPose(light, is.kind, toWorld, nullptr);
-        radiance = notNegative(light, is.radiance, out);
-        switch (is.kind) {
-        case ResolvedLight::Kind::Distant:
-            kind = Distant;
-            row[4] = vec4(-pose.toLight, is.versine);
-            // Densities of narrow cones have no square in floats: those shine from one direction.
-            if (row[4].w < 1e-6f && !is.delta) {
-                radiance *= float(lightSizeFactor(light, toWorld));
-                row[4].w = 0.0f;
-            }
-            break;
-        case ResolvedLight::Kind::Point: kind = Point; break;
-        case ResolvedLight::Kind::Line:
-            kind = Line;
-            row[2] = vec4(pose.along, 0.0f);
-            break;
-        case ResolvedLight::Kind::Area: {
-            const AreaShape& shape = pose.shape;
-            kind = Kind(int(shape.kind));
-            for (int i = 0; i < 3; ++i) {
-                row[2 + i] = vec4(shape.axes[i], 0.0f);
-                row[5 + i] = vec4(shape.inverse[i], 0.0f);
-            }
-            row[3].w = shape.volume;
-            if (shape.kind == AreaShape::Kind::Rect && !light.textureFile.empty())
-                row[10] = vec4(addImage(light, out), -1.0f);
-            break;
+        ResolvedLight is = resolveLight(light, toWorld, out.diagnostics);
+        if (is.kind == ResolvedLight::Kind::None || is.kind == ResolvedLight::Kind::Dome) return {};
+        row.radiance = notNegative(light, is.radiance, out);
+        // Densities of narrow cones have no square in floats: those shine from one direction.
+        if (is.kind == ResolvedLight::Kind::Distant && is.versine < 1e-6f && !is.delta) {
+            row.radiance *= float(lightSizeFactor(light, toWorld));
+            is.versine = 0.0f;
+            is.delta = true;
         }
-        default: return {};
-        }
+        row.setLight(light, is, lightPose(light, is.kind, toWorld, nullptr));
+        if (row.kind == shLights::SHAPE_RECT && !light.textureFile.empty())
+            addImage(light, row, out);
+        addProfile(light, row, out);
     }
-    const shLights::Shaping& beam = pose.shaping.beam();
-    row[0] = vec4(pose.position, float(kind));
-    row[1] = vec4(radiance, 1.0f);
-    row[5].w = beam.focus;
-    row[6].w = beam.coneStart;
-    row[7].w = beam.cone ? beam.coneEnd : -1.0f;
-    row[8] = vec4(beam.focusTint, 0.0f);
-    row[9] = vec4(light.diffuse, light.specular, 0.0f, 0.0f);
-    row[11] = vec4(beam.axis, 0.0f);
-    row[12] = vec4(beam.x, 0.0f);
-    row[13] = vec4(beam.y, 0.0f);
-    if (kind != Distant && kind != Triangles) {
-        const vec3 profile = addProfile(light, out);
-        row[10].w = profile.x;
-        row[12].w = profile.y;
-        row[13].w = profile.z;
-    }
-    std::vector<float> floats;
-    for (const vec4& texel : row)
-        for (int c = 0; c < 4; ++c) {
-            if (!std::isfinite(texel[c])) return {};
-            floats.push_back(texel[c]);
-        }
-    return floats;
+    const std::vector<float> texels = texelsOf(row);
+    const auto isFinite = [](float x) { return std::isfinite(x); };
+    return std::all_of(texels.begin(), texels.end(), isFinite) ? texels : std::vector<float>();
 }
 
 /// The image of a dome as a latlong map; none where it is one already.
@@ -299,7 +268,7 @@ py::dict lightsOf(const Scene& scene) {
 void bindWebLights(py::module_& m) {
     m.def("web_light_meshes", &lightMeshes, py::arg("scene"), "Paths of meshes that are lights.");
     m.def("web_lights", &lightsOf, py::arg("scene"),
-          "lights: (path, floats in the layout of shaders/web/lights.glsl); table: the values "
+          "lights: (path, floats in the layout of shaders/lights/fields.glsl); table: the values "
           "(n, 4) that they point into; domes: dicts of path, texture, radiance, axes and, where "
           "the image is no latlong map, pixels of one; notes: texts on what is left out.");
 }

@@ -77,9 +77,8 @@ PATINA_FN vec3 layerInsideDielectric(float average, float ior, float invIor, flo
     return vec3(clamp(select(denser, average, (z >= 0.0f) == (ior >= 1.0f)), 0.0f, 1.0f));
 }
 
-// Light that reaches the base and leaves it again through an interface that is there to the share `weight`.
-// coverage: E. inside: R. alpha: of the interface's facets, which spread what they refract. z: cosine of
-// wo. base: albedo of what lies below.
+// Light that reaches the base and leaves it again through an interface with presence `weight`. coverage: E. inside: R.
+// alpha: of the interface's facets, which spread refracted light. z: cosine of wo. base: albedo of the base.
 PATINA_FN LayerLight layerThrough(float weight, vec3 coverage, vec3 inside, float alpha, float z,
                                   LayerLight base) {
     vec3 kinds = layerKinds(0.5f * alpha, z, 0.0f);

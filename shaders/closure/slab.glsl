@@ -6,8 +6,8 @@ struct Slab {
     vec3 reflected;     // factor on the reflection that is left as a lobe
 };
 
-// Both faces reflect: light bounces between them, and the sums of the series are what passes and what
-// comes back. Roughness blurs the reflection only. once: what one face reflects.
+// Both faces reflect, and light bounces between them. The sums of the series are the light that passes and the light
+// that comes back. Roughness blurs only the reflection. once: reflectance of one face.
 PATINA_FN Slab slabOf(vec3 once, vec3 tint, bool twoFaces, bool reflects) {
     vec3 bounces = select(once, vec3(0.0f), twoFaces);
     Slab s;

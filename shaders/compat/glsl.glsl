@@ -4,12 +4,13 @@
 
 #define PATINA_FN
 #define PATINA_FN_RARE
+#define PATINA_IN(T) T
 #define PATINA_OUT(T) out T
 #define PATINA_INOUT(T) inout T
 #define PATINA_UNUSED(T, name) T name
 
-// Facts that hold for all lobes of a shader may be said before this file, as constants in place of what lobes
-// say: drivers do not see it otherwise, and take four times as long for what never runs.
+// Constants before this file may state facts that hold for all lobes of a shader. Drivers do not find out by
+// themselves, and take four times as long to compile code that never runs.
 // Whether lobes have the energy factors of their wo.
 #ifndef PATINA_ENERGY_KNOWN
 #define PATINA_ENERGY_KNOWN(known) (known)
@@ -54,6 +55,29 @@ float powSchlick(float x, float e) {
     float x2 = x * x;
     float general = x > 0.0 ? pow(max(x, 1e-30), e) : (e == 0.0 ? 1.0 : 0.0);
     return e == 5.0 ? x2 * x2 * x : general;
+}
+
+// Functions that the built-in ones do not match. powerOrZero: of any base, which GLSL leaves open where it is negative;
+// 0 where there is no finite number. roundAway: halves away from 0. The drivers' own asin and acos are off by 3e-4.
+float powerOrZero(float x, float e) {
+    float p = pow(abs(x), e);
+    if (x < 0.0) p = e == floor(e) ? (mod(e, 2.0) == 0.0 ? p : -p) : 0.0;
+    if (e == 0.0) p = 1.0;
+    return isinf(p) || isnan(p) ? 0.0 : p;
+}
+float roundAway(float x) {
+    return sign(x) * floor(abs(x) + 0.5);
+}
+float arcsine(float x) {
+    float s = clamp(x, -1.0, 1.0);
+    return atan(s, sqrt((1.0 - s) * (1.0 + s)));
+}
+float arccosine(float x) {
+    float c = clamp(x, -1.0, 1.0);
+    return atan(sqrt((1.0 - c) * (1.0 + c)), c);
+}
+bool isFinite(float x) {
+    return !isinf(x) && !isnan(x);
 }
 
 // One entry of the baked directional albedo tables. A host without storage buffers defines

@@ -7,8 +7,9 @@ const int LIGHT_DOME = 102;
 const int LIGHT_MORE_DOME = 103;
 const int LIGHT_LINE = 104;
 const int LIGHT_TRIANGLE = 105;
+const int LIGHT_MESH = 106; // all triangles of a mesh
 
-// Flags of a light in the rasterizer.
+// Flags of a light on a GPU.
 const int LIGHT_AT_PLACE = 1;   // its sample is a position, not a direction
 const int LIGHT_IS_DELTA = 2;   // no sample of a BSDF finds it
 const int LIGHT_IS_SEEN = 4;    // by the camera

@@ -5,7 +5,7 @@
 // from the middle outwards, as a circle and as a square.
 PATINA_FN float patternRampPosition(vec2 uv, int kind) {
     vec2 d = uv - vec2(0.5f, 0.5f);
-    float around = PATINA_ATAN2(d.x, d.y) / 6.28319f + 0.5f;
+    float around = atan(d.x, d.y) / 6.28319f + 0.5f;
     float circle = sqrt(dot(d, d)) * 1.414f;
     float box = 2.0f * max(abs(d.x), abs(d.y));
     float outwards = select(circle, box, kind == 2);

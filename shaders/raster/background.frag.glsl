@@ -14,7 +14,7 @@ bool isSeen(Light l) {
 // All domes together, as the camera sees them.
 vec4 skyRadiance(vec3 from, vec3 w, float lod) {
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < lightInfo.x; ++i)
+    for (int i = 0; i < lightsSeen; ++i)
         if (lights[i].kind == LIGHT_DOME && isSeen(lights[i]))
             sum += vec4(radianceOfDome(lights[i], w, lod) * filterFactor(lights[i], from, w, LIGHT_FAR), 1.0);
     return vec4(sum.rgb, min(sum.a, 1.0));
@@ -23,11 +23,11 @@ vec4 skyRadiance(vec3 from, vec3 w, float lod) {
 void main() {
     vec3 start, direction;
     vec2 range = cameraRay(start, direction);
-    vec4 color = skyRadiance(eye.w != 0.0 ? eye.xyz : start, direction, 0.0);
+    vec4 color = skyRadiance(isPerspective != 0 ? eye : start, direction, 0.0);
     float nearest = 1e30;
     float depth = 1.0;
     vec4 shape = vec4(0.0);
-    for (int i = 0; i < lightInfo.x; ++i) {
+    for (int i = 0; i < lightsSeen; ++i) {
         Light l = lights[i];
         if (!isSeen(l)) continue;
         float t, density;
@@ -43,5 +43,5 @@ void main() {
     }
     if (shape.a > 0.0) color = shape;
     gl_FragDepth = depth;
-    outColor = vec4(color.rgb * extra.y, color.a);
+    outColor = vec4(color.rgb * exposure, color.a);
 }

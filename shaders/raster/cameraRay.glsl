@@ -6,12 +6,12 @@ in vec2 vWindow;
 vec2 cameraRay(out vec3 start, out vec3 direction) {
     vec4 near = clipToWorld * vec4(vWindow, -1.0, 1.0);
     start = near.xyz / near.w;
-    direction = eye.w != 0.0 ? normalize(start - eye.xyz) : forward.xyz;
+    direction = isPerspective != 0 ? normalize(start - eye) : forward;
     // The near plane is fitted to surfaces and volumes; lights may be before it.
-    float cosine = max(dot(direction, forward.xyz), 1e-6);
-    start -= direction * (range.x / cosine);
-    vec2 seen = vec2(0.0, range.y / cosine);
-    for (int i = 0; i < int(range.z); ++i) {
+    float cosine = max(dot(direction, forward), 1e-6);
+    start -= direction * (nearShift / cosine);
+    vec2 seen = vec2(0.0, farReach / cosine);
+    for (int i = 0; i < planes; ++i) {
         float before = dot(clipPlanes[i], vec4(start, 1.0)), slope = dot(clipPlanes[i].xyz, direction);
         if (slope > 0.0)
             seen.x = max(seen.x, -before / slope);

@@ -14,7 +14,7 @@ void main() {
     vec4 guide = texelFetch(guides, pixel, 0);
     if (guide.w == 0.0) discard;
     vec3 p = texelFetch(places, pixel, 0).xyz, n = texelFetch(normals, pixel, 0).xyz;
-    float wide = forward.w * (eye.w != 0.0 ? length(eye.xyz - p) : 1.0);
+    float wide = pixelSpread * (isPerspective != 0 ? length(eye - p) : 1.0);
     vec3 light = vec3(0.0), guided = vec3(0.0);
     float sum = 0.0;
     for (int j = -1; j <= 1; ++j)

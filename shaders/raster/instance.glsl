@@ -2,23 +2,18 @@
 // Attributes of the vertex stage: a vertex, and the instance that it is drawn for.
 layout(location = 0) in vec4 inPosition; // w: of strips the half width, negative on the right; else 0
 layout(location = 1) in vec3 inNormal; // of strips: along the curve, as long as a StripEnd
-layout(location = 2) in vec4 inColumn0; // object to world, in columns; w: cube root of the determinant
-layout(location = 3) in vec4 inColumn1;
-layout(location = 4) in vec4 inColumn2;
-layout(location = 5) in vec4 inColumn3;
-layout(location = 6) in vec4 inNormal0; // the same for normals
-layout(location = 7) in vec4 inNormal1;
-layout(location = 8) in vec4 inNormal2;
-layout(location = 9) in ivec4 inIds; // instance, row of links, number in its group, place of its prim
+#define PATINA_ATTRIBUTE(place, type, name) layout(location = place) in type name;
+#include "shaders/raster/instanceFields.glsl"
+#undef PATINA_ATTRIBUTE
 
 vec3 worldPosition() {
-    mat4 toWorld = mat4(vec4(inColumn0.xyz, 0.0), vec4(inColumn1.xyz, 0.0), vec4(inColumn2.xyz, 0.0),
-                        vec4(inColumn3.xyz, 1.0));
+    mat4 toWorld = mat4(vec4(column0.xyz, 0.0), vec4(column1.xyz, 0.0), vec4(column2.xyz, 0.0),
+                        vec4(column3.xyz, 1.0));
     return (toWorld * vec4(inPosition.xyz, 1.0)).xyz;
 }
 
 vec3 alongStrip() {
-    return mat3(inColumn0.xyz, inColumn1.xyz, inColumn2.xyz) * inNormal;
+    return mat3(column0.xyz, column1.xyz, column2.xyz) * inNormal;
 }
 // Of a strip's vertex: places on the cross-section of the tube, in radii; x is across, y towards who looks. A
 // dome is as high as the tube in the mean.
@@ -34,7 +29,7 @@ vec3 positionFor(vec4 viewer) {
     if (inPosition.w == 0.0) return p;
     vec3 d = viewer.w != 0.0 ? viewer.xyz - p : viewer.xyz;
     vec3 across = cross(alongStrip(), d);
-    float r = inPosition.w * inColumn0.w, l = length(across), away = dot(d, d);
+    float r = inPosition.w * column0.w, l = length(across), away = dot(d, d);
     if (viewer.w != 0.0) r *= inversesqrt(max(1.0 - r * r / max(away, 1e-30), 0.1));
     if (l <= 0.0) return p;
     // The outline of an open tube has half an ellipse beyond its end, that of a round one half a circle:

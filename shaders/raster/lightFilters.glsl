@@ -58,7 +58,7 @@ vec3 oneFilter(int at, vec3 point, vec3 wi, float reach) {
         TableCell c;
         if (!crosses && m.wrap != IMAGE_OFF) return vec3(1.0);
         value = b1.xyz;
-        if (crosses && filterTexels(m, crossed, c)) value = tableValue(int(b3.x), c);
+        if (crosses && filterTexels(m, crossed, c)) value = lightTableAt(int(b3.x), c);
     }
     return filterStrength(value, invert, density, intensity);
 }
@@ -80,6 +80,6 @@ vec3 filterFactor(Light l, vec3 point, vec3 wi, float reach) {
 }
 // The same towards the camera, for a place on the light.
 vec3 filtersToCamera(int first, vec3 place, vec3 wi) {
-    vec3 from = eye.w != 0.0 ? eye.xyz : place - forward.xyz * dot(place - eye.xyz, forward.xyz);
+    vec3 from = isPerspective != 0 ? eye : place - forward * dot(place - eye, forward);
     return filtersAt(first, from, wi, length(place - from));
 }

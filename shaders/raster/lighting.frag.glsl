@@ -25,7 +25,7 @@ const float NARROW_SUN = 0.003;
 
 // Of first looks: noise is better than what all pixels have wrong alike.
 bool isFirstLook() {
-    return look.w > 1;
+    return sharedEvery > 1;
 }
 float trustOf(int kind) {
     return isFirstLook() && (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) ? 1.0 : lightTrust;
@@ -85,8 +85,8 @@ vec3 fromLight(Light l, bool guides) {
         // Weights of domes come from the density's table on both sides.
         bool sky = kind == LIGHT_DOME || kind == LIGHT_MORE_DOME;
         float chance = samplesOf(l) * (sky ? domePdf(l, wi, 0.0) : density);
-        bool found = kind != LIGHT_TRIANGLE && counts.y > 0 && !lightsAlone;
-        weight = (found ? heuristic(trustOf(kind) * chance, float(counts.y) * f.pdf) : 1.0) / density;
+        bool found = kind != LIGHT_TRIANGLE && bsdfSamples > 0 && !lightsAlone;
+        weight = (found ? heuristic(trustOf(kind) * chance, float(bsdfSamples) * f.pdf) : 1.0) / density;
     }
     return value * radiance * weight * shadowAt(l, wi);
 }
@@ -106,33 +106,28 @@ vec3 along(MaterialSample s) {
 #endif
     vec3 sum = vec3(0.0);
     bool delta = (s.event & LOBE_DELTA) != 0;
-    float pdf = float(counts.y) * s.pdf;
+    float pdf = float(bsdfSamples) * s.pdf;
     float sky = -1.0;
-    for (int i = 0; i < look.x; ++i) {
+    for (int i = 0; i < lightsFound; ++i) {
         Light l = lights[i];
         int kind = l.kind;
         if (isDelta(l) || kind > LIGHT_DOME || !isLit(l) || (outlines && isOutline(l))) continue;
-        vec3 radiance = l.radiance;
+        vec3 radiance;
         float density, seen = 1.0;
         if (kind == LIGHT_DOME) {
 #ifdef DOME_METHOD
             continue; // see skyLight()
 #endif
-            float texel = 4.0 * PI / max(extra.x, 1.0);
-            float sharper = isFirstLook() ? 256.0 : extra.z;
+            float texel = 4.0 * PI / max(domeTexels, 1.0);
+            float sharper = isFirstLook() ? 256.0 : passesTaken;
             float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * sharper * texel, 1e-20));
-            lod = clamp(lod, 0.0, float(lightInfo.y));
+            lod = clamp(lod, 0.0, float(domeLevel));
             density = samplesOf(l) * domePdf(l, s.wi, lod);
             radiance = radianceOfDome(l, s.wi, lod) * filterFactor(l, point.position, s.wi, LIGHT_FAR);
-        } else if (kind == LIGHT_DISTANT) {
-            if (!distantHit(l.axis2, l.versine, s.wi)) continue;
-            density = distantPdf(l.versine) * samplesOf(l);
-            radiance *= filterFactor(l, point.position, s.wi, LIGHT_FAR);
         } else {
             float t;
-            vec3 image;
-            if (!lightHit(l, point.position, s.wi, t, density, image)) continue;
-            radiance *= image * shapingFactor(l, -s.wi) * filterFactor(l, point.position, s.wi, t);
+            if (!lightAlong(l, point.position, s.wi, t, density, radiance)) continue;
+            radiance *= filterFactor(l, point.position, s.wi, t);
             density *= samplesOf(l);
         }
         vec3 shadow = vec3(1.0);
@@ -175,7 +170,7 @@ void main() {
     setPointFromCamera();
 #ifdef MATERIAL_IS_VOLUME
     vec4 fog = fogHere();
-    outColor = vec4(fog.rgb * extra.y, fog.a);
+    outColor = vec4(fog.rgb * exposure, fog.a);
     return;
 #endif
 #ifdef PRESENCE
@@ -183,22 +178,22 @@ void main() {
 #endif
     vec3 color = glow();
     if (meshLight.w == 3.0) {
-        outColor = vec4(color * extra.y, 1.0);
+        outColor = vec4(color * exposure, 1.0);
         return;
     }
     materialSetup();
 #ifdef AREA_OUTLINES
     outlines = isTransformable();
 #endif
-    // Neighbours take other samples of what is between look.z and counts.x.
-    int turn = (int(gl_FragCoord.x) + 3 * int(gl_FragCoord.y) + counts.z) % look.w;
-    int every = isFirstLook() ? 1 : 0, own = (counts.x - look.z) / look.w;
+    // Neighbours take other samples of what is between firstShared and lightsTaken.
+    int turn = (int(gl_FragCoord.x) + 3 * int(gl_FragCoord.y) + passIndex) % sharedEvery;
+    int every = isFirstLook() ? 1 : 0, own = (lightsTaken - firstShared) / sharedEvery;
     vec3 noisy = vec3(0.0);
-    for (int k = look.y - every; k < look.z + own; ++k) {
-        bool pooled = k >= look.z, guides = k < look.y;
-        Light l = lights[pooled ? look.z + turn + (k - look.z) * look.w : max(k, 0)];
+    for (int k = firstSampled - every; k < firstShared + own; ++k) {
+        bool pooled = k >= firstShared, guides = k < firstSampled;
+        Light l = lights[pooled ? firstShared + turn + (k - firstShared) * sharedEvery : max(k, 0)];
         if (!guides && (!isLit(l) || isSunOfDome(l))) continue;
-        float share = pooled ? float(look.w) : 1.0;
+        float share = pooled ? float(sharedEvery) : 1.0;
         vec3 light;
 #ifdef AREA_OUTLINES
         if (outlines && isOutline(l) && !guides)
@@ -209,13 +204,13 @@ void main() {
         noisy += pooled ? share * light : vec3(0.0);
         color += pooled ? vec3(0.0) : light;
     }
-    for (int i = 0; i < counts.y; ++i) {
+    for (int i = 0; i < bsdfSamples; ++i) {
         uvec2 pixel = uvec2(gl_FragCoord.xy);
-        uint index = uint(counts.z * counts.y + i);
+        uint index = uint(passIndex * bsdfSamples + i);
         vec2 choice = randomAt(pixel, index, 1u);
         MaterialSample s = materialSample(vec3(randomAt(pixel, index, 0u), choice.x), choice.y);
         if (s.event == 0) continue;
-        vec3 found = along(s) / float(counts.y);
+        vec3 found = along(s) / float(bsdfSamples);
         // Reflections of narrow lobes are as sharp as they should be.
         float sharp = (s.event & LOBE_DELTA) != 0 ? 1.0 : smoothstep(1.0, 6.0, s.pdf);
         color += found * sharp;
@@ -227,11 +222,11 @@ void main() {
     color += noisy;
 #ifndef MATERIAL_TRANSMITS
     if (isFirstLook()) {
-        outNoisy = vec4(noisy * extra.y, 0.0);
+        outNoisy = vec4(noisy * exposure, 0.0);
         outGuide = vec4(guide, float(drawInfo.y + 1));
         outPlace = vec4(point.position, 1.0);
         outNormal = vec4(isTube() ? vec3(0.0) : point.normal, 0.0);
     }
 #endif
-    outColor = vec4(color * extra.y, 1.0);
+    outColor = vec4(color * exposure, 1.0);
 }

@@ -5,25 +5,11 @@
 #include "shaders/lobes.glsl"
 #include "shaders/closure.glsl"
 #include "shaders/patterns.glsl"
+#include "shaders/compat/nodes.glsl"
 
 const int ENERGY_CURVE_NODES = 64; // EnergyCurve::nodeCount
 
-// World space, unit vectors; see materialNetwork/shadingPoint.h.
-struct SurfacePoint {
-    vec3 position;
-    vec3 objectPosition;
-    vec3 geometricNormal;
-    vec3 normal;
-    vec3 tangent;
-    vec3 bitangent;
-    vec3 view;
-    mat3 objectToWorldNormal;
-    float lengthPerUv;
-    float uvFootprint;
-    uint seed;
-};
 SurfacePoint point;
-vec3 worldOrigin = vec3(0.0); // what positions are relative to
 
 // Defined by the pass: the value of a primvar, or what stands in for it.
 vec4 primvar(int slot, vec4 fallback);
@@ -131,116 +117,6 @@ MaterialSample finishSample(MaterialSample s, LobeSample l, int drawn, vec3 weig
     return s;
 }
 
-// Pattern nodes beyond what shaders/patterns has.
-vec4 nodeDivide(vec4 a, vec4 b) {
-    return mix(a / b, vec4(0.0), equal(b, vec4(0.0)));
-}
-vec4 nodeModulo(vec4 a, vec4 b) {
-    return mix(a - b * floor(a / b), vec4(0.0), equal(b, vec4(0.0)));
-}
-float nodePowerOne(float a, float b) {
-    // GLSL leaves a negative base open; C++ gives a number for whole exponents.
-    float p = pow(abs(a), b);
-    if (a < 0.0) p = b == floor(b) ? (mod(b, 2.0) == 0.0 ? p : -p) : 0.0;
-    if (b == 0.0) p = 1.0;
-    return isinf(p) || isnan(p) ? 0.0 : p;
-}
-vec4 nodePower(vec4 a, vec4 b) {
-    return vec4(nodePowerOne(a.x, b.x), nodePowerOne(a.y, b.y), nodePowerOne(a.z, b.z),
-                nodePowerOne(a.w, b.w));
-}
-vec4 nodeRound(vec4 a) {
-    return sign(a) * floor(abs(a) + 0.5);
-}
-// Drivers' own asin and acos are off by 3e-4.
-vec4 nodeAsin(vec4 a) {
-    vec4 x = clamp(a, -1.0, 1.0);
-    return atan(x, sqrt((1.0 - x) * (1.0 + x)));
-}
-vec4 nodeAcos(vec4 a) {
-    vec4 x = clamp(a, -1.0, 1.0);
-    return atan(sqrt((1.0 - x) * (1.0 + x)), x);
-}
-vec4 nodeSmoothstep(vec4 x, vec4 low, vec4 high) {
-    vec4 t = mix(vec4(greaterThanEqual(x, high)), clamp((x - low) / (high - low), 0.0, 1.0),
-                 greaterThan(high, low));
-    return t * t * (3.0 - 2.0 * t);
-}
-float nodeDot(vec4 a, vec4 b, int size) {
-    vec4 p = a * b;
-    return p.x + (size > 1 ? p.y : 0.0) + (size > 2 ? p.z : 0.0) + (size > 3 ? p.w : 0.0);
-}
-vec4 nodeNormalize(vec4 a, int size) {
-    float l = sqrt(nodeDot(a, a, size));
-    return l > 0.0 ? a / l : vec4(0.0);
-}
-float nodeLargest(vec4 a, int size) {
-    float x = max(a.x, a.y);
-    if (size > 2) x = max(x, a.z);
-    return size > 3 ? max(x, a.w) : x;
-}
-vec4 nodeArtisticIor(vec4 r, vec4 e) {
-    return vec4(patternArtisticIor(r.x, e.x), patternArtisticIor(r.y, e.y),
-                patternArtisticIor(r.z, e.z), 0.0);
-}
-vec4 nodeArtisticExtinction(vec4 r, vec4 e) {
-    vec4 n = nodeArtisticIor(r, e);
-    return vec4(patternArtisticExtinction(r.x, n.x), patternArtisticExtinction(r.y, n.y),
-                patternArtisticExtinction(r.z, n.z), 0.0);
-}
-vec2 nodeTiledUv(vec4 uv, vec4 tiling, vec4 offset, vec4 image, vec4 tile) {
-    vec2 t = uv.xy * tiling.xy - offset.xy;
-    return vec2(image.x != 0.0 ? t.x / image.x * tile.x : 0.0,
-                image.y != 0.0 ? t.y / image.y * tile.y : 0.0);
-}
-float nodeTiledFootprint(vec4 tiling) {
-    return point.uvFootprint * max(abs(tiling.x), abs(tiling.y));
-}
-// Loops, so that drivers read each kind of noise once.
-vec4 nodeNoise2(vec2 p) {
-    vec4 v = vec4(0.0);
-    for (int i = 0; i < 3; ++i)
-        v[i] = noisePerlin2(p, 8 * i);
-    return v;
-}
-vec4 nodeNoise3(vec3 p) {
-    vec4 v = vec4(0.0);
-    for (int i = 0; i < 3; ++i)
-        v[i] = noisePerlin3(p, 8 * i);
-    return v;
-}
-vec4 nodeFractal2(vec2 p, int octaves, float lacunarity, float diminish) {
-    vec4 v = vec4(0.0);
-    for (int i = 0; i < 3; ++i)
-        v[i] = noiseFractal2(p, octaves, lacunarity, diminish, 8 * i);
-    return v;
-}
-vec4 nodeFractal3(vec3 p, int octaves, float lacunarity, float diminish) {
-    vec4 v = vec4(0.0);
-    for (int i = 0; i < 3; ++i)
-        v[i] = noiseFractal3(p, octaves, lacunarity, diminish, 8 * i);
-    return v;
-}
-vec4 nodeTiledShape(int shape, float row, vec4 uv, vec4 tiling, vec4 offset, vec4 size, vec4 staggered) {
-    return vec4(patternTiledShape(shape, patternTile(uv.xy, tiling.xy, offset.xy), size.x,
-                                  staggered.x != 0.0, row));
-}
-vec4 nodeRamp4(vec4 tl, vec4 tr, vec4 bl, vec4 br, vec2 uv) {
-    vec2 t = clamp(uv, 0.0, 1.0);
-    return mix(mix(bl, br, t.x), mix(tl, tr, t.x), t.y);
-}
-// mode 0 is world space.
-vec4 nodePosition(int mode) {
-    return vec4(mode == 0 ? point.position + worldOrigin : point.objectPosition, 0.0);
-}
-vec4 nodeNormal(int mode, vec3 n) {
-    if (mode == 0) return vec4(n, 0.0);
-    return vec4(unitOr(inverse(point.objectToWorldNormal) * n, vec3(0.0, 0.0, 1.0)), 0.0);
-}
-vec4 nodeTangent(int mode, vec3 t) {
-    if (mode == 0) return vec4(t, 0.0);
-    return vec4(unitOr(transpose(point.objectToWorldNormal) * t, vec3(1.0, 0.0, 0.0)), 0.0);
-}
 // ImageTexture::sample(): lambda from the footprint and the larger side.
 vec4 nodeTexture(sampler2D s, vec2 uv, float footprint) {
     ivec2 size = textureSize(s, 0);

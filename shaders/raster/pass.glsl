@@ -20,7 +20,7 @@ uint scramble(uint x, uint seed) {
 }
 // Pair `set` of sample `index` of a pixel: Owen-scrambled Sobol points (Burley 2020).
 vec2 randomAt(uvec2 pixel, uint index, uint set) {
-    uint seed = hash(pixel.x + hash(pixel.y + hash(set + 64u * uint(counts.w))));
+    uint seed = hash(pixel.x + hash(pixel.y + hash(set + 64u * uint(passSeed))));
     uint i = scramble(index, seed);
     // The second dimension is Pascal's triangle modulo 2, a Kronecker power: five steps for 32 bits.
     uint y = i ^ (i >> 16);

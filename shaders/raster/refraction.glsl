@@ -26,7 +26,7 @@ bool seenAlong(vec3 origin, vec3 direction, out vec3 color) {
     float before = 0.0;
     for (int i = 1; i <= steps; ++i) {
         float f = float(i) / float(steps);
-        float t = extra.w * f * f;
+        float t = sceneExtent * f * f;
         vec3 q = onScreen(origin + direction * t);
         if (q.z < 0.0) return false;
         float depth = textureLod(sceneDepth, q.xy, 0.0).x;
@@ -40,7 +40,7 @@ bool seenAlong(vec3 origin, vec3 direction, out vec3 color) {
                     before = middle;
             }
             q = onScreen(origin + direction * t);
-            color = textureLod(sceneColor, q.xy, 0.0).rgb / max(extra.y, 1e-20);
+            color = textureLod(sceneColor, q.xy, 0.0).rgb / max(exposure, 1e-20);
             return true;
         }
         before = t;
@@ -76,24 +76,20 @@ bool exitOf(vec3 p, vec3 direction, out float t, out vec3 n) {
 // Light of all lights along a ray that meets no surface.
 vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
     vec3 sum = vec3(0.0);
-    float texel = 4.0 * PI / max(extra.x, 1.0);
-    float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(float(counts.y) * pdf * extra.z * texel, 1e-20));
-    for (int i = 0; i < look.x; ++i) {
+    float texel = 4.0 * PI / max(domeTexels, 1.0);
+    float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(float(bsdfSamples) * pdf * passesTaken * texel, 1e-20));
+    for (int i = 0; i < lightsFound; ++i) {
         Light l = lights[i];
         int kind = l.kind;
         if (isDelta(l) || kind > LIGHT_DOME || !isLit(l)) continue;
-        vec3 radiance = l.radiance;
+        vec3 radiance;
         if (kind == LIGHT_DOME) {
-            radiance = radianceOfDome(l, direction, clamp(lod, 0.0, float(lightInfo.y))) *
+            radiance = radianceOfDome(l, direction, clamp(lod, 0.0, float(domeLevel))) *
                        filterFactor(l, origin, direction, LIGHT_FAR);
-        } else if (kind == LIGHT_DISTANT) {
-            if (!distantHit(l.axis2, l.versine, direction)) continue;
-            radiance *= filterFactor(l, origin, direction, LIGHT_FAR);
         } else {
             float t, density;
-            vec3 image;
-            if (!lightHit(l, origin, direction, t, density, image)) continue;
-            radiance *= image * shapingFactor(l, -direction) * filterFactor(l, origin, direction, t);
+            if (!lightAlong(l, origin, direction, t, density, radiance)) continue;
+            radiance *= filterFactor(l, origin, direction, t);
         }
         sum += radiance * l.weight * l.specular;
     }
@@ -101,9 +97,9 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
 }
 
 #ifdef MATERIAL_HAS_INTERIOR
-// Light after a stretch through the medium: what comes from behind, what the medium gives off, and
-// light scattered once. That light is not weakened on its way in; of a white medium in even light
-// nothing is then lost, as when all orders of scattering are counted.
+// Light after a distance through the medium: light from behind, light that the medium emits, and light
+// scattered once. The last is not weakened on its way in. In even light a white medium then loses nothing, as
+// if all orders of scattering were counted.
 vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool boundary,
                    out vec3 transmittance) {
     Medium m = materialMedium();
@@ -117,11 +113,11 @@ vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool
     float mean = largest(sigma) > 0.0 ? min(1.0 / largest(sigma), 0.5 * distance) : 0.0;
     PhaseMixture phase = phaseMixture(m, vec3(1.0));
     vec3 found = vec3(0.0);
-    for (int i = look.y; i < counts.x; ++i) {
+    for (int i = firstSampled; i < lightsTaken; ++i) {
         Light l = lights[i];
         if (!isLit(l) || isSunOfDome(l)) continue;
         if (l.kind == LIGHT_DOME && l.domeSamples == 0.0) { // nobody samples it: its mean
-            found += radianceOfDome(l, direction, max(float(lightInfo.y) - 1.0, 0.0)) * l.weight *
+            found += radianceOfDome(l, direction, max(float(domeLevel) - 1.0, 0.0)) * l.weight *
                      l.specular * filterFactor(l, start + direction * mean, direction, LIGHT_FAR);
             continue;
         }
@@ -162,7 +158,7 @@ vec3 throughObject(MaterialSample s) {
 vec4 fogHere() {
     vec3 d = -point.view;
     bool enters = dot(point.geometricNormal, point.view) >= 0.0;
-    vec3 start = enters || eye.w == 0.0 ? point.position : eye.xyz, n;
+    vec3 start = enters || isPerspective == 0 ? point.position : eye, n;
     float t = length(point.position - start);
     if (enters && !exitOf(start, d, t, n)) t = 0.0;
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -174,7 +170,7 @@ vec4 fogHere() {
     }
     vec4 behind = texelFetch(sceneColor, pixel, 0);
     vec3 transmittance;
-    vec3 color = throughMedium(behind.rgb / max(extra.y, 1e-20), start, d, t, false, transmittance);
+    vec3 color = throughMedium(behind.rgb / max(exposure, 1e-20), start, d, t, false, transmittance);
     return vec4(color, mix(1.0, behind.a, luminance(transmittance)));
 }
 #endif

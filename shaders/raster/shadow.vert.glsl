@@ -15,5 +15,5 @@ void main() {
     vPosition = p;
 #endif
     gl_Position = worldToMap * vec4(p, 1.0);
-    if (!isLinked(inIds.y, category)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // clipped
+    if (!isLinked(instanceIds.y, category)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // clipped
 }

@@ -2,11 +2,15 @@
 // Shadows of lights' samples, and of directions that are none, by the cells of the sky.
 // Defined before: isTube(), planeTowards() and departure() as surface.frag.glsl has them.
 layout(std430, binding = 5) readonly buffer ShadowMatrices { mat4 shadowMatrices[]; };
+#define PATINA_MATRIX(name) mat4 name;
+#define PATINA_ROW(vector, type, number, initial) vec3 vector; type number;
+#define PATINA_NUMBERS(type, a, b, c, d, initial) type a, b, c, d;
 struct SkyCell {
-    mat4 worldToMap, worldToFibres;
-    vec4 towards; // the direction drawn
-    ivec4 map;    // layers: x, of all; y, of the fibres, -1: none
+#include "shaders/raster/skyFields.glsl"
 };
+#undef PATINA_MATRIX
+#undef PATINA_ROW
+#undef PATINA_NUMBERS
 layout(std430, binding = 10) readonly buffer SkyCells { SkyCell skyCells[]; };
 layout(binding = 18) uniform sampler2DArray shadowMaps;
 layout(binding = 19) uniform sampler2DArray skyMaps;
@@ -112,22 +116,22 @@ vec2 octahedral(vec3 w) {
 // Whether light from infinitely far comes to the point along wi, by the map of the cell that wi is
 // in: right but for what is thinner than a cell is wide.
 float skyReaches(vec3 wi) {
-    if (lightInfo.z == 0) return 1.0;
+    if (skySide == 0) return 1.0;
     // A direction beside the sample's may be under the surface's horizon where the sample is not: then
     // one further up is asked.
     vec3 up = dot(wi, point.geometricNormal) < 0.0 ? -point.geometricNormal : point.geometricNormal;
     int cell = 0;
     for (int i = 0; i < 4; ++i) {
-        ivec2 at = min(ivec2(octahedral(wi + up * (0.2 * float(i))) * float(lightInfo.z)), ivec2(lightInfo.z - 1));
-        cell = at.y * lightInfo.z + at.x;
-        if (dot(skyCells[cell].towards.xyz, up) > 0.0) break;
+        ivec2 at = min(ivec2(octahedral(wi + up * (0.2 * float(i))) * float(skySide)), ivec2(skySide - 1));
+        cell = at.y * skySide + at.x;
+        if (dot(skyCells[cell].towards, up) > 0.0) break;
     }
     mat4 m = skyCells[cell].worldToMap;
-    int layer = skyCells[cell].map.x;
-    vec3 towards = skyCells[cell].towards.xyz, p = departure(towards);
-    if (isTube() && skyCells[cell].map.y >= 0 && isShown(skyCells[cell].worldToFibres, p)) {
+    int layer = skyCells[cell].layer;
+    vec3 towards = skyCells[cell].towards, p = departure(towards);
+    if (isTube() && skyCells[cell].fibreLayer >= 0 && isShown(skyCells[cell].worldToFibres, p)) {
         m = skyCells[cell].worldToFibres;
-        layer = skyCells[cell].map.y;
+        layer = skyCells[cell].fibreLayer;
     }
     float seen = isInFront(false, skyMaps, m, layer, p, isTube() ? planeTowards(towards) : up, 3e-5);
     if (seen == 0.0 || isTube()) return seen;

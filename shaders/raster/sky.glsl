@@ -39,7 +39,7 @@ vec3 prefiltered(Light l, vec3 wi, float alpha) {
     if (l.domeLayer < 0.0) return l.domeRadiance;
     vec2 at = domeTexel(toDome(l, wi));
     // Below the first level the image itself gets sharper, by its own smaller versions.
-    vec3 sharp = textureLod(domeMaps, vec3(at, l.domeLayer), max(0.0, log2(max(alpha * alpha * sqrt(extra.x), 1e-6)))).rgb;
+    vec3 sharp = textureLod(domeMaps, vec3(at, l.domeLayer), max(0.0, log2(max(alpha * alpha * sqrt(domeTexels), 1e-6)))).rgb;
     if (alpha <= 0.02) return l.domeRadiance * sharp;
     float level = alpha < 0.2   ? (alpha - 0.1) / 0.1
                   : alpha < 0.4 ? 1.0 + (alpha - 0.2) / 0.2
@@ -54,12 +54,12 @@ vec3 prefiltered(Light l, vec3 wi, float alpha) {
 
 // How much of the sky a surface sees: the mean over directions by the cosine, all pixels the same.
 float skyShare(vec3 normal) {
-    if (lightInfo.z == 0) return 1.0;
+    if (skySide == 0) return 1.0;
     vec3 x = anyTangent(normal), y = cross(normal, x);
     float sum = 0.0;
     const int count = 16;
     for (int i = 0; i < count; ++i) {
-        vec2 u = randomAt(uvec2(0u), uint(counts.z * count + i), 5u);
+        vec2 u = randomAt(uvec2(0u), uint(passIndex * count + i), 5u);
         float r = sqrt(u.x), phi = TWO_PI * u.y;
         sum += skyReaches(x * (r * cos(phi)) + y * (r * sin(phi)) + normal * sqrt(1.0 - u.x));
     }
@@ -83,7 +83,7 @@ vec3 skyByLobes(bool mirrors) {
             if (share < 0.0) share = skyShare(normal);
             seen = share;
         }
-        for (int k = 0; k < look.x; ++k) {
+        for (int k = 0; k < lightsFound; ++k) {
             Light l = lights[k];
             if (l.kind != LIGHT_DOME || !isLit(l)) continue;
             vec3 light = kind == LOBE_MIRROR ? prefiltered(l, mirrored, lobeAlpha(i))
@@ -98,21 +98,21 @@ vec3 skyByLobes(bool mirrors) {
 
 // Samples of the material look into the maps, each into as small a version as it is alone.
 vec3 skyBySamples() {
-    int count = lightInfo.w;
+    int count = filteredSamples;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < count; ++i) {
-        uint index = uint(counts.z * count + i);
+        uint index = uint(passIndex * count + i);
         vec2 choice = randomAt(uvec2(0u), index, 1u);
         MaterialSample s = materialSample(vec3(randomAt(uvec2(0u), index, 0u), choice.x), choice.y);
         if (s.event == 0) continue;
-        float texel = 4.0 * PI / max(extra.x, 1.0);
+        float texel = 4.0 * PI / max(domeTexels, 1.0);
         bool delta = (s.event & LOBE_DELTA) != 0;
         float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(s.pdf * float(count) * texel, 1e-20));
         float sky = -1.0;
-        for (int k = 0; k < look.x; ++k) {
+        for (int k = 0; k < lightsFound; ++k) {
             Light l = lights[k];
             if (l.kind != LIGHT_DOME || !isLit(l)) continue;
-            vec3 light = radianceOfDome(l, s.wi, clamp(lod, 0.0, float(lightInfo.y))) *
+            vec3 light = radianceOfDome(l, s.wi, clamp(lod, 0.0, float(domeLevel))) *
                          filterFactor(l, point.position, s.wi, LIGHT_FAR);
             if (sky < 0.0) sky = skyReaches(s.wi);
             vec3 shadow = l.firstMap < 0 ? vec3(1.0) : mix(l.shadowColor, vec3(1.0), sky);
@@ -137,7 +137,7 @@ vec3 skyLight() {
             chances[i] = lobeChance[i];
         }
         keepLobes((1 << LOBE_DIFFUSE) | (1 << LOBE_SHEEN));
-        for (int k = look.y; k < counts.x; ++k)
+        for (int k = firstSampled; k < lightsTaken; ++k)
             if (isSunOfDome(lights[k]) && isLit(lights[k])) sum += fromLight(lights[k], false);
         for (int i = 0; i < LOBES; ++i) {
             lobeWeight[i] = weights[i];

@@ -30,17 +30,17 @@ vec4 primvar(int slot, vec4 fallback) {
 void loadTriangle() {
     Triangle t = triangles[gl_PrimitiveID];
     mat3 n = vNormalMatrix;
-    vec3 ng = n * t.normal.xyz;
+    vec3 ng = n * t.normal;
     vGeometricNormal = ng / max(length(ng), 1e-30);
     // Directions go by the inverse transpose of what normals go by.
     vec3 c0 = cross(n[1], n[2]);
     float determinant = dot(c0, n[0]);
     mat3 linear = mat3(c0, cross(n[2], n[0]), cross(n[0], n[1]));
     float scale = 1.0 / (abs(determinant) > 1e-37 ? determinant : 1e-37);
-    vTangent = linear * t.dPdu.xyz * scale;
-    vBitangent = linear * t.dPdv.xyz * scale;
-    vUvPerLength = t.dPdu.w / max(vScale, 1e-20);
-    vIds = ivec4(floatBitsToInt(t.dPdv.w), vInstance.xyw);
+    vTangent = linear * t.dPdu * scale;
+    vBitangent = linear * t.dPdv * scale;
+    vUvPerLength = t.uvPerLength / max(vScale, 1e-20);
+    vIds = ivec4(t.element, vInstance.xyw);
 }
 
 const int FACETED = 2;
@@ -60,7 +60,7 @@ void setOnStrip(vec3 view) {
     // eighth of a pixel any place across is taken, which are all as likely.
     if (fwidth(vAcross.x) > 16.0) {
         uvec2 strip = uvec2(gl_PrimitiveID & 1023, drawInfo.y & 1023);
-        float there = 2.0 * randomAt(uvec2(gl_FragCoord.xy) + strip, uint(counts.z), 30u).x - 1.0;
+        float there = 2.0 * randomAt(uvec2(gl_FragCoord.xy) + strip, uint(passIndex), 30u).x - 1.0;
         point.position += across * ((there - h) * tubeRadius);
         h = there;
     }
@@ -98,11 +98,11 @@ vec3 departure(vec3 wi) {
 void setPoint(vec3 view, float coneWidth) {
     loadTriangle();
     point.position = vPosition;
-    worldOrigin = origin.xyz;
+    worldOrigin = passOrigin;
     point.objectPosition = vObjectPosition;
     point.geometricNormal = vGeometricNormal;
     point.view = view;
-    tubeRadius = length(triangles[gl_PrimitiveID].dPdu.xyz) * vScale;
+    tubeRadius = length(triangles[gl_PrimitiveID].dPdu) * vScale;
     if ((drawInfo.z & STRIP) != 0) {
         setOnStrip(view);
     } else {
@@ -130,14 +130,14 @@ void setPoint(vec3 view, float coneWidth) {
     point.lengthPerUv = 1.0 / max(vUvPerLength, 1e-20);
     point.uvFootprint = vUvPerLength * coneWidth / sqrt(cosine);
     uvec2 pixel = uvec2(gl_FragCoord.xy);
-    point.seed = hash(pixel.x + hash(pixel.y + hash(uint(counts.z) + hash(uint(counts.w))))) | 1u;
+    point.seed = hash(pixel.x + hash(pixel.y + hash(uint(passIndex) + hash(uint(passSeed))))) | 1u;
 }
 
 void setPointFromCamera() {
-    vec3 toEye = eye.xyz - vPosition;
+    vec3 toEye = eye - vPosition;
     float distance = length(toEye);
-    vec3 view = eye.w != 0.0 ? toEye / max(distance, 1e-20) : -forward.xyz;
-    setPoint(view, eye.w != 0.0 ? forward.w * distance : forward.w);
+    vec3 view = isPerspective != 0 ? toEye / max(distance, 1e-20) : -forward;
+    setPoint(view, isPerspective != 0 ? pixelSpread * distance : pixelSpread);
 }
 
 // Whether this pass shows the surface at all: presence as a chance (stochastic transparency).
@@ -145,7 +145,7 @@ void setPointFromCamera() {
 // Numbers of one triangle in one pixel, so that what lies behind each other is drawn apart.
 float ownRandom(uint set) {
     uint id = hash(uint(gl_PrimitiveID) + 4099u * uint(drawInfo.y));
-    return randomAt(uvec2(gl_FragCoord.xy) + uvec2(id & 1023u, id >> 22u), uint(counts.z), set).x;
+    return randomAt(uvec2(gl_FragCoord.xy) + uvec2(id & 1023u, id >> 22u), uint(passIndex), set).x;
 }
 bool isPresent(out vec3 passes) {
     return ownRandom(31u) < materialPresence(passes);

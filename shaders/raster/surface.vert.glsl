@@ -32,22 +32,22 @@ out vec4 vPrimvars[PRIMVARS];
 #endif
 
 void main() {
-    vNormalMatrix = mat3(inNormal0.xyz, inNormal1.xyz, inNormal2.xyz);
-    vScale = inColumn0.w;
+    vNormalMatrix = mat3(normalColumn0.xyz, normalColumn1.xyz, normalColumn2.xyz);
+    vScale = column0.w;
     vObjectPosition = inPosition.xyz;
 #ifdef SHADOW
     vPosition = positionFor(towardsLight);
 #else
-    vPosition = positionFor(eye.w != 0.0 ? vec4(eye.xyz, 1.0) : vec4(-forward.xyz, 0.0));
+    vPosition = positionFor(isPerspective != 0 ? vec4(eye, 1.0) : vec4(-forward, 0.0));
 #endif
     vAcross = onStrip();
     vNormal = inPosition.w != 0.0 ? alongStrip() : vNormalMatrix * inNormal;
-    vInstance = ivec4(inIds.xy, 0, inIds.w);
+    vInstance = ivec4(instanceIds.xy, 0, instanceIds.w);
 #if PRIMVARS > 0
     for (int i = 0; i < PRIMVARS; ++i)
         vPrimvars[i] = primvars[gl_VertexID * PRIMVARS + i];
     if (drawInfo.w > 0) {
-        int at = drawInfo.w - 1 + inIds.z * (PRIMVARS + 1);
+        int at = drawInfo.w - 1 + instanceIds.z * (PRIMVARS + 1);
         vInstance.z = int(instanceValues[at].x) | int(instanceValues[at].y) << 16;
         for (int i = 0; i < PRIMVARS; ++i)
             if ((vInstance.z & (1 << i)) != 0) vPrimvars[i] = instanceValues[at + 1 + i];
@@ -55,10 +55,10 @@ void main() {
 #endif
 #ifdef SHADOW
     gl_Position = worldToMap * vec4(vPosition, 1.0);
-    if (!isLinked(inIds.y, category)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // clipped
+    if (!isLinked(instanceIds.y, category)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // clipped
 #else
     gl_Position = worldToClip * vec4(vPosition, 1.0);
     for (int i = 0; i < 8; ++i)
-        gl_ClipDistance[i] = i < int(range.z) ? dot(clipPlanes[i], vec4(vPosition, 1.0)) : 1.0;
+        gl_ClipDistance[i] = i < planes ? dot(clipPlanes[i], vec4(vPosition, 1.0)) : 1.0;
 #endif
 }

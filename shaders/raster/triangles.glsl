@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values of whole triangles: pulled by the fragment stage, so that corners can share vertices.
+#define PATINA_ROW(vector, type, number, initial) vec3 vector; type number;
 struct Triangle {
-    vec4 dPdu;   // object space; w: sqrt of texture area per area
-    vec4 dPdv;   // w: bits of the authored face
-    vec4 normal; // geometric, object space, not of unit length
+#include "shaders/raster/triangleFields.glsl"
 };
+#undef PATINA_ROW
 layout(std430, binding = 2) readonly buffer Triangles { Triangle triangles[]; };

@@ -79,10 +79,11 @@ vec3 diffused(vec3 depth, vec3 layer, vec3 albedo) {
                vec3(0.0));
 }
 
-// Light scattered towards the camera, of irradiance from a direction, per scattering coefficient: once, by
-// the phase function, and many times, as in a layer across that direction. Light that leaves at the sides of
-// clouds, which are no layers, is in the root: `both` is what a white cloud would gather from everywhere,
-// which must not be above 1; the exponent was fitted to the cloud of testenv/scenes/volume.usda.
+// Light scattered towards the camera, of irradiance from a direction, per scattering coefficient. Light that
+// scatters once follows the phase function; light that scatters many times is that of a layer across the
+// direction. Clouds are no layers and lose light at their sides, hence the division by the root: `both` is the
+// light that a white cloud would gather from everywhere, which must not be above 1. The exponent was fitted to
+// the cloud of testenv/scenes/volume.usda.
 vec3 lightInside(vec3 p, vec3 direction, float reach, float jitter, float phase) {
     vec3 depth = vec3(0.0), scattering = vec3(0.0);
     opticalDepth(p, direction, reach, jitter, depth, scattering);
@@ -107,12 +108,12 @@ float henyeyGreenstein(float g, float c) {
 vec3 litAt(vec3 p, vec3 direction, float g, float jitter) {
     vec3 sum = vec3(0.0);
     point.position = p;
-    for (int i = look.y; i < counts.x; ++i) {
+    for (int i = firstSampled; i < lightsTaken; ++i) {
         Light l = lights[i];
         if ((l.flags & LIGHT_OF_DOME) != 0) continue;
         if (l.kind == LIGHT_DOME && l.domeSamples == 0.0) { // nobody samples it: its mean
             vec3 from = evenDirection(vec2(jitter, fract(17.0 * jitter)));
-            sum += radianceOfDome(l, direction, max(float(lightInfo.y) - 1.0, 0.0)) * l.weight *
+            sum += radianceOfDome(l, direction, max(float(domeLevel) - 1.0, 0.0)) * l.weight *
                    filterFactor(l, p, from, LIGHT_FAR) * lightInside(p, from, LIGHT_FAR, jitter, 0.25 * INV_PI) *
                    (4.0 * PI * l.specular);
             continue;
@@ -138,8 +139,8 @@ void main() {
         far = min(far, dot(world.xyz / world.w - origin, direction));
     }
     if (!boxAlong(origin, direction, near, far)) discard;
-    vec2 u = randomAt(uvec2(pixel), uint(counts.z), 40u + 2u * uint(volumeIndex));
-    vec2 v = randomAt(uvec2(pixel), uint(counts.z), 41u + 2u * uint(volumeIndex));
+    vec2 u = randomAt(uvec2(pixel), uint(passIndex), 40u + 2u * uint(volumeIndex));
+    vec2 v = randomAt(uvec2(pixel), uint(passIndex), 41u + 2u * uint(volumeIndex));
     float dt = (far - near) / float(CAMERA_STEPS);
     vec3 transmittance = vec3(1.0), glowing = vec3(1.0), emitted = vec3(0.0), scattered = vec3(0.0), drawn = vec3(0.0);
     float total = 0.0, own = 0.0, where = near, g = 0.0, choice = u.y;
@@ -178,6 +179,6 @@ void main() {
     if (own > 0.0)
         scattered = drawn * (total / own) * litAt(origin + direction * where, direction, g, v.x);
     vec4 behind = texelFetch(sceneColor, pixel, 0);
-    outColor = vec4(behind.rgb * transmittance + (emitted + scattered) * extra.y,
+    outColor = vec4(behind.rgb * transmittance + (emitted + scattered) * exposure,
                     mix(1.0, behind.a, dot(transmittance, vec3(0.2126, 0.7152, 0.0722))));
 }

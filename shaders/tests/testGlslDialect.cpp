@@ -4,7 +4,9 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -172,6 +174,20 @@ vec3 everyPattern(vec3 p) {
 }
 )";
 
+// The functions of pattern nodes, every file of them.
+std::string nodeFunctions() {
+    std::set<std::string> files;
+    const std::string folder = "shaders/patterns/nodes/";
+    for (const auto& entry : std::filesystem::directory_iterator(sourceRoot + "/" + folder))
+        files.insert(folder + entry.path().filename().string());
+    EXPECT_GT(files.size(), 15u);
+    std::string text = flatten("shaders/compat/nodes.glsl") +
+                       "vec4 texel(int map, vec2 uv, float footprint) { return vec4(0.0); }\n";
+    for (const std::string& file : files)
+        text += flatten(file);
+    return text;
+}
+
 // The functions of lights, every file of them.
 const char* const lightCalls = R"(
 vec3 everyLight(vec3 p, vec3 w, vec2 u) {
@@ -207,7 +223,7 @@ TEST(GlslDialect, CompilesAsComputeShader) {
     const std::string source = "#version 450\n" + flatten("shaders/compat/glsl.glsl") +
                                flatten("shaders/lobes.glsl") + lobeCalls +
                                flatten("shaders/closure.glsl") + closureCalls +
-                               flatten("shaders/patterns.glsl") + patternCalls +
+                               flatten("shaders/patterns.glsl") + patternCalls + nodeFunctions() +
                                flatten("shaders/lights.glsl") + lightCalls +
                                "layout(local_size_x = 64) in;\n"
                                "layout(std430, binding = 0) buffer Out { vec4 result[]; };\n"
@@ -229,7 +245,7 @@ TEST(GlslDialect, CompilesAsEsFragmentShader) {
         " return texelFetch(table, ivec2(i & 1023, i >> 10), 0).x; }\n" +
         flatten("shaders/compat/glsl.glsl") + flatten("shaders/lobes.glsl") + lobeCalls +
         flatten("shaders/closure.glsl") + closureCalls + flatten("shaders/patterns.glsl") +
-        patternCalls + flatten("shaders/lights.glsl") + lightCalls +
+        patternCalls + nodeFunctions() + flatten("shaders/lights.glsl") + lightCalls +
         "out vec4 color;\nvoid main() { color = vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), "
         "vec3(0.5)) + everyClosure(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
         "everyPattern(vec3(0.5)) + "

@@ -61,6 +61,14 @@ TEST(UnusedFunctions, LinesKeepTheirNumbersAndCommentsGo) {
     EXPECT_TRUE(has(out, "\n#line 1 3\nvoid main() { }\n"));
 }
 
+TEST(UnusedFunctions, CallersKeepWhatTheyName) {
+    const std::string out = withoutUnusedFunctions(
+        "float part() { return 1.0; }\nfloat whole() { return part(); }\nvoid gone() { }\n",
+        "void other() { whole(); }");
+    EXPECT_TRUE(has(out, "part") && has(out, "whole"));
+    EXPECT_FALSE(has(out, "gone"));
+}
+
 // Parts that the preprocessor may still take apart are let be.
 TEST(UnusedFunctions, PartsOfConditionsStay) {
     const std::string halves =

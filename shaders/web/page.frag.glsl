@@ -58,13 +58,13 @@ vec3 along(vec3 wi, vec3 diffuse, vec3 specular, float pdf, bool delta) {
     vec3 sum = (diffuse * own.x + specular * own.y) * environmentAt(wi, lod);
     if (isBlocked(wi)) return sum;
     for (int i = 0; i < lightCount; ++i) {
-        PageLight l = lightAt(i);
+        Light l = lightAt(i);
         float density;
-        vec3 radiance = lightAlong(l, point.position, wi, density);
+        vec3 radiance = foundLight(l, point.position, wi, density);
         if (density == 0.0) continue;
         vec2 share = vec2(1.0);
         if (!delta) share = ownShare(float(passInfo.y) * pdf, float(lightSamples.y) * density, LIGHT_TRUST);
-        sum += (diffuse * l.shares.x * share.x + specular * l.shares.y * share.y) * radiance;
+        sum += (diffuse * l.diffuse * share.x + specular * l.specular * share.y) * radiance;
     }
     return sum;
 }
@@ -91,12 +91,12 @@ void main() {
         if (i < ofLights) {
             int number = i / lightSamples.y, k = i - number * lightSamples.y;
             uint index = uint(passInfo.x * lightSamples.y + k), d = 8u + 4u * uint(number);
-            PageLight l = lightAt(number);
+            Light l = lightAt(number);
             vec2 u = vec2(randomAt(vec2(0.0), index, d), randomAt(vec2(0.0), index, d + 1u));
             radiance = sampleLight(l, point.position, u, s.wi, density);
             if (radiance == vec3(0.0) || (density == 0.0 && k > 0) || isBlocked(s.wi)) continue;
             density *= float(lightSamples.y);
-            shares = l.shares;
+            shares = vec2(l.diffuse, l.specular);
             meets = isMet(l);
         } else if (i < others) {
             int at = 2 * (i - ofLights);

@@ -214,7 +214,7 @@ def test_two_frames_of_a_product_need_a_place_in_its_name(folder, capsys):
 
 def test_an_image_or_settings_are_wanted(folder, capsys):
     assert main.main(["record", "stage.usda"]) == 2
-    assert "an IMAGE is wanted" in capsys.readouterr().err
+    assert "name an IMAGE" in capsys.readouterr().err
     assert main.main(["record", "stage.usda", "--samples", "1", "-w", "4", "a.png", "--quiet"]) == 0  # wherever it stands
 
 

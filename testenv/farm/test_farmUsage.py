@@ -36,7 +36,7 @@ def test_negative_frames(tmp_path):
 @pytest.mark.parametrize("flag", ["--verbose", "-v"])
 def test_verbose_is_refused(tmp_path, flag):
     result = told(tmp_path, movie.write_stage(tmp_path), tmp_path / "a.exr", flag)
-    assert result.returncode == 2 and "--verbose is of one render" in result.stderr
+    assert result.returncode == 2 and "--verbose describes one render" in result.stderr
 
 
 def test_settings_prims_are_heard(tmp_path):

@@ -56,17 +56,17 @@ def run(names, seconds, seed, corpus, findings, build, say=print):
         for name in names:
             fuzzer, share = FUZZERS[name], seconds * FUZZERS[name].share / total
 
-            def tell(line, name=name):
+            def report(line, name=name):
                 say(f"  {name}: {line}")
             if fuzzer.kind == "generated":
-                results[name] = generated.run(importlib.import_module(name), share, seed, tell)
+                results[name] = generated.run(importlib.import_module(name), share, seed, report)
             elif fuzzer.kind == "python":
                 if traced.missing():
                     say(f"left out: {name}: {traced.missing()}")
                     continue
-                results[name] = traced.run(name, fuzzer, corpus or scratch, share, seed, tell)
+                results[name] = traced.run(name, fuzzer, corpus or scratch, share, seed, report)
             elif not left_out:
-                results[name] = native.run(name, fuzzer, build, corpus or scratch, share, seed, tell)
+                results[name] = native.run(name, fuzzer, build, corpus or scratch, share, seed, report)
             else:
                 continue
             say(_line(name, results[name]))

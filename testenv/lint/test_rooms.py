@@ -5,6 +5,9 @@ import re
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 FOLDERS = ("shaders", "materialNetwork", "hdDelegate", "plugin", "testenv")
+# What shaders/gpuStruct.inc includes is named by a macro.
+INCLUDE = re.compile(r'^\s*#\s*(?:include\s+["<]|define\s+PATINA_FIELDS\s+")([^">]+)[">]', re.MULTILINE)
+PUBLIC = {"materialNetwork": 28}  # headers that other rooms include, of a room of a dozen folders; else 16
 USD = ("hdDelegate/hydra/", "plugin/hydra/", "testenv/hydra/")  # the only C++ that includes pxr/
 
 
@@ -41,7 +44,7 @@ def includes():
                     continue
                 path = os.path.join(folder, name)
                 with open(path, encoding="utf-8") as file:
-                    for target in re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', file.read(), re.MULTILINE):
+                    for target in INCLUDE.findall(file.read()):
                         found.append((os.path.relpath(path, ROOT).replace(os.sep, "/"), target))
     return found
 
@@ -92,7 +95,7 @@ def file_includes():
                 if name.endswith((".h", ".cpp", ".inc", ".def", ".glsl")):
                     path = os.path.join(folder, name)
                     with open(path, encoding="utf-8") as file:
-                        targets = re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', file.read(), re.MULTILINE)
+                        targets = INCLUDE.findall(file.read())
                     at = os.path.relpath(path, ROOT).replace(os.sep, "/")
                     found[at] = [t for name in targets for t in (name,
                                                                  os.path.normpath(os.path.join(os.path.dirname(at), name)))]
@@ -120,6 +123,18 @@ def test_a_file_of_one_back_end_that_the_other_includes_is_found():
     assert in_one_back_end(included) == ["hdDelegate/raster/d.inc"]
     included["hdDelegate/compiled/b.h"] = set()
     assert in_one_back_end(included) == []
+
+
+def test_rooms_have_few_public_headers():
+    """A header more that other rooms include is a decision, made here."""
+    known = rooms(section())
+    public = {name: set() for name in known}
+    for path, target in includes():
+        source, to = room_of(path, known), room_of(target, known)
+        if source and to and to != source and target.endswith(".h"):
+            public[to].add(target)
+    for name, headers in public.items():
+        assert len(headers) <= PUBLIC.get(name, 16), f"{name} has {len(headers)} public headers: {sorted(headers)}"
 
 
 def test_arrows_run_one_way():

@@ -9,7 +9,7 @@
 namespace patina {
 namespace {
 
-class CompiledMaterialsTest : public ::testing::Test {
+class SharedMaterials : public ::testing::Test {
 protected:
     static std::shared_ptr<const MaterialPrim> material(const std::string& path) {
         auto prim = std::make_shared<MaterialPrim>();
@@ -23,7 +23,7 @@ protected:
     CompiledMaterials materials{textures, diagnostics};
 };
 
-TEST_F(CompiledMaterialsTest, SharesTheProgramOfOneMaterial) {
+TEST_F(SharedMaterials, SharesTheProgramOfOneMaterial) {
     const auto prim = material("/a");
     const auto first = materials.program(prim, {}, -1.0);
     EXPECT_EQ(materials.program(prim, {}, -1.0), first);
@@ -32,7 +32,7 @@ TEST_F(CompiledMaterialsTest, SharesTheProgramOfOneMaterial) {
     EXPECT_EQ(materials.programsBuilt(), 2u);
 }
 
-TEST_F(CompiledMaterialsTest, CompilesForEachChoiceOfMethods) {
+TEST_F(SharedMaterials, CompilesForEachChoiceOfMethods) {
     const auto prim = material("/a");
     const auto plain = materials.program(prim, {}, -1.0);
     EXPECT_NE(materials.program(prim, {{"sheen", "fitted"}}, -1.0), plain);
@@ -40,7 +40,7 @@ TEST_F(CompiledMaterialsTest, CompilesForEachChoiceOfMethods) {
     EXPECT_EQ(materials.program(prim, {}, -1.0), plain);
 }
 
-TEST_F(CompiledMaterialsTest, ForgetsWhatNobodyHolds) {
+TEST_F(SharedMaterials, ForgetsWhatNobodyHolds) {
     const auto prim = material("/a");
     materials.program(prim, {}, -1.0);
     const auto other = materials.program(material("/b"), {}, -1.0); // looks for what is unused
@@ -49,7 +49,7 @@ TEST_F(CompiledMaterialsTest, ForgetsWhatNobodyHolds) {
     EXPECT_EQ(materials.programsBuilt(), 3u);
 }
 
-TEST_F(CompiledMaterialsTest, CompilesOnceForThreadsThatAskTogether) {
+TEST_F(SharedMaterials, CompilesOnceForThreadsThatAskTogether) {
     const auto prim = material("/a");
     std::vector<std::shared_ptr<const MaterialProgram>> programs(8);
     std::vector<std::thread> threads;
@@ -62,7 +62,7 @@ TEST_F(CompiledMaterialsTest, CompilesOnceForThreadsThatAskTogether) {
     EXPECT_EQ(materials.programsBuilt(), 1u);
 }
 
-TEST_F(CompiledMaterialsTest, NamesThePrimOfAMaterialThatIsNotThere) {
+TEST_F(SharedMaterials, NamesThePrimOfAMaterialThatIsNotThere) {
     Scene scene;
     EXPECT_EQ(materials.find("/none", "/user", *scene.snapshot(), RenderSettings()), nullptr);
     ASSERT_EQ(diagnostics.all().size(), 1u);

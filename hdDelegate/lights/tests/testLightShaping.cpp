@@ -13,8 +13,6 @@ using namespace patina;
 
 namespace {
 
-constexpr float pi = 3.14159265358979f;
-
 /// A direction at an angle off the axis -z, about it by phi from +x.
 vec3 off(float degrees, float phi = 0.3f) {
     const float t = degrees * pi / 180.0f;

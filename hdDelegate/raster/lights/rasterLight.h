@@ -1,34 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "shaders/lights.h"
+#include "hdDelegate/lights/lightFields.h"
 
 #include <cstddef>
 #include <glm/glm.hpp>
 
 namespace patina {
 
-/// A light with the sample of it that a pass takes: what lightFields.glsl says of each field.
-struct GpuLight {
-#define PATINA_ROW(vector, type, number, initial)                                                  \
-    glm::vec3 vector{0.0f};                                                                        \
-    type number = initial;
-#define PATINA_NUMBERS(type, a, b, c, d, initial)                                                  \
-    type a = initial, b = initial, c = initial, d = initial;
-#include "shaders/raster/lightFields.glsl"
-#undef PATINA_ROW
-#undef PATINA_NUMBERS
+#define PATINA_STRUCT LightSampleRows
+#define PATINA_FIELDS "shaders/raster/lightFields.glsl"
+#include "shaders/gpuStruct.inc"
 
-    bool is(int flag) const {
-        return (flags & flag) != 0;
-    }
-    void set(int flag, bool on = true) {
-        flags = on ? flags | flag : flags & ~flag;
-    }
+/// A light with the sample of it that a pass takes.
+struct GpuLight : LightFields, LightSampleRows {
     /// @param first of its filters in the tables; -1: it has none
-    void setFilters(int first) {
-        flags |= (first + 1) << shLights::LIGHT_FILTERS_SHIFT;
-    }
+    void setFilters(int first) { flags |= (first + 1) << shLights::LIGHT_FILTERS_SHIFT; }
     void samplePlace(const glm::vec3& place) {
         sampled = place;
         set(shLights::LIGHT_AT_PLACE);
@@ -38,29 +25,10 @@ struct GpuLight {
         normal = glm::vec3(0.0f);
         density = pdf;
     }
-    void setAxes(const glm::mat3& m) {
-        axis0 = m[0], axis1 = m[1], axis2 = m[2];
-    }
-    void setInverse(const glm::mat3& m) {
-        inverse0 = m[0], inverse1 = m[1], inverse2 = m[2];
-    }
     /// It has no map of its own, but the shadows of the sky.
-    void castBySky() {
-        firstMap = maps = fibreMaps = 0;
-    }
+    void castBySky() { firstMap = maps = fibreMaps = 0; }
 };
-
-// Both layouts of GLSL, std140 and std430, place these types as C++ does where rows are whole.
-#define PATINA_ROW(vector, type, number, initial)                                                  \
-    static_assert(offsetof(GpuLight, vector) % 16 == 0 && sizeof(GpuLight::number) == 4 &&         \
-                  offsetof(GpuLight, number) == offsetof(GpuLight, vector) + 12);
-#define PATINA_NUMBERS(type, a, b, c, d, initial)                                                  \
-    static_assert(offsetof(GpuLight, a) % 16 == 0 && sizeof(GpuLight::a) == 4 &&                   \
-                  offsetof(GpuLight, d) == offsetof(GpuLight, a) + 12);
-#include "shaders/raster/lightFields.glsl"
-#undef PATINA_ROW
-#undef PATINA_NUMBERS
-static_assert(sizeof(GpuLight) % 16 == 0);
+static_assert(sizeof(GpuLight) == sizeof(LightRows) + sizeof(LightSampleRows));
 
 /// A view from a light, to be drawn into one shadow map.
 struct ShadowView {

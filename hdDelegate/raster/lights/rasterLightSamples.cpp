@@ -12,15 +12,6 @@
 
 namespace patina {
 
-namespace {
-
-vec3 onSphere(vec2 u) {
-    const float z = 1.0f - 2.0f * u.x, r = std::sqrt(std::max(0.0f, 1.0f - z * z));
-    return vec3(r * std::cos(2.0f * pi * u.y), r * std::sin(2.0f * pi * u.y), z);
-}
-
-} // namespace
-
 GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
     GpuLight g = s.fixed;
     vec3 radiance = s.radiance;
@@ -44,10 +35,7 @@ GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
     }
     case Triangle: break; // see takeEmitters()
     case Point: g.samplePlace(s.position); break;
-    case Line:
-        g.samplePlace(s.position + (u.x - 0.5f) * s.toLight);
-        g.density = 0.5f / s.extent;
-        break;
+    case Line: g.samplePlace(s.position + (u.x - 0.5f) * s.toLight); break;
     case Distant: {
         const vec3 helper = std::fabs(s.toLight.x) < 0.7f ? vec3(1, 0, 0) : vec3(0, 1, 0);
         const vec3 x = glm::normalize(glm::cross(helper, s.toLight));
@@ -64,7 +52,7 @@ GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
             d = s.environment->sample(vec2(u), pdf);
             radiance *= s.environment->radiance(d);
         } else {
-            d = onSphere(vec2(u));
+            d = shLights::spherePlace(vec2(u));
         }
         g.sampleDirection(s.domeToWorld * d, pdf);
         if (!(pdf > 0.0f)) radiance = vec3(0.0f), g.density = 1.0f;
@@ -203,7 +191,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
     takeEmitters(pass, emitterSamples, emitters, bounds, maximum, out);
     if (out.lights.size() > size_t(maxTaken)) out.lights.resize(size_t(maxTaken));
     out.taken = int(out.lights.size());
-    out.look[0] = out.look[2] = out.taken;
+    out.found = out.firstShared = out.taken;
     for (size_t i = 0; i < _sources.size(); ++i)
         if (!taken[i] && _sources[i].fixed.is(shLights::LIGHT_IS_SEEN))
             out.lights.push_back(draw(_sources[i], vec3(0.5f)));

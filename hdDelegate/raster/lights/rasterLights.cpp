@@ -37,7 +37,7 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
                                  diagnostics);
                 continue;
             }
-            tellOfDomeMethods(light, diagnostics);
+            warnOfDomeMethods(light, diagnostics);
             for (const RasterPlace& place : places.places(light.group))
                 add(light, mat4(place.groupToWorld * exactTransformAt(light.transform, timeCode)),
                     _filters.add(light, place, timeCode, images, _tables, diagnostics), settings,
@@ -48,7 +48,7 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
 }
 
 /// Harmonics and prefiltered maps are of a sky that is the same at every point.
-void RasterLights::tellOfDomeMethods(const Light& light, Diagnostics& diagnostics) const {
+void RasterLights::warnOfDomeMethods(const Light& light, Diagnostics& diagnostics) const {
     if (light.type != LightType::Dome || light.filters.empty()) return;
     for (const char* method : {"prefiltered", "harmonics", "harmonicsUnwindowed"})
         if (_domeMethods.count(method) > 0)
@@ -74,15 +74,8 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
     g.shadowDistance = light.shadowDistance;
     g.shadowFalloff = light.shadowFalloff;
     g.shadowGamma = std::max(light.shadowFalloffGamma, 1e-3f);
-    const shLights::Shaping& beam = pose.shaping.beam();
-    g.shapingAxis = beam.axis;
-    g.shapingX = beam.x;
-    g.shapingY = beam.y;
-    g.focus = beam.focus;
-    g.focusTint = beam.focusTint;
-    g.set(shLights::LIGHT_HAS_CONE, beam.cone);
-    g.coneStart = beam.coneStart;
-    g.coneEnd = beam.coneEnd;
+    g.setLight(light, is, pose);
+    s.kind = Kind(g.kind);
     const ProfileTable profile = _tables.profile(light, diagnostics);
     g.firstProfile = profile.first;
     g.profileThetas = profile.thetas;
@@ -90,11 +83,8 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
     bool cameraVisible = light.cameraVisible;
     switch (is.kind) {
     case ResolvedLight::Kind::Distant:
-        s.kind = Distant;
         s.toLight = pose.toLight;
-        g.versine = is.versine;
         _hasWideSun |= is.versine > narrowSun;
-        g.axis2 = s.toLight;
         s.weight = luminance(glm::abs(s.radiance)) *
                    (s.delta ? 1.0f : std::min(2.0f * pi * is.versine, pi));
         break;
@@ -104,15 +94,10 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
         cameraVisible &= settings.domeLightCameraVisibility;
         _hasDome = true;
         break;
-    case ResolvedLight::Kind::Point:
-        s.kind = Point;
-        s.weight = luminance(glm::abs(s.radiance));
-        break;
+    case ResolvedLight::Kind::Point: s.weight = luminance(glm::abs(s.radiance)); break;
     case ResolvedLight::Kind::Line: {
         const float length = glm::length(pose.along);
-        s.kind = Line;
         s.toLight = pose.along;
-        g.axis0 = pose.along / length;
         s.extent = 0.5f * length;
         s.weight = luminance(glm::abs(s.radiance)) * length;
         break;
@@ -120,10 +105,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
     default: s.shape = pose.shape; addShape(s, light, images);
     }
     g.category = categoryOf(light.lightLink, links);
-    g.diffuse = light.diffuse;
-    g.specular = light.specular;
     g.set(shLights::LIGHT_IS_SEEN, cameraVisible && !s.delta);
-    g.set(shLights::LIGHT_IS_DELTA, s.delta);
     g.setFilters(filters);
     _sources.push_back(s);
     if (light.type == LightType::Dome && s.sunIrradiance != vec3(0.0f)) {
@@ -144,7 +126,6 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
 
 /// The image, and where the harmonics light surfaces also those and the dominant light.
 void RasterLights::addDome(Source& s, const Light& light, LightImages& images, RasterDomes& domes) {
-    s.kind = Dome;
     GpuLight& g = s.fixed;
     int layer = -1, first = -1;
     if (!light.textureFile.empty()) {
@@ -163,7 +144,6 @@ void RasterLights::addDome(Source& s, const Light& light, LightImages& images, R
             s.sunIrradiance = sky.sunIrradiance;
         }
     }
-    g.setAxes(s.domeToWorld);
     g.domeRadiance = s.radiance;
     g.domeLayer = float(layer);
     g.domeSamples = float(_domeSamples);
@@ -172,7 +152,6 @@ void RasterLights::addDome(Source& s, const Light& light, LightImages& images, R
 
 /// The parameters of a shape, and a rect's image.
 void RasterLights::addShape(Source& s, const Light& light, LightImages& images) {
-    s.kind = Kind(int(s.shape.kind));
     GpuLight& g = s.fixed;
     if (const RectImage* image = _tables.rect(light, images)) {
         s.image = image;
@@ -184,9 +163,6 @@ void RasterLights::addShape(Source& s, const Light& light, LightImages& images) 
     growBounds(s.shape, low, high);
     s.extent = 0.5f * glm::length(high - low);
     s.weight = luminance(glm::abs(s.radiance)) * 0.25f * s.extent * s.extent * pi;
-    g.setAxes(s.shape.axes);
-    g.setInverse(s.shape.inverse);
-    g.origin = s.shape.origin;
     s.position = s.shape.origin;
 }
 

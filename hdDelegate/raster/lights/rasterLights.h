@@ -50,9 +50,10 @@ public:
         std::vector<vec4> tables;        ///< see RasterLightTables::writePass()
         std::vector<ShadowView> shadows; ///< in the order of the layers of the shadow maps
         int mapSize = 0;
-        bool fibres = false;        ///< lights have maps for fibres, too
-        int look[4] = {0, 0, 0, 1}; ///< which lights are for what, see passBlock.glsl
-        bool many = false;          ///< of a first look: all lights have as many samples as help
+        bool fibres = false; ///< lights have maps for fibres, too
+        /// Which lights are for what, see passFields.glsl.
+        int found = 0, firstSampled = 0, firstShared = 0, sharedEvery = 1;
+        bool many = false; ///< of a first look: all lights have as many samples as help
     };
     /// For a first look: many samples of each light, of which every pixel takes others than its
     /// neighbours, so that what is wrong is noise and not the same everywhere.
@@ -114,7 +115,7 @@ private:
     void add(const Light& light, const mat4& toWorld, int filters, const RenderSettings& settings,
              LightImages& images, RasterDomes& domes, const LinkNames& links,
              Diagnostics& diagnostics);
-    void tellOfDomeMethods(const Light& light, Diagnostics& diagnostics) const;
+    void warnOfDomeMethods(const Light& light, Diagnostics& diagnostics) const;
     void addDome(Source& source, const Light& light, LightImages& images, RasterDomes& domes);
     void addShape(Source& source, const Light& light, LightImages& images);
     /// @param u in the unit cube; the third number is for sphere lights

@@ -41,11 +41,11 @@ std::vector<RasterSky::Task> RasterSky::begin(uint32_t pass, uint32_t seed,
                                               const ShadowBounds& bounds, int maximum) {
     const bool first = _drawn.empty();
     if (first) {
-        _drawn.assign(cells, Cell());
+        _drawn.assign(cells, SkyRows());
         _fibres = bounds.hasFibres();
     }
     const bool missing =
-        std::any_of(_drawn.begin(), _drawn.end(), [](const Cell& c) { return c.map[0] < 0; });
+        std::any_of(_drawn.begin(), _drawn.end(), [](const SkyRows& c) { return c.layer < 0; });
     std::vector<Task> out;
     // The first image lives by them: see RasterLights::sampleFirst().
     const int wanted = pass == 0 ? 2 * maximum : missing ? maximum : std::min(maximum, 2);
@@ -56,9 +56,9 @@ std::vector<RasterSky::Task> RasterSky::begin(uint32_t pass, uint32_t seed,
                                       : pass * uint32_t(count) + uint32_t(n) + 1;
         int at = int(turn % uint32_t(cells)) * 89 % cells;
         if (missing)
-            for (int k = 0; k < cells && _drawn[size_t(at)].map[0] >= 0; ++k)
+            for (int k = 0; k < cells && _drawn[size_t(at)].layer >= 0; ++k)
                 at = (at + 89) % cells;
-        Cell& cell = _drawn[size_t(at)];
+        SkyRows& cell = _drawn[size_t(at)];
         Sampler numbers(uint32_t(at), 2, seed, pass / uint32_t(cells / 2));
         const glm::vec2 in = numbers.next2();
         const glm::vec3 direction =
@@ -69,26 +69,26 @@ std::vector<RasterSky::Task> RasterSky::begin(uint32_t pass, uint32_t seed,
             map = layer;
             return out.back().view.worldToMap;
         };
-        cell.towards = glm::vec4(direction, 0.0f);
-        cell.worldToMap = take(bounds, at, cell.map[0]);
-        if (_fibres) cell.worldToFibres = take(bounds.ofFibres(), cells + at, cell.map[1]);
-        if (missing &&
-            std::none_of(_drawn.begin(), _drawn.end(), [](const Cell& c) { return c.map[0] < 0; }))
+        cell.towards = direction;
+        cell.worldToMap = take(bounds, at, cell.layer);
+        if (_fibres) cell.worldToFibres = take(bounds.ofFibres(), cells + at, cell.fibreLayer);
+        if (missing && std::none_of(_drawn.begin(), _drawn.end(),
+                                    [](const SkyRows& c) { return c.layer < 0; }))
             break;
     }
     return out;
 }
 
 void RasterSky::bind(GLuint buffer, GLuint texture) {
-    std::vector<Cell> all = _drawn;
+    std::vector<SkyRows> all = _drawn;
     for (int i = 0; i < int(all.size()); ++i) {
-        if (all[size_t(i)].map[0] >= 0) continue;
+        if (all[size_t(i)].layer >= 0) continue;
         const glm::vec3 middle =
             fromOctahedral((glm::vec2(float(i % side), float(i / side)) + 0.5f) / float(side));
         const auto nearest =
-            std::max_element(_drawn.begin(), _drawn.end(), [&](const Cell& a, const Cell& b) {
-                const float da = a.map[0] < 0 ? -2.0f : glm::dot(glm::vec3(a.towards), middle);
-                const float db = b.map[0] < 0 ? -2.0f : glm::dot(glm::vec3(b.towards), middle);
+            std::max_element(_drawn.begin(), _drawn.end(), [&](const SkyRows& a, const SkyRows& b) {
+                const float da = a.layer < 0 ? -2.0f : glm::dot(a.towards, middle);
+                const float db = b.layer < 0 ? -2.0f : glm::dot(b.towards, middle);
                 return da < db;
             });
         all[size_t(i)] = *nearest;

@@ -4,9 +4,15 @@
 #include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/lights/rasterLight.h"
 
+#include <cstddef>
+#include <glm/glm.hpp>
 #include <vector>
 
 namespace patina {
+
+#define PATINA_STRUCT SkyRows
+#define PATINA_FIELDS "shaders/raster/skyFields.glsl"
+#include "shaders/gpuStruct.inc"
 
 /// Visibility of the sky in directions that are no light's samples: small shadow maps, one for each
 /// cell of an octahedral grid of directions. Passes redraw some of them from other directions of
@@ -33,12 +39,7 @@ public:
     const GlTexture& maps();
 
 private:
-    struct Cell {
-        glm::mat4 worldToMap{1.0f}, worldToFibres{1.0f};
-        glm::vec4 towards{0.0f};
-        int map[4] = {-1, -1, 0, 0};
-    };
-    std::vector<Cell> _drawn; ///< all cells, map[0] -1 where nothing was drawn
+    std::vector<SkyRows> _drawn; ///< all cells, layer -1 where nothing was drawn
     GlTexture _maps;
     int _layers = 0;      ///< of _maps
     bool _fibres = false; ///< maps for fibres lie behind the others

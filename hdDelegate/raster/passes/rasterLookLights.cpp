@@ -154,7 +154,7 @@ RasterLights::Sampled RasterLights::sampleLook(uint32_t pass, const RasterEmitte
     Sampled out;
     if (bounds.hasFibres() || needed(pooled) + emitterMaps * minEmitterSamples > maximum) {
         out = sample(pass, emitters, bounds, mapSize, pixels);
-        out.look[3] = every;
+        out.sharedEvery = every;
         return out;
     }
     int emitterSamples = 0;
@@ -190,9 +190,9 @@ void RasterLights::join(Sampled& out, const std::vector<GpuLight>& looked,
     out.lights.insert(out.lights.end(), shared.begin(), shared.end());
     out.lights.insert(out.lights.end(), pool.begin(), pool.end());
     out.taken = int(out.lights.size());
-    out.look[0] = out.look[1] = int(looked.size());
-    out.look[2] = int(first);
-    out.look[3] = every;
+    out.found = out.firstSampled = int(looked.size());
+    out.firstShared = int(first);
+    out.sharedEvery = every;
 }
 
 RasterLights::Sampled RasterLights::sampleFirst(const RasterEmitters& emitters,

@@ -89,8 +89,8 @@ void RasterPasses::drawMattes(const RasterScene& scene, const RasterMattes& matt
     const RasterView view =
         camera.view(sample.beside, sample.lens, sample.time, scene.boundsMin(), scene.boundsMax());
     PassBlock b = block(scene, view);
-    b.counts[2] = int(sample.pass);
-    b.counts[3] = int(seed);
+    b.passIndex = int(sample.pass);
+    b.passSeed = int(seed);
     _timer.mark(Aovs);
     fillAovTarget(scene, view, b);
     _timer.mark(ReadBack);

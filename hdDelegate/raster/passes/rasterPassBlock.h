@@ -4,20 +4,21 @@
 #include "hdDelegate/raster/passes/rasterPasses.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <iterator>
 
 namespace patina {
 
+#define PATINA_STRUCT PassRows
+#define PATINA_FIELDS "shaders/raster/passFields.glsl"
+#include "shaders/gpuStruct.inc"
+
 /// The uniform block `Pass` of passBlock.glsl.
-struct RasterPasses::PassBlock {
-    mat4 worldToClip{1.0f}, clipToWorld{1.0f};
-    vec4 eye{0.0f}, forward{0.0f};
-    int counts[4] = {0, 0, 0, 0};
-    vec4 extra{0.0f};
-    int lightInfo[4] = {0, 0, 0, 0};
-    vec4 origin{0.0f}, range{0.0f};
-    vec4 clipPlanes[RasterPasses::maxPlanes];
-    int look[4] = {0, 0, 0, 1};
+struct RasterPasses::PassBlock : PassRows {
+    PassBlock() { sharedEvery = 1; }
 };
+static_assert(std::size(PassRows().clipPlanes) == size_t(RasterPasses::maxPlanes));
 
 /// Clips what is drawn while it lives.
 class RasterPasses::Clipping {

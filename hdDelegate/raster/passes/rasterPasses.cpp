@@ -81,14 +81,17 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
 RasterPasses::PassBlock RasterPasses::block(const RasterScene& scene,
                                             const RasterView& view) const {
     PassBlock b;
-    b.origin = vec4(scene.origin(), 0.0f);
-    const int planes = Clipping::planesOf(view);
-    b.range = vec4(view.fitted, view.reach, float(planes), 0.0f);
-    std::copy_n(view.planes.begin(), planes, b.clipPlanes);
+    b.passOrigin = scene.origin();
+    b.nearShift = view.fitted;
+    b.farReach = view.reach;
+    b.planes = Clipping::planesOf(view);
+    std::copy_n(view.planes.begin(), b.planes, b.clipPlanes);
     b.worldToClip = view.worldToClip;
     b.clipToWorld = view.clipToWorld;
-    b.eye = vec4(view.eye, view.perspective ? 1.0f : 0.0f);
-    b.forward = vec4(view.forward, view.pixelSpread);
+    b.isPerspective = view.perspective ? 1 : 0;
+    b.eye = view.eye;
+    b.forward = view.forward;
+    b.pixelSpread = view.pixelSpread;
     return b;
 }
 
@@ -192,9 +195,9 @@ void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights
     for (const auto& [pass, task] : byPass) {
         moveTo(pass);
         PassBlock b;
-        b.origin = vec4(scene.origin(), 0.0f);
-        b.counts[2] = int(pass);
-        b.counts[3] = int(lights.seed());
+        b.passOrigin = scene.origin();
+        b.passIndex = int(pass);
+        b.passSeed = int(lights.seed());
         _passBuffer.write(&b, sizeof b);
         _passBuffer.bindUniform(0);
         drawCasters(scene, task.view, _sky.maps(), task.layer);
@@ -297,24 +300,29 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     const RasterView view = camera.view(sample.offset, sample.lens, sample.time, scene.boundsMin(),
                                         scene.boundsMax(), _border);
     PassBlock b = block(scene, view);
-    b.counts[0] = sampled.taken;
-    b.counts[1] = look && lights.needsSky() ? RasterLook::bsdfSamples : bsdfSamples;
-    b.counts[2] = int(pass);
-    b.counts[3] = int(lights.seed());
-    b.extra = vec4(1.0f, camera.camera().exposureScale, float(sample.taken),
-                   glm::length(scene.boundsMax() - scene.boundsMin()));
-    b.lightInfo[0] = int(sampled.lights.size());
-    std::copy_n(sampled.look, 4, b.look);
+    b.lightsTaken = sampled.taken;
+    b.bsdfSamples = look && lights.needsSky() ? RasterLook::bsdfSamples : bsdfSamples;
+    b.passIndex = int(pass);
+    b.passSeed = int(lights.seed());
+    b.domeTexels = 1.0f;
+    b.exposure = camera.camera().exposureScale;
+    b.passesTaken = float(sample.taken);
+    b.sceneExtent = glm::length(scene.boundsMax() - scene.boundsMin());
+    b.lightsSeen = int(sampled.lights.size());
+    b.lightsFound = sampled.found;
+    b.firstSampled = sampled.firstSampled;
+    b.firstShared = sampled.firstShared;
+    b.sharedEvery = sampled.sharedEvery;
     if (const GlTexture& map = domes.maps()) {
         map.bind(16);
         domes.densities().bind(17);
         if (domes.prefiltered()) domes.prefiltered().bind(20);
-        b.lightInfo[1] = map.levels() - 1;
-        b.extra.x = float(map.width()) * float(map.height());
+        b.domeLevel = map.levels() - 1;
+        b.domeTexels = float(map.width()) * float(map.height());
     }
     const bool sky = lights.needsSky();
-    if (sky) b.lightInfo[2] = RasterSky::side;
-    b.lightInfo[3] = std::clamp(environmentSamples, 4, 1024);
+    if (sky) b.skySide = RasterSky::side;
+    b.filteredSamples = std::clamp(environmentSamples, 4, 1024);
     _passBuffer.write(&b, sizeof b);
     _passBuffer.bindUniform(0);
     gl.BindVertexArray(_vertexArray);

@@ -2,6 +2,7 @@
 #include "hdDelegate/raster/scene/rasterCamera.h"
 
 #include "hdDelegate/scene/lightUnits.h"
+#include "materialNetwork/maths.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -13,7 +14,7 @@ namespace patina {
 namespace {
 
 vec2 disk(vec2 u) {
-    const float r = std::sqrt(u.x), phi = 6.2831853f * u.y;
+    const float r = std::sqrt(u.x), phi = 2.0f * pi * u.y;
     return {r * std::cos(phi), r * std::sin(phi)};
 }
 

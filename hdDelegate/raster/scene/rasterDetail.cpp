@@ -3,6 +3,7 @@
 
 #include "hdDelegate/geometry/tessellate.h"
 #include "hdDelegate/scene/lightUnits.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,7 @@ RasterDetail::RasterDetail(const Geometry& prim, const PrimExtent& extent,
     _radius = extent.radius();
     if (_round) {
         const Implicit& p = static_cast<const Implicit&>(prim);
-        _finest = 6.2831853f / float(roundSegments) * std::max(p.radius, p.radiusTop);
+        _finest = 2.0f * pi / float(roundSegments) * std::max(p.radius, p.radiusTop);
         // One that a capsule of these sizes is in, whatever the shape.
         _radius = std::sqrt(3.0f) * std::max({p.radius, p.radiusTop, 0.5f * p.height + p.radius});
     }

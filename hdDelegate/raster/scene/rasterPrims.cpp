@@ -48,13 +48,15 @@ int RasterScene::linksOf(const std::vector<std::string>& prim,
     return known.first->second;
 }
 
-void RasterScene::GpuInstance::place(const mat4& toWorld) {
+void GpuInstance::place(const mat4& toWorld) {
     const mat3 linear(toWorld), forNormals = glm::transpose(glm::inverse(linear));
-    for (int i = 0; i < 4; ++i)
-        columns[i] = vec4(vec3(toWorld[i]), 0.0f);
-    for (int i = 0; i < 3; ++i)
-        normals[i] = vec4(forNormals[i], 0.0f);
-    columns[0].w = std::cbrt(std::fabs(glm::determinant(linear)));
+    column0 = vec4(vec3(toWorld[0]), std::cbrt(std::fabs(glm::determinant(linear))));
+    column1 = vec4(vec3(toWorld[1]), 0.0f);
+    column2 = vec4(vec3(toWorld[2]), 0.0f);
+    column3 = vec4(vec3(toWorld[3]), 0.0f);
+    normalColumn0 = vec4(forNormals[0], 0.0f);
+    normalColumn1 = vec4(forNormals[1], 0.0f);
+    normalColumn2 = vec4(forNormals[2], 0.0f);
 }
 
 void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& places,
@@ -73,10 +75,8 @@ void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& pl
         GpuInstance instance;
         const mat4 toWorld(places[i].groupToWorld * toGroup);
         instance.place(toWorld);
-        instance.ids[0] = places[i].id;
-        instance.ids[1] = linksOf(group.prim->categories, places[i].categories);
-        instance.ids[2] = int(_instances.size()) - group.firstInstance;
-        instance.ids[3] = int(i);
+        instance.instanceIds = {places[i].id, linksOf(group.prim->categories, places[i].categories),
+                                int(_instances.size()) - group.firstInstance, int(i)};
         _instances.push_back(instance);
         const RasterBox box =
             RasterBox::around(group.shape->boundsMin, group.shape->boundsMax, toWorld);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 namespace patina {
 
@@ -204,18 +205,22 @@ void RasterScene::bind(GLuint vertexArray) const {
 }
 
 void RasterScene::describe(GLuint vertexArray) {
-    const auto attribute = [&](GLuint i, GLint components, GLuint offset, GLuint binding) {
+    const auto attribute = [&](GLuint i, GLint components, size_t offset, GLuint binding,
+                               bool integers) {
         gl.EnableVertexArrayAttrib(vertexArray, i);
-        gl.VertexArrayAttribFormat(vertexArray, i, components, GL_FLOAT, GL_FALSE, offset);
+        if (integers)
+            gl.VertexArrayAttribIFormat(vertexArray, i, components, GL_INT, GLuint(offset));
+        else
+            gl.VertexArrayAttribFormat(vertexArray, i, components, GL_FLOAT, GL_FALSE,
+                                       GLuint(offset));
         gl.VertexArrayAttribBinding(vertexArray, i, binding);
     };
-    attribute(0, 4, offsetof(RasterChunk::Vertex, position), 0);
-    attribute(1, 3, offsetof(RasterChunk::Vertex, normal), 0);
-    for (GLuint i = 0; i < 7; ++i) // columns and normals
-        attribute(2 + i, 4, i * GLuint(sizeof(vec4)), 1);
-    gl.EnableVertexArrayAttrib(vertexArray, 9);
-    gl.VertexArrayAttribIFormat(vertexArray, 9, 4, GL_INT, 7 * sizeof(vec4));
-    gl.VertexArrayAttribBinding(vertexArray, 9, 1);
+    attribute(0, 4, offsetof(RasterChunk::Vertex, position), 0, false);
+    attribute(1, 3, offsetof(RasterChunk::Vertex, normal), 0, false);
+#define PATINA_ATTRIBUTE(place, type, name)                                                        \
+    attribute(place, 4, offsetof(InstanceRows, name), 1, std::is_same_v<glm::type, glm::ivec4>);
+#include "shaders/raster/instanceFields.glsl"
+#undef PATINA_ATTRIBUTE
     gl.VertexArrayBindingDivisor(vertexArray, 1, 1);
 }
 

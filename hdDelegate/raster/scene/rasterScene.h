@@ -3,6 +3,7 @@
 
 #include "hdDelegate/compiled/compiledScene.h"
 #include "hdDelegate/raster/lights/rasterEmitters.h"
+#include "hdDelegate/raster/scene/gpuInstance.h"
 #include "hdDelegate/raster/scene/rasterCamera.h"
 #include "hdDelegate/raster/scene/rasterDetail.h"
 #include "hdDelegate/raster/scene/rasterInstances.h"
@@ -116,12 +117,6 @@ public:
     static void describe(GLuint vertexArray);
 
 private:
-    /// As shaders/raster/instance.glsl has it.
-    struct GpuInstance {
-        vec4 columns[4], normals[3];
-        int ids[4] = {-1, 0, 0, 0};
-        void place(const mat4& toWorld);
-    };
     /// The data of one prim.
     struct Span {
         int rank = 0;

@@ -11,7 +11,7 @@ namespace patina {
 
 namespace {
 
-constexpr float twoPi = 6.2831853f;
+constexpr float twoPi = 2.0f * pi;
 constexpr size_t maxCurveTriangles = 4000000; ///< of a prim all around the camera
 
 using Rate = MeshAttribute::Rate;

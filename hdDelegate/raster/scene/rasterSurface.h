@@ -5,24 +5,22 @@
 #include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/scene/rasterShapes.h"
 
+#include <cstddef>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
 namespace patina {
 
+#define PATINA_STRUCT TriangleRows
+#define PATINA_FIELDS "shaders/raster/triangleFields.glsl"
+#include "shaders/gpuStruct.inc"
+
 /// Triangles in one buffer: vertices (position, normal), primvars (a vec4 each per vertex), what
 /// belongs to whole triangles, and indices.
 class RasterChunk {
 public:
-    /// A triangle as shaders/raster/triangles.glsl has it.
-    struct Triangle {
-        vec3 dPdu{0.0f};
-        float uvPerLength = 0.0f;
-        vec3 dPdv{0.0f};
-        int element = 0;
-        vec3 normal{0.0f}; ///< geometric, not of unit length
-        float reserved = 0.0f;
-    };
+    using Triangle = TriangleRows; ///< as shaders/raster/triangles.glsl has it
     struct Vertex {
         vec3 position;
         float halfWidth = 0.0f; ///< of strips, see RasterTriangles

@@ -3,6 +3,8 @@
 
 #include "hdDelegate/raster/lights/rasterLights.h"
 
+#include "materialNetwork/maths.h"
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
@@ -21,7 +23,7 @@ std::vector<vec3> corners(const vec3& low, const vec3& high) {
 
 /// World to a space with -z along `direction`, turned about it.
 mat4 looking(const vec3& from, const vec3& direction, float turn) {
-    const float angle = 6.2831853f * turn;
+    const float angle = 2.0f * pi * turn;
     const vec3 helper = std::fabs(direction.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0);
     const vec3 x = glm::normalize(glm::cross(direction, helper));
     const vec3 y = glm::cross(x, direction);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class ProgramCacheTest : public testing::Test {
+class ProgramCaches : public testing::Test {
 protected:
     void SetUp() override {
         std::string name = (fs::temp_directory_path() / "programCacheXXXXXX").string();
@@ -69,7 +69,7 @@ int run(const GlProgram& program) {
 
 } // namespace
 
-TEST_F(ProgramCacheTest, ComesBackFromDisk) {
+TEST_F(ProgramCaches, ComesBackFromDisk) {
     PATINA_NEED_CONTEXT();
     PATINA_NEED_BINARIES();
     const auto first = make(41);
@@ -84,7 +84,7 @@ TEST_F(ProgramCacheTest, ComesBackFromDisk) {
     EXPECT_EQ(files().size(), 2u);
 }
 
-TEST_F(ProgramCacheTest, DamagedFilesAreMadeAnew) {
+TEST_F(ProgramCaches, DamagedFilesAreMadeAnew) {
     PATINA_NEED_CONTEXT();
     PATINA_NEED_BINARIES();
     make(7);
@@ -110,7 +110,7 @@ TEST_F(ProgramCacheTest, DamagedFilesAreMadeAnew) {
     EXPECT_EQ(gl.GetError(), GLenum(GL_NO_ERROR));
 }
 
-TEST_F(ProgramCacheTest, CanBeOffAndUnwritable) {
+TEST_F(ProgramCaches, CanBeOffAndUnwritable) {
     PATINA_NEED_CONTEXT();
     for (const char* folder : {"", "/proc/no/such/folder", "/dev/null/x"}) {
         setenv("PATINA_CACHE", folder, 1);
@@ -122,7 +122,7 @@ TEST_F(ProgramCacheTest, CanBeOffAndUnwritable) {
     EXPECT_TRUE(files().empty());
 }
 
-TEST_F(ProgramCacheTest, ManyWritersAtOnce) {
+TEST_F(ProgramCaches, ManyWritersAtOnce) {
     {
         PATINA_NEED_CONTEXT();
         PATINA_NEED_BINARIES();
@@ -144,7 +144,7 @@ TEST_F(ProgramCacheTest, ManyWritersAtOnce) {
     EXPECT_EQ(files().size(), 4u) << "no temporary stays";
 }
 
-TEST_F(ProgramCacheTest, TheFolderStaysBounded) {
+TEST_F(ProgramCaches, TheFolderStaysBounded) {
     const fs::path folder = _root / "programs";
     fs::create_directories(folder);
     const auto now = fs::file_time_type::clock::now();

@@ -100,7 +100,7 @@ TEST(CameraInputs, WhatNoCameraTakesIsToldAndLeftOut) {
         ASSERT_EQ(found.told.size(), 1u) << name;
         EXPECT_EQ(found.told[0].prim, "/camera");
         EXPECT_EQ(found.told[0].input, name);
-        EXPECT_NE(found.told[0].message.find("it is left out"), std::string::npos);
+        EXPECT_NE(found.told[0].message.find("is left out"), std::string::npos);
     }
     EXPECT_EQ(read({{"patina:projection", "fish"}}).told[0].message.find("is 'fish', not one of "),
               0u);

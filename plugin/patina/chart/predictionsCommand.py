@@ -17,7 +17,7 @@ DEFAULT_TOLERANCES = [0.001, 0.01, 0.05]
 def add_arguments(parser):
     group = parser.add_argument_group("predictions")
     group.add_argument("--predictions", action="store_true",
-                       help="of each stage and tolerance: the predicted error beside the measured one, and the time saved; "
+                       help="for each stage and tolerance: the predicted error beside the measured one, and the time saved; "
                             "takes --imageWidth (here 40), --tolerances (here 0.001,0.01,0.05), --maxSamples and --seconds "
                             "(of one render, here 20)")
     group.add_argument("--methodSamples", type=recordFlags._count, default=256, metavar="N",

@@ -18,19 +18,20 @@ DEFAULT_SAMPLES, DEFAULT_TOLERANCES = 64, "0.05,0.01"
 def add_arguments(parser):
     group = parser.add_argument_group("scenes")
     group.add_argument("--backend", default="both", choices=["both", *BACKENDS], help="the renderer (default: both)")
-    group.add_argument("--imageWidth", "-w", type=recordFlags._size, metavar="PIXELS", help=f"default: {DEFAULT_WIDTH}")
+    group.add_argument("--imageWidth", "-w", type=recordFlags._size, metavar="PIXELS",
+                       help=f"width of the images (default: {DEFAULT_WIDTH})")
     group.add_argument("--maxSamples", type=recordFlags._count, metavar="N",
                        help=f"the last of 1, 4, 16, ... samples per pixel, also for tolerances (default: {DEFAULT_SAMPLES})")
     group.add_argument("--tolerances", type=_tolerances, metavar="T[,T...]",
-                       help=f"also render to each of these; none: no (default: {DEFAULT_TOLERANCES})")
+                       help=f"also render to each of these tolerances; none: to no tolerance (default: {DEFAULT_TOLERANCES})")
     group.add_argument("--seconds", type=recordFlags._not_negative, default=0.0, metavar="S",
                        help="time for each stage: fewer samples where all would take longer (default: 0, no limit)")
     group.add_argument("--referenceSamples", type=recordFlags._count, metavar="N",
-                       help="default: 16 times the most samples tested")
+                       help="samples of the reference (default: 16 times the most samples tested)")
     group.add_argument("--reference", metavar="FILE", help="an OpenEXR, HDR or PFM image to compare with instead (one stage)")
     group.add_argument("--camera", "-cam", metavar="PATH", help="as in patina record")
-    group.add_argument("--threads", type=recordFlags._count, default=0, metavar="N", help="default: all cores")
-    group.add_argument("--seed", type=recordFlags._seed, default=0, metavar="N", help="default: 0")
+    group.add_argument("--threads", type=recordFlags._count, default=0, metavar="N", help="threads (default: all cores)")
+    group.add_argument("--seed", type=recordFlags._seed, default=0, metavar="N", help="seed of the first render (default: 0)")
     group.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE", help=overrides.SET_HELP)
     methods.add_flag(group)
     group.add_argument("--quiet", "-q", action="store_true", help="no progress")

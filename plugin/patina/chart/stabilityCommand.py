@@ -18,7 +18,7 @@ COLUMNS = ("sweep", "x", "method", "value", "truth", "error", "bound", "chosen")
 def add_arguments(parser):
     group = parser.add_argument_group("stability")
     group.add_argument("--stability", action="store_true", help="methods through the regions where they fail: an atlas")
-    group.add_argument("--points", type=int, default=40, metavar="N", help="of each sweep, 4 or more (default: 40)")
+    group.add_argument("--points", type=int, default=40, metavar="N", help="points of each sweep, 4 or more (default: 40)")
     group.add_argument("--family", default="", metavar="NAME", help="only this one of " + ", ".join(FAMILIES))
 
 

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes a material in the words of another shading model, for programs that know only that one.
+"""Writes a material as another shading model, for programs that know only that one.
 
 Inputs that vary over the surface become textures over uv 0 to 1, the others stay values. OUT.usda
-gets one Material; the textures lie beside it. Patterns that read positions are baked as they are on
-a unit square in the xy plane; primvars other than texture coordinates as their defaults.
+gets one Material, and the textures are written beside it. Patterns that read positions are baked as on
+a unit square in the xy plane. Primvars other than texture coordinates have their defaults.
 
-Colours are written as 8 bit sRGB PNG or half float EXR, everything else as raw numbers. Normals are
-those of the tangent frame. Numbers beyond 1 need EXR.
+Colours are written as 8 bit sRGB PNG or half float EXR, everything else as raw numbers. Normals are in
+the tangent frame. Numbers above 1 need EXR.
 
-OUT.usda may not be a file that is read, unless --in-place is given: the material is then replaced in
-that file, and everything else in it stays.
+OUT.usda may not be a file that the command reads, unless --in-place is given. Then the material is
+replaced in that file, and everything else in it stays.
 """
 import os
 import sys
@@ -34,7 +34,7 @@ def add_arguments(parser):
                         help="shading model: " + ", ".join(TARGETS))
     parser.add_argument("--resolution", type=int, default=1024, metavar="N",
                         help="width and height of textures, 1 to 16384 (default: 1024)")
-    parser.add_argument("--format", default="png", choices=["png", "exr"], help="of textures (default: png)")
+    parser.add_argument("--format", default="png", choices=["png", "exr"], help="format of the textures (default: png)")
     parser.add_argument("--in-place", action="store_true", dest="in_place",
                         help="OUT may be the stage itself, one of its layers or any other: all other prims in it stay")
     limits.add_flag(parser)

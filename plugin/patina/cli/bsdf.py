@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints numbers of a material: what it reflects and transmits, for given directions.
+"""Prints the light that a material reflects and transmits, for given directions, in numbers.
 
   eval     f (without the cosine) and the density with which wi would be sampled
   sample   directions wi, their weight f cos / pdf, and their density (for a mirror or clear glass
@@ -8,8 +8,8 @@
 
 Directions are unit vectors in the shading frame (z normal, x tangent) and point away from the
 surface; others are made unit vectors. With - for a direction, sets are read from standard input,
-one per line: wo and wi as six numbers for eval, wo for sample and albedo; where one of the two is
-given as a flag, the line holds the other alone.
+one per line: wo and wi as six numbers for eval, wo for sample and albedo. If a flag gives one of the
+two, the line holds only the other.
 
 Methods that walk (randomWalk, positionFree) have no formula: f is then the mean of 256 walks, an
 albedo that of 2048, and densities are estimates that weigh strategies against each other.
@@ -34,9 +34,9 @@ def add_arguments(parser):
     parser.add_argument("--wo", default="0,0,1", metavar="X,Y,Z", help="outgoing direction (default: 0,0,1)")
     parser.add_argument("--wi", metavar="X,Y,Z", help="incoming direction, for eval")
     parser.add_argument("--count", type=int, default=1, metavar="N", help="samples for each wo (default: 1)")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of sample's random numbers (default: 0)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of sample (default: 0)")
     parser.add_argument("--backend", default="embree", choices=["embree", "raster"],
-                        help="whose code runs: raster is the GLSL on the driver (default: embree)")
+                        help="code to run: raster is the GLSL on the driver (default: embree)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
     limits.add_flag(parser)

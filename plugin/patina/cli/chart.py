@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measures what methods and renderers cost and how far they are off, on this machine, and draws it.
+"""Measures and draws the cost and the error of methods and renderers, on this machine.
 
   patina chart STAGE... --out FOLDER                seconds against error of both back ends: CSV, SVG and an HTML page
   patina chart --lobes                              all choice points of lobes: rows, CSV and SVG
@@ -8,7 +8,7 @@
                                                     also writes the table that --method list shows; with --point,
                                                     the rest of it as it is built in
   patina chart --stability --out FOLDER             methods through the regions where they fail: CSV, SVG, an HTML page
-  patina chart --predictions STAGE... --out FOLDER  errors that the planner predicts beside those that come: CSV
+  patina chart --predictions STAGE... --out FOLDER  errors that the planner predicts, beside the true ones: CSV
 
 Scenes: every back end renders with 1, 4, 16, ... samples and to each of --tolerances; errors are those against a path traced
 reference of another seed, 16 times the samples and the most exact methods. Times are of warm renders, medians of three where

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the mathematics of materials: what a renderer relies on, over directions and places.
+"""Checks the mathematical properties of materials that a renderer relies on, over directions and places.
 
   finite       values, densities, samples, albedo and emission are finite and not negative
   energy       no more light comes back than arrives, by the material's own albedo and by its samples
@@ -7,15 +7,15 @@
   weight       a sample's weight is f cos / pdf
   chi2         samples fall where the density says (chi-squared test; significance 1 % for the whole
                material, by Šidák)
-  reciprocity  f(a, b) = f(b, a) where both directions are above the surface; where it is not, "no" is
-               told, and a failure only with --reciprocal, since layers by albedo and media inside
-               are not reciprocal
+  reciprocity  f(a, b) = f(b, a) for directions above the surface. If not, it prints "no"; that is a
+               failure only with --reciprocal, since layers by albedo and media inside are not
+               reciprocal
 
-Materials that vary are checked at points of uv 0 to 1. Each material is shown when it is done; warnings come last, by their
-causes as `patina record` tells them. Exit status 1 when a check fails.
+Materials that vary are checked at points of uv 0 to 1. Each material is shown when it is done; warnings come last, grouped by
+cause as in `patina record`. The exit status is 1 if a check fails.
 
---layers takes no material: it prints how far the albedo of layers, which scale what is below by what the top lets
-through and what comes back (`--method layerTransmittance=...`), is from a random walk between the interfaces.
+--layers takes no material. Layers scale their base by the light that the top lets through and sends back down (`--method
+layerTransmittance=...`). It prints the error of their albedo beside a random walk between the interfaces.
 """
 import math
 import sys
@@ -38,13 +38,13 @@ def add_arguments(parser):
     parser.add_argument("material", metavar="STAGE|MATERIAL", nargs="?", help=materials.MATERIAL_HELP.replace(
         "the only material", "every material"))
     parser.add_argument("--layers", action="store_true", help="the error of layers, as a table")
-    parser.add_argument("--samples", type=int, default=65536, metavar="N", help="per direction (default: 65536)")
+    parser.add_argument("--samples", type=int, default=65536, metavar="N", help="samples per direction (default: 65536)")
     parser.add_argument("--places", type=int, default=3, metavar="N",
-                        help="of uv per material that varies (default: 3; finite: its square times 16)")
+                        help="points of uv per material that varies (default: 3; finite: its square times 16)")
     parser.add_argument("--tolerance", type=float, default=0.01, metavar="E",
-                        help="of energy, densities and weights (default: 0.01)")
+                        help="allowed error of energy, densities and weights (default: 0.01)")
     parser.add_argument("--reciprocal", action="store_true", help="fail where f(a, b) is not f(b, a)")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the random numbers (default: 0)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the random numbers (default: 0)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
     limits.add_flag(parser)

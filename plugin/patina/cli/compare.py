@@ -2,8 +2,8 @@
 """Measures how image A differs from the reference B.
 
 Values are compared as they are in the files: linear radiance in OpenEXR and HDR files, display
-values from 0 to 1 in the others. NaN and infinite values are counted first; pixels that hold any
-are left out of the numbers. FLIP comes from NVIDIA's flip-evaluator, where it is installed
+values from 0 to 1 in the others. NaN and infinite values are counted first; pixels with such values
+are left out of the metrics. FLIP comes from NVIDIA's flip-evaluator, where it is installed
 (`pip install flip-evaluator`): its HDR form for linear files, else the one for display values.
 
   RMSE                 square root of the mean squared difference

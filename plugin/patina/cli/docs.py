@@ -3,9 +3,9 @@
 
   patina docs site                  then open site/index.html
 
-The pages are read without a server and without a network, search included. They are part of a checkout (docs/site). Building
-them takes MkDocs, which ./patina docs installs, npm for the script that draws diagrams, and Doxygen for the C++ pages; where
-one of the last two is missing, a line says what is left out.
+The pages are read without a server and without a network, search included. They are part of a checkout (docs/site). To build
+them, ./patina docs installs MkDocs. It also needs npm for the script that draws diagrams, and Doxygen for the C++ pages. If one
+of these two is missing, a line says which part is left out.
 """
 import importlib.util
 import os

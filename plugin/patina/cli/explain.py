@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shows how a material is modelled: its network as authored, the simplified graph, the plan of
-lobes, what was left out, the method at each choice point that matters, and the error and time that
-these methods are expected to take. Of a stage without a named material all materials are shown.
-Warnings come last, by their causes as `patina record` tells them.
+"""Shows how a material is modelled: its network as authored, the simplified graph, the plan of lobes, the parts that were left
+out, and the method at each choice point that matters, with its predicted error and time. For a stage without a named material
+it shows all materials. Warnings come last, grouped by cause as in `patina record`.
 
   patina explain shot.usda --tolerance 0.01    what the planner would choose for 1 % of error
 
-Of a whole stage with a tolerance it also builds the scene, and tells what is chosen for it: the edges of subdivision surfaces
-(of an image of 960 pixels from the first camera), how long paths are, and for the rasterizer how each material is lit.
+For a whole stage with a tolerance it also builds the scene and prints the choices for it: the edges of subdivision surfaces
+(for an image of 960 pixels from the first camera), the length of paths, and for the rasterizer how each material is lit.
 """
 import sys
 

@@ -5,10 +5,9 @@
   patina farm shot.usda shot.####.exr --frames 1:240 --engine slurm:16 --engineOption queue=render --engineOption cores=8
   patina farm shot.usda shot.####.exr --frames 1:240 --cut 4 --write-job job.yaml
 
-All flags of `patina record` that are not named below are taken, too, and mean the same for every frame. A frame that is cut
-has the bits of the frame rendered at once. Workers reach the stage, what it reads and the images by the sender's own paths;
-whichever cannot is named before anything is rendered. Parts lie in IMAGE.parts until the image is written; logs of parts
-that failed stay there.
+All other flags of `patina record` may be given too, and hold for every frame. A frame that is cut has the bits of the frame
+rendered at once. Workers use the sender's paths to the stage, its files and the images. A worker that cannot read or write one
+is named before anything is rendered. Parts are kept in IMAGE.parts until the image is written; logs of failed parts stay there.
 """
 import argparse
 import contextlib
@@ -31,10 +30,10 @@ def add_arguments(parser):
                              "(default: 1, whole frames)")
     parser.add_argument("--engine", default="local", metavar="ENGINE", help=engines.HELP)
     parser.add_argument("--engineOption", action="append", default=[], metavar="NAME=VALUE",
-                        help="of Dask's class for the engine (repeatable), such as queue=render, cores=8, memory=32GiB, "
-                             "walltime=04:00:00; of pods image=studio/patina and volumes=CLAIM:/PATH")
+                        help="an option of Dask's class for the engine (repeatable), such as queue=render, cores=8, "
+                             "memory=32GiB, walltime=04:00:00; for pods image=studio/patina and volumes=CLAIM:/PATH")
     parser.add_argument("--threads", type=int, default=None, metavar="N",
-                        help="that a task takes (default: the worker's cores)")
+                        help="threads of a task (default: the worker's cores)")
     parser.add_argument("--resume", action="store_true", help="leave out images that are there, and parts that fit")
     parser.add_argument("--allowMixed", action="store_true",
                         help="take workers of other builds and instruction sets: images have no defined bits then")
@@ -105,12 +104,12 @@ def _record_arguments(arguments):
     record = parser.parse_intermixed_args(argv)
     record.given = main._given(parser, parser.parse_intermixed_args, argv)
     if not record.image:
-        raise UsageError("patina farm: an IMAGE is wanted")
+        raise UsageError("patina farm: name an IMAGE")
     for name in ("part", "partial", "keepCheckpoint"):
         if getattr(record, name):
-            raise UsageError(f"patina farm: --{name} is the farm's own business")
+            raise UsageError(f"patina farm: the farm sets --{name} itself; leave it out")
     if record.verbose:
-        raise UsageError("patina farm: --verbose is of one render; --json tells what each task took")
+        raise UsageError("patina farm: --verbose describes one render; --json has the times of all tasks")
     overrides.parse(record.set)
     _check_task(parser, arguments, argv, record)
     arguments.record_words = _words(parser, arguments.passed_on, record)

@@ -44,7 +44,7 @@ def expand(spec, start, end):
         a, b = _number(first, spec, start, end), _number(last, spec, start, end)
         stride = _number(step, spec, start, end) if cross else 1.0
         if not stride or not math.isfinite(stride):
-            raise UsageError(f"patina record: --frames {spec}: a stride of {step} leads nowhere")
+            raise UsageError(f"patina record: --frames {spec}: a stride of {step} reaches no frame")
         stride = math.copysign(stride, b - a)
         steps = (b - a) / stride  # infinite where the stride is tiny
         count = int(math.floor(steps + 1e-6)) + 1 if steps < MAX_FRAMES else MAX_FRAMES + 1

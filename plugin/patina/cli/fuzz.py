@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the fuzzers of a checkout for a time: bytes and legal inputs with extreme values, which may be refused with a message,
-and must not crash, hang, take memory without end, lose an image or make values that are no numbers.
+"""Runs the fuzzers of a checkout for a time. They try bytes, and legal inputs with extreme values. Patina may refuse an input
+with a message. It must not crash, hang, take memory without end, lose an image or make values that are no numbers.
 
   patina fuzz --seconds 600
   patina fuzz randomStages edits --seconds 3600 --seed 1000 --json=figures.json
@@ -21,8 +21,9 @@ from patina.cli.errors import CommandError, UsageError
 def add_arguments(parser):
     parser.add_argument("names", nargs="*", metavar="NAME", help="fuzzers (default: all); with --keep, the name of the test")
     parser.add_argument("--list", action="store_true", help="print the fuzzers and end")
-    parser.add_argument("--seconds", type=float, default=60.0, metavar="S", help="of all together (default: 60)")
-    parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the first input; the others count up (default: 1)")
+    parser.add_argument("--seconds", type=float, default=60.0, metavar="S", help="time of all fuzzers together (default: 60)")
+    parser.add_argument("--seed", type=int, default=1, metavar="N",
+                        help="seed of the first input; the others count up (default: 1)")
     parser.add_argument("--corpus", metavar="FOLDER", help="inputs of the native fuzzers, kept small, that the next run goes "
                                                            "on from (default: none are kept)")
     parser.add_argument("--findings", metavar="FOLDER", default="patinaFindings",

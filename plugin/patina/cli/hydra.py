@@ -5,8 +5,8 @@
   eval "$(patina hydra --environment)"; usdview stage.usda --renderer Patina
 
 The plugin is built for the OpenUSD that CMake found (PXR_USD_LOCATION, pxr_DIR or /usr/local/USD). The check
-loads it as a host does, and says why one would refuse it. `cmake --install` puts it below PREFIX/plugin/usd,
-which is what PXR_PLUGINPATH_NAME has to name then.
+loads it as a host does, and says why a host would refuse it. `cmake --install` puts it into PREFIX/plugin/usd; set
+PXR_PLUGINPATH_NAME to that folder then.
 """
 import os
 import shlex

@@ -5,9 +5,9 @@
   patina record shot.usda shot.exr --part 2/2 --partial shot.2.part
   patina merge shot.1.part shot.2.part shot.exr
 
-Parts say what made them: the stage with all of its layers and textures, the settings, the version and what it computes with.
-Those that do not belong together are refused, and missing ones are named. The channels of the image's file follow from the
-flags that the parts were made with.
+Each part describes how it was made: the stage with all of its layers and textures, the settings, the version and the
+instruction set. Parts that do not belong together are refused, and missing ones are named. The channels of the image follow
+from the flags that the parts were made with.
 """
 import contextlib
 import os
@@ -27,7 +27,7 @@ def add_arguments(parser):
                         help="render the parts that are missing, here and with the flags of the others, beside IMAGE")
     parser.add_argument("--allowMixed", action="store_true",
                         help="take parts of other builds and instruction sets: the image has no defined bits then")
-    parser.add_argument("--threads", type=int, default=0, metavar="N", help="default: all cores")
+    parser.add_argument("--threads", type=int, default=0, metavar="N", help="threads (default: all cores)")
     limits.add_flag(parser)
     parser.add_argument("--json", metavar="FILE",
                         help="statistics of the frame: --json to standard output, --json=FILE to a file")

@@ -38,7 +38,7 @@ def _refuse_input(path, makes=()):
         raise CommandError(f"cannot write '{path}': this command reads {found}{same}; name another file")
     extension = os.path.splitext(path)[1].lower()
     if extension in _DOCUMENTS and extension not in makes and os.path.exists(path):
-        raise CommandError(f"cannot write '{path}': a document is there, and this would be none")
+        raise CommandError(f"cannot write '{path}': it is a stage or a MaterialX document; name another file")
 
 
 def check_all(paths):

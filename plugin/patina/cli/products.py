@@ -18,7 +18,8 @@ def shots_at(prim, arguments, time, decimals):
     products = _products(prim)
     if arguments.image:
         if len(products) > 1:
-            prim.warn(prim.path, "products", f"has {len(products)} products; only {products[0].GetPath()} is rendered, to IMAGE")
+            first = products[0].GetPath()
+            prim.warn(prim.path, "products", f"has {len(products)} products; only {first} is rendered, to IMAGE")
         products = products[:1] or [None]
     elif not products:
         raise CommandError(f"{prim.path} has no products: name an IMAGE")

@@ -7,12 +7,12 @@
   patina record shot.usda shot.exr --part 3/8 --partial shot.3.part    an eighth of it, for `patina merge`
   patina record shot.usda --settings /Render/beauty --frames 1:10x3,20    all products of these settings
 
-Warnings are grouped by their causes: first errors (something that was authored is missing from the image), then warnings (a
-default or an approximation is used), those that are met most often first, 20 at most. --json has all of them.
+Warnings are grouped by cause: first errors (something that was authored is missing from the image), then warnings (a default or
+an approximation is used), the most frequent first, 20 at most. --json has all of them.
 
-Ctrl+C and SIGTERM end a render early: the image is written with the samples that are there, IMAGE.checkpoint stays for
---resume, and the command that continues is printed. SIGUSR1 writes a snapshot and renders on. An image that was
-there before is replaced only by a whole one.
+Ctrl+C and SIGTERM end a render early: the image is written with the samples so far, IMAGE.checkpoint stays for --resume, and
+the command that continues is printed. SIGUSR1 writes a snapshot, and the render goes on. An existing image is replaced only by
+a whole one.
 
 Exit status: 0 done, 1 failed with a one-line reason, 2 wrong usage, 75 failed for a reason that may pass (a full disk, memory,
 a lost device) or ended by a signal: a scheduler may run the same again, with --resume.

@@ -77,9 +77,9 @@ def add_tolerance_flag(group):
 
 
 def _add_output_flags(group):
-    group.add_argument("--imageWidth", "-w", type=_size, metavar="PIXELS", help="default: 960")
+    group.add_argument("--imageWidth", "-w", type=_size, metavar="PIXELS", help="width of the image (default: 960)")
     group.add_argument("--imageHeight", type=_size, metavar="PIXELS",
-                       help="default: from the width and the camera's aperture or fields of view")
+                       help="height of the image (default: from the width and the camera's aperture or fields of view)")
     settingFlags.add(group, "the image", _TEXTS)
     group.add_argument("--dataWindow", type=_window, metavar="X0,Y0,X1,Y1",
                        help="render only these pixels, both corners included, counted from the upper left")
@@ -92,7 +92,7 @@ def _add_output_flags(group):
                        choices=["none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"],
                        help="OpenEXR: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab (default: zip)")
     group.add_argument("--bits", type=int, default=8, choices=[8, 16, 32],
-                       help="of PNG and TIFF (default: 8; 32: TIFF with linear floats)")
+                       help="bits per channel of PNG and TIFF (default: 8; 32: TIFF with linear floats)")
     group.add_argument("--display", default="", metavar="NAME", help="OCIO display (default: sRGB, or that of $OCIO)")
     group.add_argument("--view", default="", metavar="NAME", help="OCIO view (default: the display's first)")
     group.add_argument("--colorCorrectionMode", "-color", default="openColorIO", metavar="MODE",

@@ -6,12 +6,12 @@
   patina shader brass.mtlx --target osl --output brass.osl
 
 glsl and essl are Patina's own: the functions that its rasterizer and its pages run, with every sample and density. The others
-are made by MaterialX's generators (PyPI's materialx, which this command installs) from the expanded graph: the closures and
-patterns that are left of the material when shading models are replaced by their graphs, constants are folded, and what no
-light reaches is dropped. mtlx writes that graph; with --form authored the material as it stands, whatever file it is from.
+are made by MaterialX's generators (PyPI's materialx, which this command installs) from the expanded graph. That is the material
+after shading models are replaced by their graphs, constants are folded, and parts that no light reaches are dropped. mtlx
+writes that graph, or with --form authored the nodes as authored, whatever file they are from.
 
-A MaterialX text knows one material, so --set is done before. Of a language with several stages the pixel stage is written,
-and the vertex stage too with --stage vertex.
+A text describes one material, so --set is applied first. For a language with several stages the pixel stage is written;
+--stage chooses another.
 """
 import sys
 
@@ -30,13 +30,13 @@ def add_arguments(parser):
                         help="glsl (4.50), essl (GLSL ES 3.00), osl, mdl, msl or mtlx (MaterialX 1.39)")
     parser.add_argument("--output", metavar="FILE", help="file to write (default: standard output)")
     parser.add_argument("--form", default="expanded", choices=["expanded", "authored"],
-                        help="of mtlx: the expanded graph, or the nodes as authored (default: expanded)")
+                        help="for mtlx: the expanded graph, or the nodes as authored (default: expanded)")
     parser.add_argument("--stage", default="pixel", choices=["pixel", "vertex"],
-                        help="of msl: the stage to write (default: pixel)")
+                        help="for msl: the stage to write (default: pixel)")
     parser.add_argument("--largestTexture", type=int, default=1024, metavar="N", dest="largest_texture",
-                        help="of glsl and essl: what --json says of textures is for no more texels than this (default: 1024)")
+                        help="for glsl and essl: largest side of the textures that --json describes (default: 1024)")
     parser.add_argument("--albedoTable", metavar="FILE.exr", dest="albedo_table",
-                        help="of glsl and essl: write the table that lobes look up")
+                        help="for glsl and essl: write the table that lobes look up")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
     limits.add_flag(parser)
@@ -127,5 +127,5 @@ def _generated(text, arguments, warnings):
         raise CommandError(f"{arguments.material}: MaterialX {generators.version()} cannot write it as {arguments.target}: "
                            f"{error}") from error
     if arguments.stage not in stages:
-        raise CommandError(f"--stage {arguments.stage}: MaterialX wrote none")
+        raise CommandError(f"--stage {arguments.stage}: MaterialX has written no such stage")
     return {"text": stages[arguments.stage], "stages": stages}

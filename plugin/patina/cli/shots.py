@@ -63,4 +63,4 @@ def image_options(arguments, shot, output, settings):
 def check_usage(arguments):
     """:raises UsageError: where neither an image nor settings say what to write"""
     if not arguments.image and not arguments.settings:
-        raise UsageError("patina record: an IMAGE is wanted, or --settings PRIM whose products are written")
+        raise UsageError("patina record: name an IMAGE, or --settings PRIM to write its products")

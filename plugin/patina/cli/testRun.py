@@ -3,8 +3,8 @@
 the package. ./patina builds what is needed before.
 
   patina test                   what CI runs (tier `full`, meant to end within 15 minutes on two cores)
-  patina test --tier unit       within 30 seconds; smoke: within 3 minutes; long: what only takes time; lint: committed numbers
-  patina test --room shaders    what a change to one room needs, within 3 minutes (with --tier full: all of the room)
+  patina test --tier unit       within 30 seconds; smoke: within 3 minutes; long: hours; lint: committed files
+  patina test --room shaders    the tests for a change to one room, within 3 minutes (with --tier full: all of the room)
   patina test -k furnace        further arguments go to pytest; named files and tests run whatever tier they are in
 
 testenv/manifest.py says which tier and rooms a test belongs to. Several processes share the tests, at most five: as many as
@@ -35,8 +35,8 @@ _ASSET = "StandardShaderBall"  # what tells the folder of public assets from oth
 
 def add_arguments(parser):
     parser.usage = "patina test [--tier TIER] [--room ROOM] [pytest arguments]"
-    parser.add_argument("--tier", choices=TIERS, help="default: full, with --room smoke, with named tests all; unit, smoke and "
-                                                      "full hold those before, long holds only what they leave out")
+    parser.add_argument("--tier", choices=TIERS, help="default: full; with --room smoke; with named tests all. unit, smoke and "
+                        "full each include the tiers before; long has the tests that they leave out")
     parser.add_argument("--room", action="append", default=[], metavar="ROOM", help="only tests of this room (repeatable)")
 
 

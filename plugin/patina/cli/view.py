@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes one HTML page that shows materials in a browser: no server, no network, opens from a file.
 
-The page draws with WebGL2, by the very lobes of the rasterizer, and has a slider for every input of
-the materials. It shows the shader, which can be changed and compiled there, and the plan, with what
-other methods would change. It needs Node and npm once, to fetch and bundle the page's script.
+The page draws with WebGL2 and the lobes of the rasterizer, and has a slider for every input of the
+materials. It shows the shader, which can be changed and compiled there, and the plan, with the change
+that other methods would make. It needs Node and npm once, to fetch and bundle the page's script.
 """
 import os
 import sys
@@ -24,10 +24,10 @@ def add_arguments(parser):
     parser.add_argument("--library", action="store_true", help="a page of pictures instead: every material of Patina's library "
                                                                "in both back ends, with its source")
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help="the page, FILE.html")
-    parser.add_argument("--title", metavar="TEXT", help="of the page (default: the materials' names)")
+    parser.add_argument("--title", metavar="TEXT", help="title of the page (default: the materials' names)")
     parser.add_argument("--environment", action="append", default=[], metavar="FILE",
                         help="latitude-longitude map to light with (repeatable; the first is shown)")
-    parser.add_argument("--stage", metavar="STAGE", help="whose lights, domes and shapes are taken (default: the first "
+    parser.add_argument("--stage", metavar="STAGE", help="the stage with the lights, domes and shapes (default: the first "
                                                          "MATERIAL that is a stage)")
     parser.add_argument("--shape", action="append", metavar="PRIM",
                         help="a mesh or implicit prim of the stage to look at, besides sphere, shader ball and plane "
@@ -37,10 +37,10 @@ def add_arguments(parser):
     parser.add_argument("--writeControls", metavar="FILE", help="write that JSON as it is, to be edited")
     parser.add_argument("--compare", action="store_true", help="embed a path-traced picture of each material, with a "
                                                                "wipe and the FLIP figure")
-    parser.add_argument("--compareShapes", action="store_true", help="the same on every shape of the page")
+    parser.add_argument("--compareShapes", action="store_true", help="--compare on every shape of the page")
     parser.add_argument("--compareWidth", type=int, default=256, metavar="N",
                         help="size of those pictures, and of the library's (default: 256)")
-    parser.add_argument("--compareSamples", type=int, default=256, metavar="N", help="their samples (default: 256)")
+    parser.add_argument("--compareSamples", type=int, default=256, metavar="N", help="samples of those pictures (default: 256)")
     parser.add_argument("--textureSize", type=int, default=1024, metavar="N",
                         help="largest side of textures and environments in the page (default: 1024)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",

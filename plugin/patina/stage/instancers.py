@@ -17,7 +17,8 @@ def emit_instancer(context, found, names, linking):
         return
     offsets, samples = _matrices(context, schema, len(indices))
     if samples is None:
-        context.warn(path, "positions", "or another array has another length than protoIndices; nothing is drawn of the instancer")
+        context.warn(path, "positions", "or another array has another length than protoIndices; nothing is drawn of the "
+                     "instancer")
         return
     samples = [local @ np.array(matrix_at(context, prim, group.anchor, t)) for t, local in zip(offsets, samples)]
     keep = _mask(schema, context.time, len(indices))

@@ -1,5 +1,8 @@
 layout(std140, binding = 1) uniform Parameters { vec4 parameters[73]; };
 vec4 materialParameter(int i) { return parameters[i]; }
+vec4 texel(int map, vec2 uv, float footprint) {
+    return vec4(0.0);
+}
 DielectricLobe lobe0;
 OrenNayarLobe lobe1;
 vec3 lobeWeight[2];

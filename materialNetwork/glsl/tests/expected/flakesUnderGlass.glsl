@@ -1,6 +1,10 @@
-#include "shaders/raster/moreNodes.glsl"
+#include "shaders/patterns/nodes/geometry.glsl"
+#include "shaders/patterns/nodes/noise.glsl"
 layout(std140, binding = 1) uniform Parameters { vec4 parameters[77]; };
 vec4 materialParameter(int i) { return parameters[i]; }
+vec4 texel(int map, vec2 uv, float footprint) {
+    return vec4(0.0);
+}
 vec4 r11;
 vec4 r12;
 vec4 r13;
@@ -18,14 +22,11 @@ vec3 lobeTransmittance[2];
 Frame frames[2];
 vec3 passThrough;
 void instantiate() {
-    r11 = nodeNormal(0, point.normal);
-    r12 = nodeTangent(0, point.tangent);
-    r13 = nodePosition(1);
-    r14 = nodeTangent(0, point.bitangent);
-    r15 = nodeFlake(parameters[0].x, parameters[1].x, parameters[2].x, r13.xyz, r11.xyz, r12.xyz, r14.xyz);
-    r16 = vec4(nodeFlakeHit.random);
-    r17 = vec4(nodeFlakeHit.presence);
-    r18 = vec4(nodeFlakeHit.normal, 0.0);
+    r11 = vec4(nodeNormal(0, point), 0.0);
+    r12 = vec4(nodeTangent(0, point), 0.0);
+    r13 = vec4(nodePosition(1, point), 0.0);
+    r14 = vec4(nodeBitangent(0, point), 0.0);
+    { float o1; float o2; vec3 o3; r15 = vec4(nodeFlake3(parameters[0].x, parameters[1].x, parameters[2].x, r13.xyz, r11.xyz, r12.xyz, r14.xyz, o1, o2, o3)); r16 = vec4(o1); r17 = vec4(o2); r18 = vec4(o3, 0.0); }
     frames[0] = makeFrame(vec3(0.0), vec3(0.0), false);
     frames[1] = makeFrame(r18.xyz, vec3(0.0), true);
     lobe0 = dielectricSetup(parameters[3].xyz, parameters[4].x, parameters[5].xy, false, 3, false, 1);

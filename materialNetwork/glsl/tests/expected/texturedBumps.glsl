@@ -1,8 +1,15 @@
-#include "shaders/raster/moreNodes.glsl"
-layout(std140, binding = 1) uniform Parameters { vec4 parameters[22]; };
+#include "shaders/patterns/nodes/difference.glsl"
+#include "shaders/patterns/nodes/geometry.glsl"
+#include "shaders/patterns/nodes/noise.glsl"
+#include "shaders/patterns/nodes/texture.glsl"
+layout(std140, binding = 1) uniform Parameters { vec4 parameters[23]; };
 vec4 materialParameter(int i) { return parameters[i]; }
 layout(binding = 0) uniform sampler2D sampler0;
 vec4 texture0(vec2 uv, float footprint) { return nodeTexture(sampler0, uv, footprint); }
+vec4 texel(int map, vec2 uv, float footprint) {
+    if (map == 0) return texture0(uv, footprint);
+    return vec4(0.0);
+}
 vec4 r5;
 vec4 r6;
 vec4 r7;
@@ -25,26 +32,26 @@ float lobeChance[1];
 Frame frames[1];
 vec3 passThrough;
 void instantiate() {
-    r5 = primvar(0, parameters[0]);
-    r6 = texture0(r5.xy, point.uvFootprint);
-    r7 = vec4(noiseFractal2(r5.xy, int(parameters[1].x), parameters[2].x, parameters[3].x, 0) * parameters[4].x);
-    r8 = vec4(primvar(1, vec4(0.0)).xyz, 0.0);
-    r9 = nodeShiftTexcoord(r5, parameters[5].x);
-    r10 = vec4(noiseFractal2(r9.xy, int(parameters[6].x), parameters[7].x, parameters[8].x, 0) * parameters[9].x);
-    r11 = nodeShiftTexcoord(r5, parameters[10].x);
-    r12 = vec4(noiseFractal2(r11.xy, int(parameters[11].x), parameters[12].x, parameters[13].x, 0) * parameters[14].x);
-    r13 = nodeShiftTexcoord(r8, parameters[15].x);
-    r14 = nodeShiftTexcoord(r8, parameters[16].x);
-    r15 = nodeSlope(r7.x, r10.x, r12.x, parameters[17].x, r8.xy, r13.xy, r14.xy);
-    r16 = nodeNormal(0, point.normal);
-    r17 = nodeTangent(0, point.tangent);
-    r18 = nodeTangent(0, point.bitangent);
-    r19 = vec4(patternNormalMap(r15.xyz, parameters[18].xy, r16.xyz, r17.xyz, r18.xyz), 0.0);
+    r5 = nodeTuplePrimvar(primvar(0, parameters[0]));
+    r6 = nodeImage(parameters[1], r5.xy, 0, point);
+    r7 = vec4(nodeFractal2Scalar(parameters[2].x, patternWhole(parameters[3].x), parameters[4].x, parameters[5].x, r5.xy));
+    r8 = vec4(nodeTexcoord(primvar(1, vec4(0.0))), 0.0);
+    r9 = nodeShiftTexcoord(r5, parameters[6].x != 0.0, point);
+    r10 = vec4(nodeFractal2Scalar(parameters[7].x, patternWhole(parameters[8].x), parameters[9].x, parameters[10].x, r9.xy));
+    r11 = nodeShiftTexcoord(r5, parameters[11].x != 0.0, point);
+    r12 = vec4(nodeFractal2Scalar(parameters[12].x, patternWhole(parameters[13].x), parameters[14].x, parameters[15].x, r11.xy));
+    r13 = nodeShiftTexcoord(r8, parameters[16].x != 0.0, point);
+    r14 = nodeShiftTexcoord(r8, parameters[17].x != 0.0, point);
+    r15 = vec4(nodeSlope(r7.x, r10.x, r12.x, parameters[18].x, r8.xy, r13.xy, r14.xy, point), 0.0);
+    r16 = vec4(nodeNormal(0, point), 0.0);
+    r17 = vec4(nodeTangent(0, point), 0.0);
+    r18 = vec4(nodeBitangent(0, point), 0.0);
+    r19 = vec4(patternNormalMap(r15.xyz, parameters[19].xy, r16.xyz, r17.xyz, r18.xyz), 0.0);
     frames[0] = makeFrame(r19.xyz, vec3(0.0), true);
-    lobe0 = burleySetup(r6.xyz, parameters[19].x);
+    lobe0 = burleySetup(r6.xyz, parameters[20].x);
     vec3 coverage0 = lobeFix(lobe0, frames[0].wo, lobeAlbedo[0]);
     coverage0 = unitColor(coverage0);
-    lobeWeight[0] = closureScaled(vec3(1.0), unit(parameters[20].x));
+    lobeWeight[0] = closureScaled(vec3(1.0), unit(parameters[21].x));
     passThrough = vec3(0.0);
 }
 void materialSetup() {
@@ -60,7 +67,7 @@ void materialSetup() {
 }
 float materialPresence(out vec3 passes) {
     passes = vec3(1.0);
-    return unit(parameters[21].x);
+    return unit(parameters[22].x);
 }
 vec3 materialEmission(vec3 wo) {
     return vec3(0.0);

@@ -44,7 +44,7 @@ export class CodePanel {
         this.whole.checked = this.page.state.whole;
         const text = this.edits.current();
         if (text.key === this.key) {
-            if (this.edits.drawn(text) !== this.drawn) this.tell("");
+            if (this.edits.drawn(text) !== this.drawn) this.showState("");
             return;
         }
         const left = this.key && this.edits.drafts.has(this.key) && this.key.split(" ")[0] === text.key.split(" ")[0];
@@ -63,10 +63,10 @@ export class CodePanel {
             return element("option", { value: name, selected: name === this.part }, `${titles[name]} (${count} lines${changed})`);
         }));
         this.editor.set(parts[this.part], `GLSL ES 3.00, ${titles[this.part]}`);
-        this.tell(said);
+        this.showState(said);
     }
 
-    tell(said) {
+    showState(said) {
         const { edits, text, found } = this, errors = found.filter(m => m.isError).length;
         const changed = edits.drafts.has(text.key), drawn = this.drawn = edits.drawn(text);
         const state = errors ? `${errors} error${errors > 1 ? "s" : ""}: the picture shows the last text that compiled.`
@@ -94,7 +94,7 @@ export class CodePanel {
         for (const m of this.found) // messages move with their lines
             if (m.part === part && m.line > caret - more) m.line += more;
         edits.change(text, part, editor.text);
-        this.tell("");
+        this.showState("");
     }
 
     // @returns whether the text is drawn now

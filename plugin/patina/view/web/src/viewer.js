@@ -75,17 +75,17 @@ export class Viewer {
         s.environmentScale.value.fromArray(environment.radiance).multiplyScalar(state.environmentGain);
         s.ambient.value.fromArray(state.ambient);
         s.plain.value.set(...state.backdropColor, state.backdrop ? 0 : 1);
+        // Rows begin with the radiance, see shaders/lights/fields.glsl.
         const rows = this.data.lights.map((light, i) => {
             const row = light.row.slice();
-            for (let c = 0; c < 3; ++c) row[4 + c] *= state.lights[i].gain * state.lights[i].color[c];
+            for (let c = 0; c < 3; ++c) row[c] *= state.lights[i].gain * state.lights[i].color[c];
             return state.lights[i].on ? row : null;
         }).filter(Boolean);
         s.lightData.value?.dispose();
         s.lightData.value = makeRows(rows, Math.max(1, ...rows.map(row => row.length / 4)));
         s.lightCount.value = rows.length;
         // Samples of a pass are shared out where there are many lights.
-        const sized = rows.filter(row => row[7] > 0).length;
-        const each = Math.min(this.samplesPerPass, Math.max(1, Math.floor(4 * this.samplesPerPass / Math.max(sized, 1))));
+        const each = Math.min(this.samplesPerPass, Math.max(1, Math.floor(4 * this.samplesPerPass / Math.max(rows.length, 1))));
         const drawn = drawSamples(environment.texture, s, this.passes, Math.max(4, 2 * this.samplesPerPass));
         s.environmentSamples.value?.dispose();
         s.environmentSamples.value = drawn.texture;

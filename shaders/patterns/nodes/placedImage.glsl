@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Image nodes that bring their own placement: glTF's, latitude-longitude maps, three planes.
+
+// glTF's own transform turns the other way round about the upper left corner.
+PATINA_FN_RARE vec4 gltfTexel(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
+                              vec2 offset, int order, NodeTexture map, PATINA_IN(SurfacePoint) p) {
+    if (!hasTexture(map)) return missing;
+    vec2 inverseScale =
+        vec2(scale.x != 0.0f ? 1.0f / scale.x : 0.0f, scale.y != 0.0f ? 1.0f / scale.y : 0.0f);
+    vec2 at = patternPlace2d(uv, pivot, inverseScale, -rotate, vec2(-offset.x, offset.y), order);
+    return texel(map, at, p.uvFootprint * max(abs(scale.x), abs(scale.y)));
+}
+PATINA_FN vec4 nodeGltfImage(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
+                             vec2 offset, int order, vec4 factor, NodeTexture map,
+                             PATINA_IN(SurfacePoint) p) {
+    return gltfTexel(missing, uv, pivot, scale, rotate, offset, order, map, p) * factor;
+}
+PATINA_FN float nodeGltfScalarImage(float missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
+                                    vec2 offset, int order, float factor, NodeTexture map,
+                                    PATINA_IN(SurfacePoint) p) {
+    return gltfTexel(vec4(missing), uv, pivot, scale, rotate, offset, order, map, p).x * factor;
+}
+PATINA_FN vec4 nodeGltfColorImage(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
+                                  vec2 offset, PATINA_UNUSED(int, order), vec4 color,
+                                  vec4 geomColor, NodeTexture map, PATINA_IN(SurfacePoint) p,
+                                  PATINA_OUT(float) alpha) {
+    vec4 t = gltfTexel(missing, uv, pivot, scale, rotate, offset, 0, map, p) * color * geomColor;
+    alpha = t.w;
+    return t;
+}
+PATINA_FN vec3 nodeGltfNormalMap(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
+                                 vec2 offset, int order, vec3 n, vec3 t, vec3 b, NodeTexture map,
+                                 PATINA_IN(SurfacePoint) p) {
+    return patternNormalMap(
+        vec3(gltfTexel(missing, uv, pivot, scale, rotate, offset, order, map, p)), vec2(1.0f), n, t,
+        b);
+}
+// Black texels are the thickest, as MaterialX has it.
+PATINA_FN float nodeGltfThickness(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
+                                  vec2 offset, PATINA_UNUSED(int, order), float least, float most,
+                                  NodeTexture map, PATINA_IN(SurfacePoint) p) {
+    vec4 t = gltfTexel(missing, uv, pivot, scale, rotate, offset, 0, map, p);
+    return most + (least - most) * t.y;
+}
+PATINA_FN float nodeGltfAnisotropy(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
+                                   vec2 offset, PATINA_UNUSED(int, order), float strength,
+                                   float rotation, NodeTexture map, PATINA_IN(SurfacePoint) p,
+                                   PATINA_OUT(float) turned) {
+    vec4 t = gltfTexel(missing, uv, pivot, scale, rotate, offset, 0, map, p);
+    turned = rotation + atan(t.y * 2.0f - 1.0f, t.x * 2.0f - 1.0f);
+    return strength * t.z;
+}
+
+// rotation: degrees.
+PATINA_FN vec4 nodeLatLongImage(vec4 missing, vec3 d, float rotation, NodeTexture map) {
+    if (!hasTexture(map)) return missing;
+    return texel(map,
+                 vec2(atan(d.x, d.z) * -0.15915494f + 0.5f + rotation / 360.0f,
+                      arcsine(d.y) * 0.31830989f + 0.5f),
+                 0.0f);
+}
+
+PATINA_FN vec4 planeTexel(vec4 missing, NodeTexture map, vec2 uv, float footprint) {
+    return hasTexture(map) ? texel(map, uv, footprint) : missing;
+}
+PATINA_FN vec4 nodeTriplanar(vec4 missing, vec3 at, vec3 normal, int up, float blend,
+                             NodeTexture mapX, NodeTexture mapY, NodeTexture mapZ,
+                             PATINA_IN(SurfacePoint) p) {
+    vec3 w = abs(normal);
+    float sum = w.x + w.y + w.z;
+    if (!(sum > 0.0f)) return missing;
+    float sharpness = 1.0f / clamp(blend, 0.03f, 1.0f);
+    w = vec3(pow(w.x / sum, sharpness), pow(w.y / sum, sharpness), pow(w.z / sum, sharpness));
+    float total = w.x + w.y + w.z;
+    if (!(total > 0.0f)) return missing;
+    vec2 x = up == 2 ? vec2(at.y, at.z) : vec2(at.z, at.y);
+    vec2 y = up == 0 ? vec2(at.z, at.x) : vec2(at.x, at.z);
+    vec2 z = up == 0 ? vec2(-at.y, at.x) : vec2(at.x, at.y);
+    float width = p.uvFootprint * p.lengthPerUv;
+    vec4 t = vec4(0.0f);
+    if (w.x > 0.0f) t += planeTexel(missing, mapX, x, width) * (w.x / total);
+    if (w.y > 0.0f) t += planeTexel(missing, mapY, y, width) * (w.y / total);
+    if (w.z > 0.0f) t += planeTexel(missing, mapZ, z, width) * (w.z / total);
+    return t;
+}
+PATINA_FN float nodeScalarTriplanar(float missing, vec3 at, vec3 normal, int up, float blend,
+                                    NodeTexture mapX, NodeTexture mapY, NodeTexture mapZ,
+                                    PATINA_IN(SurfacePoint) p) {
+    return nodeTriplanar(vec4(missing), at, normal, up, blend, mapX, mapY, mapZ, p).x;
+}

@@ -20,7 +20,8 @@ PATINA_FN mat3 nodeSubtractScalar3(mat3 m, float x) {
 PATINA_FN mat3 nodeMultiply3(mat3 a, mat3 b) {
     return b * a;
 }
-// A matrix without an inverse has the identity for it.
+// A matrix without an inverse has the identity for it. Out of line: it rounds alike wherever it is
+// called.
 PATINA_FN_RARE mat3 nodeInvert3(mat3 m) {
     float d = determinant(m);
     return d != 0.0f && isFinite(1.0f / d) ? inverse(m) : mat3(1.0f);

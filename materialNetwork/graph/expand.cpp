@@ -30,13 +30,13 @@ public:
         _result.path = _network.path;
         for (const auto& [name, c] : _network.terminals)
             request(c.node, 0);
-        while (!_queue.empty() && _nodes <= _mostNodes) {
+        while (!_queue.empty() && _nodes <= _maxNodes) {
             const auto [path, depth] = _queue.front();
             _queue.pop_front();
             const auto found = _source.find(path);
             if (found != _source.end()) visit(*found->second, depth);
         }
-        if (_nodes > _mostNodes) {
+        if (_nodes > _maxNodes) {
             // Definitions that use others twice, those others twice, and so on.
             _diagnostics.warn(_network.path, "",
                               "the material expands to more nodes than " + limitText(Limit::nodes) +
@@ -87,7 +87,7 @@ private:
         const std::string prefix = node.path + "/";
         _instances[node.path] = {model, prefix};
         _nodes += 1 + model->nodes.size();
-        if (_nodes > _mostNodes) return;
+        if (_nodes > _maxNodes) return;
         reportInputs(node, *model);
         for (const NetworkNode& inner : model->nodes) {
             _owned.push_back(instantiate(inner, node, *model, prefix, depth));
@@ -233,7 +233,7 @@ private:
     bool _asked = true;             ///< whether inputs in vain are looked for
     size_t _nodes = 0;              ///< of the result and of all models taken in
     std::deque<std::pair<std::string, int>> _queue;
-    const size_t _mostNodes = limitOf(Limit::nodes);
+    const size_t _maxNodes = limitOf(Limit::nodes);
     Network _result;
 };
 

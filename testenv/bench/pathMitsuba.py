@@ -6,8 +6,9 @@ import time
 
 import numpy as np
 
-import pathScenes
-import pathWorker
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))  # the launcher keeps folders of scripts out
+import pathScenes  # noqa: E402
+import pathWorker  # noqa: E402
 
 
 def bsdf(given):

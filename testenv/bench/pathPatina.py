@@ -7,8 +7,9 @@ import time
 import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdShade, Vt
 
-import pathScenes
-import pathWorker
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))  # the launcher keeps folders of scripts out
+import pathScenes  # noqa: E402
+import pathWorker  # noqa: E402
 
 
 def matrix(rows):

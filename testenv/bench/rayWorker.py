@@ -7,7 +7,8 @@ import os
 import sys
 import time
 
-import pathPatina
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))  # the launcher keeps folders of scripts out
+import pathPatina  # noqa: E402
 
 
 def main(folder, recorder, samples, runs):

@@ -6,7 +6,9 @@ A run adds a row to `runs`. The other lists are written by hand: `mended` (defec
 import json
 import os
 
-FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "results.json")
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+FILE = os.path.join(FOLDER, "results.json")
+ROOT = os.path.normpath(os.path.join(FOLDER, "..", "..")) + os.sep
 # Scripts that search like fuzzers: what they try, and how they are run.
 OTHERS = {
     "randomGraphs": ("legal material graphs, evaluated in C++", "./patina python testenv/stability/randomGraphs.py --seed 1 "
@@ -39,7 +41,7 @@ def row(machine, seed, found):
     """:param found: numbers of a run, as generated.run() and native.run() have them"""
     return {"machine": machine, "seed": seed, "inputs": found["inputs"], "seconds": round(found["seconds"], 1),
             "counts": found["counts"], "lines": list(found["lines"]) if found.get("lines") else None,
-            "findings": [signature for _, signature, *_ in found["findings"]]}
+            "findings": [signature.replace(ROOT, "") for _, signature, *_ in found["findings"]]}
 
 
 def append(rows, path=FILE):

@@ -16,6 +16,7 @@ pytest.importorskip("pxr.Usd")
 import generated  # noqa: E402
 import keptFindings  # noqa: E402
 import outcomes  # noqa: E402
+import results  # noqa: E402
 import shrink  # noqa: E402
 import traced  # noqa: E402
 from fuzzers import FUZZERS  # noqa: E402
@@ -174,3 +175,9 @@ def test_a_finding_becomes_a_test(tmp_path, monkeypatch):
 
 def test_every_fuzzer_has_a_corpus():
     assert {name for name in FUZZERS if keptFindings.corpus(name)} == set(FUZZERS)
+
+
+def test_rows_hold_no_path_of_a_machine():
+    place = os.path.join(os.path.dirname(os.path.abspath(results.FILE)), "generated.py")
+    found = {"inputs": 1, "seconds": 1.0, "counts": {}, "findings": [("crash", f'File "{place}", line 7')]}
+    assert results.row("edits", 1, found)["findings"] == ['File "testenv/fuzz/generated.py", line 7']

@@ -65,8 +65,15 @@ def entries(text):
     return [e for e in [*found, text[start:].strip()] if e]
 
 
+def families():
+    """:returns: for each family of nodes, the text of the file that has its rows: that of its functions, if it has one"""
+    sources = [read(f"{NODES}/{name}") for name in names_in(NODES, "Nodes.cpp")]
+    named = [re.search(r'#define PATINA_NODE_FUNCTIONS "([^"]+)"', source) for source in sources]
+    return [read(functions[1]) if functions else source for source, functions in zip(sources, named, strict=True)]
+
+
 def categories(source):
-    """:param source: of a family of nodes
+    """:param source: one of families()
     :returns: the rows' categories in their order, each once"""
     body = source.split("const NodeRow rows[] = {", 1)[1].split("\n};", 1)[0]
     lobes = "".join(f"closure({row})," for row in re.findall(r'PATINA_LOBE_NODE\(\w+, ("[^"]*", "[^"]*")', read(LOBES)))
@@ -95,8 +102,7 @@ def head_comment(source):
 
 
 def nodes():
-    rows = [(head_comment(source), ", ".join(f"`{c}`" for c in categories(source)))
-            for source in (read(f"{NODES}/{name}") for name in names_in(NODES, "Nodes.cpp"))]
+    rows = [(head_comment(source), ", ".join(f"`{c}`" for c in categories(source))) for source in families()]
     models = []
     for name in names_in(MODELS, ".mtlx"):
         defined = ElementTree.fromstring(read(f"{MODELS}/{name}")).iter("nodedef")

@@ -4,6 +4,7 @@
 // Patterns made of functions of the shader dialect, and the C++ side of shaders/compat/nodes.glsl.
 // Before it, a file of nodes says where their functions are:
 //     #define PATINA_NODE_FUNCTIONS "shaders/patterns/nodes/color.glsl"
+// and includes that file once more with PATINA_NODE_ROWS, for the rows behind them.
 // PATINA_PATTERN(nodeX) then is the pattern of a function there. One whose name begins otherwise is
 // in shaders/patterns.glsl, which every text has. Its parameters are the inputs of the node in
 // their order, without strings, and whatever else of shaders/compat/nodes.glsl it asks for. What

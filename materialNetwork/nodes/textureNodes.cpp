@@ -19,29 +19,8 @@ TextureWrap addressMode(PatternSetup& setup, const char* input) {
     return TextureWrap::Repeat;
 }
 
-#define PATINA_IMAGE "filename file=, $ default=0, vector2 texcoord=@UV0, "
-#define PATINA_ADDRESS                                                                             \
-    "string uaddressmode=periodic, string vaddressmode=periodic, string filtertype=linear"
-// Sequences and layers of images are not read; the inputs are known so that documents may have
-// them.
-#define PATINA_FRAMES                                                                              \
-    ", string layer=, string framerange=, integer frameoffset=0, string frameendaction=constant"
-#define PATINA_TILED                                                                               \
-    PATINA_IMAGE "vector2 uvtiling=1, vector2 uvoffset=0, vector2 realworldimagesize=1, "          \
-                 "vector2 realworldtilesize=1, string filtertype=linear, "                         \
-                 "string uaddressmode=periodic, string vaddressmode=periodic" PATINA_FRAMES
-
-const NodeRow rows[] = {
-    {"ND_image_float", "image",
-     "filename file=, float default=0, vector2 texcoord=@UV0, " PATINA_ADDRESS PATINA_FRAMES,
-     "float", PATINA_PATTERN(nodeScalarImage), Algebra::None, nullptr, prepareImage},
-    {"ND_image_$", "image", PATINA_IMAGE PATINA_ADDRESS PATINA_FRAMES, "$",
-     PATINA_PATTERN(nodeImage), Algebra::None, tupleTypes, prepareImage},
-    {"ND_tiledimage_$", "tiledimage", PATINA_TILED, "$", PATINA_PATTERN(nodeScalarTiledImage),
-     Algebra::None, "float", prepareImage},
-    {"ND_tiledimage_$", "tiledimage", PATINA_TILED, "$", PATINA_PATTERN(nodeTiledImage),
-     Algebra::None, tupleTypes, prepareImage},
-};
+#define PATINA_NODE_ROWS
+#include PATINA_NODE_FUNCTIONS
 
 } // namespace
 

@@ -40,20 +40,8 @@ void prepareUvTexture(PatternSetup& setup, PatternData& data) {
     if (setup.textureValid(handle) || !setup.authored("fallback")) data.textures[0] = handle;
 }
 
-#define PATINA_UV_TEXTURE                                                                          \
-    "filename file=, vector2 st=@UV0, vector4 scale=1, vector4 bias=0, vector4 fallback=0 0 0 1, "
-#define PATINA_UV_OUTPUTS "float r, float g, float b, float a, color3 rgb, color4 rgba"
-
-const NodeRow rows[] = {
-    {"UsdUVTexture", "UsdUVTexture",
-     PATINA_UV_TEXTURE "string wrapS=useMetadata, string wrapT=useMetadata, "
-                       "string sourceColorSpace=auto",
-     PATINA_UV_OUTPUTS, PATINA_PATTERN(nodeUvTexture), Algebra::None, nullptr, prepareUvTexture},
-    {"ND_UsdUVTexture", "UsdUVTexture",
-     PATINA_UV_TEXTURE "string wrapS=periodic, string wrapT=periodic, "
-                       "string sourceColorSpace=auto",
-     PATINA_UV_OUTPUTS, PATINA_PATTERN(nodeUvTexture), Algebra::None, nullptr, prepareUvTexture},
-};
+#define PATINA_NODE_ROWS
+#include PATINA_NODE_FUNCTIONS
 
 } // namespace
 

@@ -28,8 +28,7 @@ ROWS = [
     ("choicePoint", r"\bSHEEN_(TABLED|FITTED|QUADRATURE)\b|(Choice|method)::Sheen\b|\bsheenMethods\b|PATINA_CHOICE\(Sheen\b",
      {"materialNetwork/plan/choicePoints.inc", "shaders/lobes/sheen.glsl", "shaders/lib/methods/sheenReflects.glsl",
       "shaders/measure/measureSheen.cpp"}),
-    ("node", r"ND_unpremult|\bunpremult\b|\bnodeUnpremultiply\b",
-     {"materialNetwork/nodes/colorNodes.cpp", "shaders/patterns/nodes/color.glsl"}),
+    ("node", r"ND_unpremult|\bunpremult\b|\bnodeUnpremultiply\b", {"shaders/patterns/nodes/color.glsl"}),
 ]
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hex-tiled images: a texture repeated without visible repetition.
+#ifndef PATINA_NODE_ROWS
 
 PATINA_FN HexTiles tilesAt(vec2 uv, vec2 tiling, float rotation, vec2 rotationRange, float scale,
                            vec2 scaleRange, float offset, vec2 offsetRange) {
@@ -69,3 +70,24 @@ PATINA_FN vec3 nodeHexNormalMap(PATINA_UNUSED(vec3, missing), vec2 uv, vec2 tili
     float l = length(bent);
     return l > 0.0f && isFinite(l) ? bent / l : n;
 }
+
+#else // PATINA_NODE_ROWS: rows of the node table, C++ alone
+
+#define PATINA_HEX                                                                                 \
+    "vector2 texcoord=@UV0, vector2 tiling=1, float rotation=1, vector2 rotationrange=0 360, "     \
+    "float scale=1, vector2 scalerange=0.5 2, float offset=1, vector2 offsetrange=0 1, "           \
+    "float falloff=0.5, "
+
+const NodeRow rows[] = {
+    {"ND_hextiledimage_$", "hextiledimage",
+     "filename file=, $ default=0, " PATINA_HEX
+     "float falloffcontrast=0.5, color3 lumacoeffs=0.2722287 0.6740818 0.0536895",
+     "$", PATINA_PATTERN(nodeHexImage), Algebra::None, "color3 color4", prepareImage},
+    {"ND_hextilednormalmap_vector3", "hextilednormalmap",
+     "filename file=, vector3 default=0.5 0.5 1, " PATINA_HEX
+     "float strength=1, boolean flip_g=0, vector3 normal=@Nworld, vector3 tangent=@Tworld, "
+     "vector3 bitangent=@Bworld",
+     "vector3", PATINA_PATTERN(nodeHexNormalMap), Algebra::None, nullptr, prepareImage},
+};
+
+#endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points, vectors and normals from one space to another, and what belongs to the frame and the
 // view.
+#ifndef PATINA_NODE_ROWS
 
 // Modes of the transforms.
 const int SPACE_KEPT = 0;
@@ -68,3 +69,34 @@ PATINA_FN float nodeFrame(float frame) {
 PATINA_FN float nodeTime(float fps, float frame) {
     return fps != 0.0f ? frame / fps : 0.0f;
 }
+
+#else // PATINA_NODE_ROWS: rows of the node table, C++ alone
+
+#define PATINA_SPACES "string fromspace=, string tospace="
+
+const NodeRow rows[] = {
+    {"ND_transformpoint_vector3", "transformpoint", "vector3 in=0, " PATINA_SPACES, "vector3",
+     PATINA_PATTERN(nodeTransformPoint), Algebra::None, nullptr, prepareSpaces},
+    {"ND_transformvector_vector3", "transformvector", "vector3 in=0, " PATINA_SPACES, "vector3",
+     PATINA_PATTERN(nodeTransformVector), Algebra::None, nullptr, prepareSpaces},
+    {"ND_transformnormal_vector3", "transformnormal", "vector3 in=0 0 1, " PATINA_SPACES, "vector3",
+     PATINA_PATTERN(nodeTransformNormal), Algebra::None, nullptr, prepareSpaces},
+    {"ND_reflect_vector3", "reflect", "vector3 in=1 0 0, vector3 normal=@Nworld", "vector3",
+     PATINA_PATTERN(nodeReflect)},
+    {"ND_refract_vector3", "refract", "vector3 in=1 0 0, vector3 normal=@Nworld, float ior=1",
+     "vector3", PATINA_PATTERN(nodeRefract)},
+    {"ND_facingratio_float", "facingratio",
+     "vector3 viewdirection=@Vworld, vector3 normal=@Nworld, boolean faceforward=1, "
+     "boolean invert=0",
+     "float", PATINA_PATTERN(nodeFacingRatio)},
+    {"ND_gooch_shade", "gooch_shade",
+     "color3 warm_color=0.8 0.8 0.7, color3 cool_color=0.3 0.3 0.8, float specular_intensity=1, "
+     "float shininess=64, vector3 light_direction=1 -0.5 -0.5",
+     "color3", PATINA_PATTERN(nodeGooch)},
+    // The host writes the number of the PATINA_PATTERN(nodeFrame) into the input `frame`, which
+    // MaterialX does not have.
+    {"ND_frame_float", "frame", "float frame=1", "float", PATINA_PATTERN(nodeFrame)},
+    {"ND_time_float", "time", "float fps=24, float frame=1", "float", PATINA_PATTERN(nodeTime)},
+};
+
+#endif

@@ -30,7 +30,7 @@ OWN = ("rasterizer", "path tracer")
 # Stage: camera, an edit of a material, one of a light; each ends at these numbers. Of testenv/scenes, but the first.
 MADE = "hundredTextures"
 STAGES = {
-    MADE: ("/camera", "/materials/m0/surface.roughness=0.6", "/lights/rect0.intensity=12"),
+    MADE: ("/camera", "/materials/m0/surface.roughness=0.6", "/lights/sky.intensity=1"),
     "shaderball": ("/World/camera", "/World/materials/coat/surface.diffuseColor=0.55,0.1,0.1", ""),
     "instances": ("/World/camera", "/World/materials/green/diffuse.color=0.1,0.3,0.1", ""),
     "texturedMesh": ("/World/camera", "/World/materials/checker/surface.roughness=0.4", ""),

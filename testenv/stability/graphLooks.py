@@ -164,8 +164,10 @@ def check_means(probe, graph, drawn, number, allowed, furnace=True, densities=Tr
         far = mean - albedo if graph.loses else np.abs(mean - albedo)
         failures.check(graphChecks.rows(far > slack), "sampled albedo is not albedo()", places, np.column_stack([mean, albedo]))
     if densities:
+        # What reflects nothing may claim a density and draw nothing: no light counts by it.
+        dark = np.repeat(drawn.f_around.reshape(VIEWS, -1).max(axis=1) == 0.0, len(drawn.wo) // VIEWS)
         shown = np.where(drawn.spread, EVEN / (EVEN + drawn.pdf), 0.0) - drawn.pdf_around / (EVEN + drawn.pdf_around)
-        mean, error = drawn.means(shown)
+        mean, error = drawn.means(np.where(dark, 0.0, shown))
         failures.check(graphChecks.rows(np.abs(mean) > quantile * error + ROUNDED), "density is not that of samples", places,
                        np.column_stack([mean, error]))
     return failures

@@ -72,7 +72,7 @@ if(TARGET patinaReadField) # beside the library that starts it, of whatever leve
 endif()
 
 if(NOT SKBUILD)
-    install(DIRECTORY hdDelegate materialNetwork shaders DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina
+    install(DIRECTORY base hdDelegate materialNetwork shaders DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina
         FILES_MATCHING PATTERN "*.h" PATTERN "*.def" PATTERN "*.inc" PATTERN "*.glsl"
         PATTERN hydra EXCLUDE PATTERN tests EXCLUDE PATTERN bake EXCLUDE PATTERN measure EXCLUDE)
     install(FILES ${CMAKE_BINARY_DIR}/shaders/everyLobe.glsl ${CMAKE_BINARY_DIR}/shaders/everyShape.glsl
@@ -97,7 +97,7 @@ if(TARGET _patina)
         PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
     foreach(table hdDelegate/scene/settings.def hdDelegate/scene/primMarks.def
             hdDelegate/scene/cameraInputs.def hdDelegate/film/aovs.def
-            materialNetwork/limits.def)
+            base/limits.def)
         get_filename_component(folder ${table} DIRECTORY)
         install(FILES ${table} DESTINATION ${pythonFolder}/patina/tables/${folder})
     endforeach()

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "materialNetwork/cpu/materialProgram.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 #include "materialNetwork/plan/methods.h"
 
 #include <map>

@@ -142,7 +142,7 @@ def limits():
             "needs of real scenes.",
             "", "- `--limit NAME=VALUE` sets one (`record`, `merge`, `explain`, `bsdf`, `check`, `bake`, `shader`, `view`).",
             '- `PATINA_LIMITS="NAME=VALUE ..."` in the environment sets them in every host.', "",
-            "The table is `materialNetwork/limits.def`.", "", *table(("limit", "default", "may be", "counts"), rows)]
+            "The table is `base/limits.def`.", "", *table(("limit", "default", "may be", "counts"), rows)]
 
 
 def methods():

@@ -20,10 +20,11 @@ RUNS = {  # --tier: the tiers of the tests that it runs
     "long": ("long",),
     "all": TIERS,
 }
-ROOMS = ("shaders", "materialNetwork", "scene", "geometry", "image", "plan", "film", "lights", "compiled", "embree", "raster",
-         "backends", "hydra", "python", "stage", "cli", "view", "chart", "farm", "testenv")
+ROOMS = ("base", "shaders", "materialNetwork", "scene", "geometry", "image", "plan", "film", "lights", "compiled", "embree",
+         "raster", "backends", "hydra", "python", "stage", "cli", "view", "chart", "farm", "testenv")
 
 FOLDERS = {  # folder: tier, rooms
+    "base/": ("unit", "base"),
     "shaders/": ("unit", "shaders"),
     "materialNetwork/": ("unit", "materialNetwork"),
     "hdDelegate/scene/": ("unit", "scene"),

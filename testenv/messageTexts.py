@@ -12,7 +12,7 @@ AREAS = (
     ("Stages", ("plugin/patina/stage",)), ("Render settings and products",
                                            ("plugin/patina/cli", "hdDelegate/hydra/renderProducts")),
     ("Shapes", ("hdDelegate/geometry",)), ("Lights", ("hdDelegate/lights", "hdDelegate/embree/sceneLights")),
-    ("Materials", ("materialNetwork", "hdDelegate/compiled")), ("Textures and fields", ("hdDelegate/image",)),
+    ("Materials", ("base", "materialNetwork", "hdDelegate/compiled")), ("Textures and fields", ("hdDelegate/image",)),
     ("Cameras, instances, the scene", ("hdDelegate/scene",)), ("Hydra", ("hdDelegate/hydra",)),
     ("Path tracer", ("hdDelegate/embree",)), ("Rasterizer and back ends", ("hdDelegate/raster", "hdDelegate/backends",
                                                                           "hdDelegate/renderer")),
@@ -90,7 +90,7 @@ def _python(path, text):
 
 def texts():
     """:returns: {area: sorted texts}; a text that stands in several places counts for the first area"""
-    files = [path for folder in ("hdDelegate", "materialNetwork") for path in
+    files = [path for folder in ("base", "hdDelegate", "materialNetwork") for path in
              glob.glob(os.path.join(ROOT, folder, "**", "*.cpp"), recursive=True)]
     files += glob.glob(os.path.join(ROOT, "plugin", "patina", "**", "*.py"), recursive=True)
     found, seen = {area: [] for area, _ in AREAS}, set()

@@ -2,7 +2,7 @@
 #include "hdDelegate/backends/refine.h"
 
 #include "hdDelegate/parallel.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 

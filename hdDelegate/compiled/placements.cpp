@@ -2,7 +2,7 @@
 #include "hdDelegate/compiled/placements.h"
 
 #include "hdDelegate/compiled/drawFilter.h"
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 #include "hdDelegate/embree/path.h"
 #include "hdDelegate/embree/sceneLights.h"
 #include "hdDelegate/film/pixelFilter.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 namespace patina {
 

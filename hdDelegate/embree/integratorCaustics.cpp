@@ -2,7 +2,7 @@
 #include "hdDelegate/embree/integrator.h"
 
 #include "hdDelegate/embree/caustics/photonPass.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "hdDelegate/embree/aovWriter.h"
 #include "hdDelegate/film/lightPaths/lightPathAutomaton.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 namespace patina {
 

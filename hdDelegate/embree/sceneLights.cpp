@@ -3,7 +3,7 @@
 
 #include "hdDelegate/embree/caustics/causticCasters.h"
 #include "hdDelegate/scene/lightUnits.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

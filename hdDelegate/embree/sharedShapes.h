@@ -3,7 +3,7 @@
 
 #include "hdDelegate/embree/compat.h"
 #include "hdDelegate/geometry/triangleMesh.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 
 #include <array>
 #include <map>

@@ -4,8 +4,8 @@
 #include "hdDelegate/geometry/curveSegments.h"
 #include "hdDelegate/geometry/primvarEval.h"
 #include "hdDelegate/geometry/tangentFrames.h"
-#include "materialNetwork/cpu/hashedNumbers.h"
-#include "materialNetwork/maths.h"
+#include "base/hashedNumbers.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

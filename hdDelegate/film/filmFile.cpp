@@ -2,7 +2,7 @@
 #include "hdDelegate/film/filmFile.h"
 
 #include "hdDelegate/film/temporaryFailure.h"
-#include "materialNetwork/regularFile.h"
+#include "base/regularFile.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/film/imageOutput.h"
-#include "materialNetwork/regularFile.h"
+#include "base/regularFile.h"
 
 #include <OpenImageIO/half.h>
 

@@ -4,7 +4,7 @@
 #include "hdDelegate/geometry/primvarEval.h"
 #include "hdDelegate/geometry/tangentFrames.h"
 #include "hdDelegate/parallel.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hdDelegate/geometry/triangleMesh.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 
 namespace patina {
 

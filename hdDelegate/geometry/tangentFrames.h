@@ -3,7 +3,7 @@
 
 #include "hdDelegate/geometry/triangleMesh.h"
 
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 namespace patina {
 

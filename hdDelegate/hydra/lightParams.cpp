@@ -6,7 +6,7 @@
 #include "hdDelegate/hydra/values.h"
 
 #include "materialNetwork/color/colorSpaces.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <pxr/imaging/hd/light.h>
 #include <pxr/imaging/hd/material.h>

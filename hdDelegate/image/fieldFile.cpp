@@ -3,7 +3,7 @@
 #include "hdDelegate/image/fieldGrid.h"
 
 #include "hdDelegate/image/fieldReader/fieldStream.h"
-#include "materialNetwork/regularFile.h"
+#include "base/regularFile.h"
 
 #include <algorithm>
 #include <cerrno>

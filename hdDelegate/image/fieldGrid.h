@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hdDelegate/scene/types.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 
 #include <memory>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/image/iesProfile.h"
 
-#include "materialNetwork/maths.h"
-#include "materialNetwork/regularFile.h"
+#include "base/maths.h"
+#include "base/regularFile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "hdDelegate/image/texelConversion.h"
 #include "hdDelegate/image/textureFile.h"
 #include "hdDelegate/parallel.h"
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 
 #include <algorithm>
 #include <atomic>

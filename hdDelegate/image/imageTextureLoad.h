@@ -3,7 +3,7 @@
 
 #include "hdDelegate/image/imageTexture.h"
 #include "materialNetwork/color/colorSpaces.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 
 #include <memory>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/image/textureFile.h"
 
-#include "materialNetwork/regularFile.h"
+#include "base/regularFile.h"
 
 #include <algorithm>
 

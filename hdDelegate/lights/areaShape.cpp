@@ -3,7 +3,7 @@
 
 #include "hdDelegate/lights/sphericalRect.h"
 #include "hdDelegate/scene/lightUnits.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "hdDelegate/lights/lightEmitter.h"
 
 #include "hdDelegate/scene/lightUnits.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

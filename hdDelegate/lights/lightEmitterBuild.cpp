@@ -4,8 +4,8 @@
 #include "hdDelegate/lights/lightEmitter.h"
 #include "hdDelegate/lights/lightImages.h"
 #include "hdDelegate/scene/lightUnits.h"
-#include "materialNetwork/diagnostics.h"
-#include "materialNetwork/maths.h"
+#include "base/diagnostics.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "hdDelegate/lights/lightImages.h"
 #include "hdDelegate/lights/resolvedLight.h"
 #include "hdDelegate/scene/lightUnits.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 
 #include <algorithm>
 #include <cmath>

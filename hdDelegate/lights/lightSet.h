@@ -5,7 +5,7 @@
 #include "hdDelegate/lights/lightImages.h"
 #include "hdDelegate/lights/lightTree.h"
 #include "hdDelegate/scene/light.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 
 #include <memory>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "hdDelegate/image/iesProfile.h"
 #include "hdDelegate/scene/light.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 #include "shaders/lights.h"
 
 #include <memory>

@@ -4,8 +4,8 @@
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
-#include "materialNetwork/diagnostics.h"
-#include "materialNetwork/maths.h"
+#include "base/diagnostics.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "hdDelegate/lights/skyDistribution.h"
 
 #include "hdDelegate/lights/cumulative.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

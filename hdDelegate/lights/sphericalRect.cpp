@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/lights/sphericalRect.h"
 
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hdDelegate/scene/geometry.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 #include "hdDelegate/scene/lightUnits.h"
 
 #include "hdDelegate/scene/motionSteps.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "hdDelegate/scene/material.h"
 #include "hdDelegate/scene/primMap.h"
 #include "hdDelegate/scene/sceneDelta.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 
 #include <cstdint>
 #include <memory>

@@ -3,8 +3,8 @@
 
 #include "hdDelegate/scene/geometry.h"
 #include "hdDelegate/scene/primMap.h"
-#include "materialNetwork/diagnostics.h"
-#include "materialNetwork/limits.h"
+#include "base/diagnostics.h"
+#include "base/limits.h"
 
 namespace patina {
 

@@ -2,7 +2,7 @@
 #include "materialNetwork/color/colorSpaces.h"
 
 #include "materialNetwork/color/colorSpacesBuiltin.h"
-#include "materialNetwork/regularFile.h"
+#include "base/regularFile.h"
 
 #include <algorithm>
 #include <cctype>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "materialNetwork/cpu/bsdf.h"
-#include "materialNetwork/cpu/hashedNumbers.h"
+#include "base/hashedNumbers.h"
 
 namespace patina {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "materialNetwork/cpu/hashedNumbers.h"
+#include "base/hashedNumbers.h"
 #include "shaders/shaders.h"
 
 namespace patina {

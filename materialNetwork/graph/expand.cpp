@@ -5,7 +5,7 @@
 #include "materialNetwork/network/geomprop.h"
 #include "materialNetwork/graph/graph.h"
 #include "materialNetwork/graph/simplify.h"
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 #include "materialNetwork/network/value.h"
 
 #include <deque>

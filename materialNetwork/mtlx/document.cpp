@@ -2,12 +2,12 @@
 #include "materialNetwork/mtlx/document.h"
 
 #include "materialNetwork/graph/expand.h"
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 #include "materialNetwork/mtlx/include.h"
 #include "materialNetwork/mtlx/parser.h"
 #include "materialNetwork/mtlx/upgrade.h"
 #include "materialNetwork/mtlx/xmlFile.h"
-#include "materialNetwork/regularFile.h"
+#include "base/regularFile.h"
 
 namespace patina {
 

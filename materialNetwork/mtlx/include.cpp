@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/mtlx/include.h"
 
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 #include "materialNetwork/mtlx/xmlFile.h"
-#include "materialNetwork/regularFile.h"
+#include "base/regularFile.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/mtlx/xmlFile.h"
 
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 
 #include <algorithm>
 

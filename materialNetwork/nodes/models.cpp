@@ -3,7 +3,7 @@
 
 #include "materialNetwork/mtlx/document.h"
 #include "materialNetwork/nodes/nodeTable.h"
-#include "materialNetwork/regularFile.h"
+#include "base/regularFile.h"
 
 #include <algorithm>
 #include <cstdlib>

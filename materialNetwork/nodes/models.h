@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 #include "materialNetwork/nodes/nodeDef.h"
 
 #include <map>

@@ -3,7 +3,7 @@
 
 #include "materialNetwork/cpu/bsdfBuilder.h"
 #include "materialNetwork/cpu/microsurface.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

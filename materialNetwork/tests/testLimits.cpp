@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 
 #include "materialNetwork/graph/expand.h"
 #include "materialNetwork/mtlx/document.h"

@@ -2,7 +2,7 @@
 // MaterialX documents that ask for more stack, memory or time than there is.
 #include "materialNetwork/tests/materialFixture.h"
 
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 #include "materialNetwork/mtlx/document.h"
 #include "materialNetwork/mtlx/xmlFile.h"
 #include "materialNetwork/nodes/nodeTable.h"

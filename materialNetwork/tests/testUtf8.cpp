@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages are UTF-8, whatever bytes a file holds.
-#include "materialNetwork/diagnostics.h"
-#include "materialNetwork/utf8.h"
+#include "base/diagnostics.h"
+#include "base/utf8.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The most that input may ask for in this process: the rows of materialNetwork/limits.def, and --limit NAME=VALUE."""
+"""The most that input may ask for in this process: the rows of base/limits.def, and --limit NAME=VALUE."""
 import argparse
 import functools
 import sys
 
-_TABLE = "materialNetwork/limits.def"
+_TABLE = "base/limits.def"
 
 
 @functools.lru_cache(maxsize=None)

@@ -616,7 +616,7 @@ def set_denoiser_library(path: str) -> None:
     """
 def set_limits(values: dict[str, int]) -> str:
     """
-    Gives limits of this process values, by their names in materialNetwork/limits.def; all others have their defaults again, or what the variable PATINA_LIMITS says. Input that was read before stays. Returns an empty text, or why nothing was changed.
+    Gives limits of this process values, by their names in base/limits.def; all others have their defaults again, or what the variable PATINA_LIMITS says. Input that was read before stays. Returns an empty text, or why nothing was changed.
     """
 def shader_text(path: str) -> str:
     """

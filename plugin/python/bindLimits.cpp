@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The most that input may ask for.
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -12,7 +12,7 @@ namespace patina {
 void bindLimits(py::module_& m) {
     m.def(
         "set_limits", &setLimits, py::arg("values"),
-        "Gives limits of this process values, by their names in materialNetwork/limits.def; all "
+        "Gives limits of this process values, by their names in base/limits.def; all "
         "others have their defaults again, or what the variable PATINA_LIMITS says. Input that was "
         "read before stays. Returns an empty text, or why nothing was changed.");
     m.def(
@@ -20,7 +20,7 @@ void bindLimits(py::module_& m) {
         [] {
             std::map<std::string, uint64_t> values;
 #define LIMIT(name, ...) values[#name] = limitOf(Limit::name);
-#include "materialNetwork/limits.def"
+#include "base/limits.def"
 #undef LIMIT
             return values;
         },

@@ -8,7 +8,7 @@
 #include "hdDelegate/lights/resolvedLight.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/scene.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

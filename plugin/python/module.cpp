@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/temporaryFailure.h"
-#include "materialNetwork/utf8.h"
+#include "base/utf8.h"
 
 #include <pybind11/pybind11.h>
 

@@ -4,14 +4,13 @@
 Seconds until the first image of one sample (Hydra's population and the building of acceleration structures
 are in it), until the image after a camera move, peak memory; and rays per second of an ambient occlusion frame:
 one camera ray and 16 cosine-distributed occlusion rays per hit, from the time of many samples less that of
-half as many. hdEmbree casts the same rays. Storm rasterizes through usdrecord's frame recorder, which also
-writes an image: its times are for orientation.
+half as many. hdEmbree casts the same rays. Storm draws the stage in UsdImagingGLEngine: its times are for
+orientation.
 """
 import argparse
 import json
 import os
 import statistics
-import subprocess
 import sys
 import tempfile
 
@@ -58,15 +57,16 @@ def measure(stage, renderer, size, samples, hits):
 
 def measure_storm(stage, size):
     """:returns: the same of Storm, without rays; None where it does not run"""
-    if not hydraBuild.xvfb() or not hydraBuild.has_qt():
+    if hydraBuild.missing_engine():
         return None
-    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "stormTimes.py")
-    command = hydraBuild.xvfb() + [hydraBuild.folder("python"), script, stage, str(size[0])]
-    process = subprocess.run(command, env=hydraBuild.environment(), capture_output=True, text=True, check=False)
+    process = hydraBuild.run_engine(stage, "--renderer", "HdStormRendererPlugin", "--camera", "/camera", "--size",
+                                    f"{size[0]}x{size[1]}", "--repeats", MOVES)
     if process.returncode != 0:
         print("Storm does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
         return None
-    return json.loads(process.stdout.strip().splitlines()[-1])
+    report = json.loads(process.stdout[process.stdout.index("{"):])
+    return {"first": report["seconds"]["first"], "moved": statistics.median(report["seconds"]["moved"]),
+            "memory": report["peakMemory"]}
 
 
 def _cell(value, unit):

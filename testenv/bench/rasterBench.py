@@ -4,12 +4,12 @@
 Seconds until the first image (reading the stage and building shaders are in it), after an edit of a material (of a light
 where a stage has no material) and after a camera move, each of one pass; then where they go: translating the stage, building
 buffers and shaders, ids and depths, shadow maps, shading, reading back. The driver's cache of shaders on disk is warm, unless
---cold. Storm draws through usdrecord's frame recorder, which also writes an image, and casts no shadows unless lights ask
-for them: its times are for orientation.
+--cold. Storm draws in UsdImagingGLEngine and casts no shadows unless lights ask for them: its times are for orientation.
 """
 import argparse
 import json
 import os
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -51,16 +51,18 @@ def measure(stage, size, edit, repeats, cold, backend):
     return found
 
 
-def measure_storm(stage, size, edit):
+def measure_storm(stage, size, edit, repeats):
     """:returns: the same of Storm, None where it does not run"""
-    if hydraBuild.missing() or not hydraBuild.xvfb() or not hydraBuild.has_qt():
+    if hydraBuild.missing() or hydraBuild.missing_engine():
         return None
-    command = hydraBuild.xvfb() + [hydraBuild.folder("python"), os.path.join(HERE, "stormTimes.py"), stage, str(size[0]),
-                                   CAMERA, edit]
-    found, why = _run(command, env=hydraBuild.environment())
-    if not found:
-        print("Storm does not run here: " + why, file=sys.stderr)
-    return found
+    process = hydraBuild.run_engine(stage, "--renderer", "HdStormRendererPlugin", "--camera", CAMERA, "--size",
+                                    f"{size[0]}x{size[1]}", "--repeats", repeats, "--edit", edit)
+    if process.returncode != 0:
+        print("Storm does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
+        return None
+    seconds = json.loads(process.stdout[process.stdout.index("{"):])["seconds"]
+    return {"first": seconds["open"] + seconds["first"], "edited": statistics.median(seconds["edited"]),
+            "moved": statistics.median(seconds["moved"])}
 
 
 def show(name, found):
@@ -92,7 +94,7 @@ def main(arguments):
     for name in options.stages or STAGES:
         stage = os.path.join(SCENES, name + ".usda")
         found = {"Patina": measure(stage, size, STAGES[name], max(1, options.repeats), options.cold, options.backend)}
-        storm = None if options.noStorm else measure_storm(stage, size, STAGES[name])
+        storm = None if options.noStorm else measure_storm(stage, size, STAGES[name], max(1, options.repeats))
         if storm:
             found["Storm"] = storm
         results[name] = found

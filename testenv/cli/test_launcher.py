@@ -11,7 +11,7 @@ import time
 import pytest
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(__file__), "..", ".."))
-FOLDERS = ("cmake", "shaders", "materialNetwork", "hdDelegate/scene/tests", "plugin/python")
+FOLDERS = ("cmake", "base", "shaders", "materialNetwork", "hdDelegate/scene/tests", "plugin/python")
 
 CMAKE = """#!/bin/sh
 echo "cmake $*" >> "$CALLS"

@@ -17,7 +17,7 @@ FUZZERS = {
                    ("hdDelegate/film/filmFile.cpp", "hdDelegate/film/filmStream.cpp", "hdDelegate/film/partial.cpp",
                     "hdDelegate/film/checkpoint.cpp")),
     "image": Fuzzer("native", "bytes as an image: its size, channels and metadata", 1, ("hdDelegate/film/readImage.cpp",
-                                                                                     "materialNetwork/utf8.cpp")),
+                                                                                     "base/utf8.cpp")),
     "stageReader": Fuzzer("python", "bytes as the choices that make a legal stage, which is read and not rendered", 2,
                           ("plugin/patina/stage/",)),
     "commandParser": Fuzzer("python", "bytes as the choices that make a command line, which is parsed and not run", 1,

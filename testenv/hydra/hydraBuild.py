@@ -27,8 +27,14 @@ def missing():
     return None
 
 
+def missing_engine():
+    """:returns: one line that says why there is no host with OpenGL, else None"""
+    host = _read().get("engineHost")
+    return None if host and os.path.exists(host) else "the host with OpenGL is not built: this OpenUSD has no UsdImagingGL"
+
+
 def folder(name):
-    """:param name: root, plugin, host or python, as the build wrote them down"""
+    """:param name: root, plugin, host, engineHost or python, as the build wrote them down"""
     return _read()[name]
 
 
@@ -76,6 +82,12 @@ def run_host(stage, *arguments, scene_index=False, check=True, **more):
     :returns: the finished process"""
     command = [folder("host"), str(stage), *map(str, arguments)] + (["--sceneIndex"] if scene_index else [])
     return _run(command, environment(scene_index, **more), check)
+
+
+def run_engine(stage, *arguments, **more):
+    """Runs engineHost: any renderer, with OpenGL. :param more: environment variables
+    :returns: the finished process, failed or not"""
+    return _run([folder("engineHost"), str(stage), *map(str, arguments)], environment(**more), False)
 
 
 def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=False, timeout=TIMEOUT,

@@ -8,7 +8,7 @@ import re
 import pytest
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
-ROOMS = ("hdDelegate", "materialNetwork", "plugin/hydra", "plugin/python", "plugin/patina", "shaders", "cmake")
+ROOMS = ("base", "hdDelegate", "materialNetwork", "plugin/hydra", "plugin/python", "plugin/patina", "shaders", "cmake")
 SUFFIXES = (".cpp", ".h", ".inc", ".def", ".glsl", ".py", ".ts", ".js", ".cmake", ".txt", ".in")
 
 # Page, what stands in the code for one row, and the files. Rows without anything that only they have.

@@ -8,7 +8,7 @@ import pytest
 
 import documents
 
-TOPS = ("shaders", "materialNetwork", "hdDelegate", "plugin", "testenv", "docs", "cmake")
+TOPS = ("base", "shaders", "materialNetwork", "hdDelegate", "plugin", "testenv", "docs", "cmake")
 ENDINGS = ("", ".h", ".cpp", ".py", ".glsl")
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/compiled/placements.h"
 
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/lights/prefilteredSky.h"
 
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 #include "shaders/lights.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "hdDelegate/raster/lights/rasterDomes.h"
 
 #include "hdDelegate/raster/lights/prefilteredSky.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 #include "shaders/lights.h"
 
 #include <algorithm>

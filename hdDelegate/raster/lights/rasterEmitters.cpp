@@ -5,7 +5,7 @@
 #include "hdDelegate/geometry/tangentFrames.h"
 #include "hdDelegate/parallel.h"
 #include "materialNetwork/cpu/programCode.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

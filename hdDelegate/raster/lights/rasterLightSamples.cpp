@@ -4,7 +4,7 @@
 #include "hdDelegate/raster/lights/lightChoice.h"
 #include "hdDelegate/raster/lights/rasterLights.h"
 #include "hdDelegate/raster/passes/passNumbers.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 #include "shaders/lights.h"
 
 #include <algorithm>

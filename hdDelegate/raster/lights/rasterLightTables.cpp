@@ -2,7 +2,7 @@
 #include "hdDelegate/raster/lights/rasterLightTables.h"
 
 #include "hdDelegate/lights/resolvedLight.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 #include "shaders/lights.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 
 #include "hdDelegate/lights/resolvedLight.h"
 #include "hdDelegate/scene/lightUnits.h"
-#include "materialNetwork/diagnostics.h"
-#include "materialNetwork/maths.h"
+#include "base/diagnostics.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

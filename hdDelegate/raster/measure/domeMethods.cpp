@@ -2,7 +2,7 @@
 #include "hdDelegate/raster/measure/domeMethods.h"
 
 #include "hdDelegate/film/sampler.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "hdDelegate/raster/measure/measuredSky.h"
 
 #include "hdDelegate/film/sampler.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <cmath>
 #include <functional>

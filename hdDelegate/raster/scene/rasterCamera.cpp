@@ -2,7 +2,7 @@
 #include "hdDelegate/raster/scene/rasterCamera.h"
 
 #include "hdDelegate/scene/lightUnits.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -3,7 +3,7 @@
 
 #include "hdDelegate/compiled/apertureShape.h"
 #include "hdDelegate/compiled/cameraFrame.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 
 #include <algorithm>
 #include <vector>

@@ -2,7 +2,7 @@
 #include "hdDelegate/raster/scene/rasterShapes.h"
 
 #include "hdDelegate/geometry/tangentFrames.h"
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "hdDelegate/image/textureSystem.h"
 #include "hdDelegate/raster/gl/glResources.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 #include "materialNetwork/glsl/glslTextures.h"
 
 #include <map>

@@ -3,7 +3,7 @@
 
 #include "hdDelegate/raster/lights/rasterLights.h"
 
-#include "materialNetwork/maths.h"
+#include "base/maths.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/scene/scene.h"
 
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 
 #include <gtest/gtest.h>
 

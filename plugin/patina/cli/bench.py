@@ -31,6 +31,8 @@ BENCHMARKS = {
     "rays": ("rayBench.py", "rays per second of a path traced frame, beside the same rays traced with nothing around"),
     "view": ("viewBench.py",
              "pages of `patina view` in headless Chromium: size, seconds to the first picture and to 64 samples"),
+    "viewport": ("viewportBench.py", "first images, and images after edits, in UsdImagingGLEngine; beside Storm, hdEmbree and "
+                                     "Cycles"),
 }
 
 

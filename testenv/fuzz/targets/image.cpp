@@ -2,7 +2,7 @@
 // Any bytes as an image: its size, channels and metadata, as commands show them. The formats' own
 // readers are OpenImageIO's.
 #include "hdDelegate/film/imageFile.h"
-#include "materialNetwork/utf8.h"
+#include "base/utf8.h"
 #include "testenv/fuzz/targets/memoryFile.h"
 #include "testenv/fuzz/targets/targets.h"
 

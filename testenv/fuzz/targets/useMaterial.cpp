@@ -2,7 +2,7 @@
 #include "testenv/fuzz/targets/useMaterial.h"
 
 #include "materialNetwork/cpu/materialProgram.h"
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 #include "materialNetwork/glsl/glslMaterial.h"
 #include "materialNetwork/glsl/glslWeb.h"
 #include "materialNetwork/material.h"

@@ -10,7 +10,7 @@ namespace patina {
 /// The most that input may ask for, see limits.def.
 enum class Limit {
 #define LIMIT(name, ...) name,
-#include "materialNetwork/limits.def"
+#include "base/limits.def"
 #undef LIMIT
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 
 #include <cstdint>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Only regular files of a bounded size are read.
-#include "materialNetwork/regularFile.h"
+#include "base/regularFile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "materialNetwork/limits.h"
+#include "base/limits.h"
 
 #include <array>
 #include <atomic>
@@ -18,7 +18,7 @@ struct Row {
 
 constexpr Row rows[] = {
 #define LIMIT(name, initial, least, most, ...) {#name, initial, least, most},
-#include "materialNetwork/limits.def"
+#include "base/limits.def"
 #undef LIMIT
 };
 constexpr size_t count = std::size(rows);

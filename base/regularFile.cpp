@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "materialNetwork/regularFile.h"
+#include "base/regularFile.h"
 
 #include <algorithm>
 #include <cerrno>

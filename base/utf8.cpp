@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "materialNetwork/utf8.h"
+#include "base/utf8.h"
 
 namespace patina {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "materialNetwork/diagnostics.h"
+#include "base/diagnostics.h"
 
-#include "materialNetwork/utf8.h"
+#include "base/utf8.h"
 
 namespace patina {
 

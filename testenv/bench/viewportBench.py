@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: Apache-2.0
+"""First images, and images after edits, in the host that usdview and usdrecord have: UsdImagingGLEngine with OpenGL.
+
+Patina's two back ends beside Storm and hdEmbree, each in a process of its own, of one sample or pass. A first image begins with
+the stage's file: opening it is in the time. Where Blender is installed, Cycles draws the made stage, too. Debian's Blender
+reads no USD, so its scene stands ready in memory and only its first image counts. hdEmbree shows neither materials nor lights.
+A stage of one's own needs a camera: FILE:CAMERA.
+"""
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path += [HERE, os.path.join(HERE, "..", "hydra")]
+
+import hydraBuild  # noqa: E402
+
+SCENES = os.path.normpath(os.path.join(HERE, "..", "scenes"))
+RENDERERS = {  # plugin, settings
+    "rasterizer": ("HdPatinaRendererPlugin", ("backend=raster", "samples=1")),
+    "path tracer": ("HdPatinaRendererPlugin", ("backend=embree", "samples=1")),
+    "Storm": ("HdStormRendererPlugin", ()),
+    "hdEmbree": ("HdEmbreeRendererPlugin", ("convergedSamplesPerPixel=1",)),
+}
+OWN = ("rasterizer", "path tracer")
+# Stage: camera, an edit of a material, one of a light; each ends at these numbers. Of testenv/scenes, but the first.
+MADE = "hundredTextures"
+STAGES = {
+    MADE: ("/camera", "/materials/m0/surface.roughness=0.6", "/lights/sky.intensity=1"),
+    "shaderball": ("/World/camera", "/World/materials/coat/surface.diffuseColor=0.55,0.1,0.1", ""),
+    "instances": ("/World/camera", "/World/materials/green/diffuse.color=0.1,0.3,0.1", ""),
+    "texturedMesh": ("/World/camera", "/World/materials/checker/surface.roughness=0.4", ""),
+    "manyLights": ("/World/camera", "", "/World/light0.intensity=200"),
+}
+ROWS = {"first": "first image", "material": "after an edit of a material", "light": "after an edit of a light",
+        "moved": "after a camera move"}
+
+
+def settings_of(options):
+    """:returns: what pathWorker.save() takes besides a scene"""
+    width, height = map(int, options.size.split("x"))
+    return {"width": width, "height": height, "depth": 8, "threads": 0}
+
+
+def made(folder, options):
+    """Writes the stage with a hundred textures. :returns: its file"""
+    import pathPatina
+    import pathScenes
+    import pathWorker
+
+    pathWorker.save(pathScenes.SCENES[MADE](folder), folder, settings_of(options))
+    return pathPatina.write(folder)[0]
+
+
+def host(stage, camera, renderer, options, edit="", image=""):
+    """:returns: the report of one process, None where the renderer does not run here"""
+    plugin, settings = RENDERERS[renderer]
+    flags = [word for setting in settings for word in ("--set", setting)] + (["--edit", edit] if edit else [])
+    with tempfile.TemporaryDirectory() as folder:
+        caches = {"PATINA_CACHE": folder, "MESA_SHADER_CACHE_DIR": folder} if options.cold else {}
+        process = hydraBuild.run_engine(stage, *([image] if image else []), "--renderer", plugin, "--camera", camera, "--size",
+                                        options.size, "--repeats", options.repeats, *flags, **caches)
+    if process.returncode != 0:
+        print(f"{renderer} does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
+        return None
+    return json.loads(process.stdout[process.stdout.index("{"):])
+
+
+def measure(name, stage, camera, edits, options):
+    """:returns: renderer -> seconds of each of ROWS that it was asked for, and peak memory"""
+    runs = {renderer: {} for renderer in RENDERERS}
+    for run in range(options.runs):
+        for renderer in list(runs):  # in turns
+            for kind, edit in edits.items():
+                image = os.path.join(options.images, f"{name} {renderer}.exr".replace(" ", "-")) if options.images else ""
+                report = host(stage, camera, renderer, options, edit, image if run == 0 else "")
+                if report is None:
+                    runs.pop(renderer)
+                    break
+                seconds, found = report["seconds"], runs[renderer]
+                found.setdefault("first", []).append(seconds["open"] + seconds["first"])
+                found.setdefault("memory", []).append(report["peakMemory"])
+                found.setdefault("moved", []).extend(seconds["moved"])
+                if edit:
+                    found.setdefault(kind, []).extend(seconds["edited"])
+    return {renderer: {key: statistics.median(values) for key, values in found.items()} for renderer, found in runs.items()}
+
+
+def cycles(folder, options):
+    """:returns: seconds of the first image of the made stage in Cycles, None without Blender"""
+    import pathBench
+
+    command = next((words for who, words in pathBench.peers().items() if who.startswith("Cycles")), None)
+    if not command:
+        return None
+    found = []
+    for _ in range(options.runs):
+        process = subprocess.run([*command, folder], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        lines = [line for line in process.stdout.splitlines() if line.startswith("path bench: ")]
+        if not lines:
+            print("Cycles does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
+            return None
+        found.append(json.loads(lines[0][len("path bench: "):])["first"])
+    return {"first": statistics.median(found)}
+
+
+def show(name, found):
+    """Prints a table of one stage. A ratio is that of one of Patina's back ends to a peer; below 1 it needs less."""
+    print(name)
+    for key, label in ROWS.items():
+        cells = [f"{renderer} {values[key]:.3f} s" for renderer, values in found.items() if key in values]
+        if len(cells) < 2:
+            continue
+        ratios = [f"{own} x{found[own][key] / values[key]:.2f} of {peer}" for own in OWN if key in found.get(own, {})
+                  for peer, values in found.items() if peer not in OWN and values.get(key)]
+        print(f"  {label:<28}" + ", ".join(cells) + ("   " + ", ".join(ratios) if ratios else ""))
+    print(f"  {'peak memory':<28}" + ", ".join(f"{renderer} {values['memory'] / 1e6:.0f} MB" for renderer, values in found.items()
+                                               if "memory" in values), flush=True)
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="patina bench viewport", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("stages", nargs="*", help=f"of {', '.join(STAGES)} (default: all), or FILE:CAMERA")
+    parser.add_argument("--size", default="640x360")
+    parser.add_argument("--runs", type=int, default=5, help="processes of each, of which medians are shown (default: 5)")
+    parser.add_argument("--repeats", type=int, default=5, help="moves and edits in each process (default: 5)")
+    parser.add_argument("--cold", action="store_true", help="begin with empty caches of shaders")
+    parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew last")
+    parser.add_argument("--json", help="writes the figures to this file")
+    options = parser.parse_args(arguments)
+    reason = hydraBuild.missing() or hydraBuild.missing_engine()
+    if reason:
+        print(reason)
+        return 0
+    if options.images:
+        os.makedirs(options.images, exist_ok=True)
+    results = {}
+    for wanted in options.stages or STAGES:
+        with tempfile.TemporaryDirectory() as folder:
+            if wanted in STAGES:
+                camera, material, light = STAGES[wanted]
+                name, stage = wanted, made(folder, options) if wanted == MADE else os.path.join(SCENES, wanted + ".usda")
+                edits = {kind: edit for kind, edit in (("material", material), ("light", light)) if edit}
+            elif ":" in wanted:
+                stage, camera = wanted.rsplit(":", 1)
+                name, edits = os.path.splitext(os.path.basename(stage))[0], {"": ""}
+            else:
+                parser.error(f"there is no stage {wanted}; a file needs a camera: FILE:CAMERA")
+            found = measure(name, stage, camera, edits, options)
+            peer = cycles(folder, options) if wanted == MADE else None
+            if peer:
+                found["Cycles"] = peer
+        results[name] = found
+        show(name, found)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump({"size": options.size, "cold": options.cold, "stages": results}, file, indent=1)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

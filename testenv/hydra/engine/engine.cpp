@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "testenv/hydra/engine/engine.h"
+
+#include "testenv/hydra/host/editScript.h"
+
+#include <pxr/imaging/glf/simpleLight.h>
+#include <pxr/imaging/glf/simpleMaterial.h>
+#include <pxr/imaging/hd/renderBuffer.h>
+#include <pxr/imaging/hd/tokens.h>
+#include <pxr/imaging/hdx/tokens.h>
+#include <pxr/usdImaging/usdImagingGL/engine.h>
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+namespace patina {
+
+Engine::Engine(const UsdStageRefPtr& stage, const EngineOptions& options) : _stage(stage) {
+    _engine = std::make_unique<UsdImagingGLEngine>(HdDriver(), TfToken(options.renderer), true);
+    if (_engine->GetCurrentRendererId() != TfToken(options.renderer))
+        throw std::runtime_error("the renderer " + options.renderer +
+                                 " is not found or does not start (see PXR_PLUGINPATH_NAME)");
+    _engine->SetEnablePresentation(false);
+    for (const std::string& setting : options.settings) {
+        const size_t equal = setting.find('=');
+        if (equal == std::string::npos)
+            throw std::runtime_error("--set needs KEY=VALUE, not " + setting);
+        _engine->SetRendererSetting(TfToken(setting.substr(0, equal)),
+                                    settingOf(setting.substr(equal + 1)));
+    }
+    _engine->SetRendererAov(HdAovTokens->color);
+    _engine->SetCameraPath(options.camera);
+    _engine->SetRenderBufferSize(GfVec2i(options.width, options.height));
+    _engine->SetFraming(CameraUtilFraming(GfRect2i(GfVec2i(0), options.width, options.height)));
+    _engine->SetLightingState(GlfSimpleLightVector(), GlfSimpleMaterial(), GfVec4f(0.0f));
+}
+
+Engine::~Engine() {
+    _engine.reset(); // while its context is current
+}
+
+void Engine::render() {
+    UsdImagingGLRenderParams params;
+    params.frame = UsdTimeCode::Default();
+    params.colorCorrectionMode = HdxColorCorrectionTokens->disabled;
+    params.showRender = true;
+    params.clearColor = GfVec4f(0.0f);
+    for (_engine->Render(_stage->GetPseudoRoot(), params); !_engine->IsConverged();
+         _engine->Render(_stage->GetPseudoRoot(), params))
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    HdRenderBuffer* buffer = _engine->GetAovRenderBuffer(HdAovTokens->color);
+    if (!buffer) throw std::runtime_error("there is no colour buffer");
+    buffer->Resolve();
+    if (!buffer->Map()) throw std::runtime_error("the colour buffer cannot be read");
+    buffer->Unmap();
+}
+
+void Engine::write(const std::string& file) {
+    HdRenderBuffer* buffer = _engine->GetAovRenderBuffer(HdAovTokens->color);
+    buffer->Resolve();
+    const int width = int(buffer->GetWidth()), height = int(buffer->GetHeight());
+    const HdFormat format = buffer->GetFormat();
+    const auto type = format == HdFormatUNorm8Vec4    ? OIIO::TypeDesc::UINT8
+                      : format == HdFormatFloat16Vec4 ? OIIO::TypeDesc::HALF
+                      : format == HdFormatFloat32Vec4 ? OIIO::TypeDesc::FLOAT
+                                                      : OIIO::TypeDesc::UNKNOWN;
+    if (type == OIIO::TypeDesc::UNKNOWN)
+        throw std::runtime_error("the colour buffer has an unknown format");
+    const OIIO::TypeDesc pixel(type);
+    const char* data = static_cast<const char*>(buffer->Map());
+    const auto out = OIIO::ImageOutput::create(file);
+    // Hydra's buffers begin below.
+    const OIIO::stride_t row = OIIO::stride_t(pixel.size()) * 4 * width;
+    const bool written =
+        data && out && out->open(file, OIIO::ImageSpec(width, height, 4, pixel)) &&
+        out->write_image(pixel, data + row * (height - 1), OIIO::AutoStride, -row) && out->close();
+    buffer->Unmap();
+    if (!written) throw std::runtime_error(file + " cannot be written");
+}
+
+} // namespace patina

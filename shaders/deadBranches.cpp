@@ -34,9 +34,12 @@ std::vector<std::string> wordsOf(const std::string& line) {
         const size_t begin = i;
         while (i < line.size() && isName(line[i]))
             ++i;
-        if (i > begin) words.push_back(line.substr(begin, i - begin));
-        else if (line[i] == ' ' || line[i] == '\t') ++i;
-        else break;
+        if (i > begin)
+            words.push_back(line.substr(begin, i - begin));
+        else if (line[i] == ' ' || line[i] == '\t')
+            ++i;
+        else
+            break;
     }
     words.resize(2);
     return words;

@@ -19,10 +19,11 @@ bool has(const std::string& text, const std::string& part) {
 } // namespace
 
 TEST(DeadBranches, NamesThatNobodyDefines) {
-    const std::string out = withoutDeadBranches("#define A 1\n"
-                                                "#ifdef A\nint a;\n#else\nint notA;\n#endif\n"
-                                                "#ifndef B\nint notB;\n#else\nint b;\n#endif\n"
-                                                "#undef A\n#ifdef A\nint again;\n#endif\nint end;\n");
+    const std::string out =
+        withoutDeadBranches("#define A 1\n"
+                            "#ifdef A\nint a;\n#else\nint notA;\n#endif\n"
+                            "#ifndef B\nint notB;\n#else\nint b;\n#endif\n"
+                            "#undef A\n#ifdef A\nint again;\n#endif\nint end;\n");
     EXPECT_TRUE(has(out, "int a;") && has(out, "int notB;") && has(out, "int end;"));
     EXPECT_FALSE(has(out, "int notA;") || has(out, "int b;") || has(out, "int again;"));
 }
@@ -37,9 +38,10 @@ TEST(DeadBranches, ConditionsInConditions) {
 
 // No expression is evaluated: what stands under one stays, and what it defines may be there.
 TEST(DeadBranches, ExpressionsAndNamesOfTheDriverStay) {
-    const std::string text = "#if N > 0\n#define M\nint n;\n#elif N < 0\nint less;\n#else\nint none;\n"
-                             "#endif\n#ifdef M\nint m;\n#else\nint notM;\n#endif\n"
-                             "#ifdef GL_ES\nint es;\n#else\nint notEs;\n#endif\n";
+    const std::string text =
+        "#if N > 0\n#define M\nint n;\n#elif N < 0\nint less;\n#else\nint none;\n"
+        "#endif\n#ifdef M\nint m;\n#else\nint notM;\n#endif\n"
+        "#ifdef GL_ES\nint es;\n#else\nint notEs;\n#endif\n";
     EXPECT_EQ(withoutDeadBranches(text), text);
     const std::string after = withoutDeadBranches("#ifdef A\nint a;\n#elif N\nint n;\n#endif\n");
     EXPECT_TRUE(has(after, "int n;"));
@@ -56,7 +58,8 @@ TEST(DeadBranches, LinesKeepTheirNumbers) {
 }
 
 TEST(DeadBranches, WhatTheyCallGoesWithThem) {
-    const std::string text = "float f() { return 1.0; }\nvoid main() {\n#ifdef A\n    f();\n#endif\n}\n";
+    const std::string text =
+        "float f() { return 1.0; }\nvoid main() {\n#ifdef A\n    f();\n#endif\n}\n";
     EXPECT_TRUE(has(patina::withoutUnusedFunctions(text), "float f()"));
     EXPECT_FALSE(has(patina::withoutUnusedFunctions(withoutDeadBranches(text)), "float f()"));
 }

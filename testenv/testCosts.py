@@ -29,16 +29,17 @@ def spent():
 
 
 @pytest.hookimpl(hookwrapper=True)
-def pytest_runtest_makereport(item, call):
-    began, item.costs_since = getattr(item, "costs_since", item.costs_since_start), spent()
+def pytest_runtest_protocol(item):
+    item.costs_since = spent()
+    yield
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport(item):
+    began, item.costs_since = item.costs_since, spent()
     report = (yield).get_result()
     report.user_properties = [*report.user_properties, (COST, item.costs_since - began),
                               (NAME, getattr(item, "manifest_name", item.nodeid))]
-
-
-@pytest.hookimpl(tryfirst=True)
-def pytest_runtest_setup(item):
-    item.costs_since_start = spent()
 
 
 class _Costs:

@@ -14,7 +14,8 @@ SHOWN = 12
 
 
 def pytest_addoption(parser):
-    parser.getgroup("patina").addoption("--costs", metavar="FILE", help="write the processor seconds of each test, dearest first")
+    parser.getgroup("patina").addoption("--costs", metavar="FILE",
+                                        help="write the processor seconds of each test, dearest first")
 
 
 def pytest_configure(config):
@@ -46,22 +47,28 @@ class _Costs:
     """Adds up what the reports of all processes say."""
 
     def __init__(self, file):
-        self.file, self.tests = file, {}  # name: seconds of setup, call and teardown
+        self.file = file
+        self.tests = {}  # name: processor's seconds by phase, and `wall`
 
     def pytest_runtest_logreport(self, report):
         properties = dict(report.user_properties)
         if COST in properties:
-            self.tests.setdefault(properties[NAME], {})[report.when] = properties[COST]
+            found = self.tests.setdefault(properties[NAME], {"wall": 0.0})
+            found[report.when] = properties[COST]
+            found["wall"] += report.duration
 
     def pytest_terminal_summary(self, terminalreporter):
         if not self.tests:
             return
         phases = ("setup", "call", "teardown")
-        rows = [(sum(found.values()), *(found.get(phase, 0.0) for phase in phases), name) for name, found in self.tests.items()]
+        rows = []
+        for name, found in self.tests.items():
+            parts = [found.get(phase, 0.0) for phase in phases]
+            rows.append((sum(parts), *parts, found["wall"], name))
         rows.sort(key=lambda row: (-row[0], row[-1]))
         if self.file:
             with open(self.file, "w", encoding="utf-8") as file:
-                file.write("\t".join(["seconds", *phases, "test"]) + "\n")
+                file.write("\t".join(["seconds", *phases, "wall", "test"]) + "\n")
                 file.writelines("\t".join([*(f"{value:.2f}" for value in row[:-1]), row[-1]]) + "\n" for row in rows)
         total = sum(row[0] for row in rows)
         terminalreporter.section("processor time")

@@ -37,7 +37,7 @@ def test_time_is_that_of_the_test_that_took_it(tmp_path, processes):
                           env=dict(os.environ, PYTHONPATH=TESTENV), capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stdout + done.stderr
     head, *rows = [line.split("\t") for line in (tmp_path / "costs.tsv").read_text().splitlines()]
-    assert head == ["seconds", "setup", "call", "teardown", "test"]
+    assert head == ["seconds", "setup", "call", "teardown", "wall", "test"]
     found = {row[-1].partition("::")[2]: dict(zip(head, map(float, row[:-1]))) for row in rows}
     assert len(found) == 5 and [row["seconds"] for row in found.values()] == sorted(
         (row["seconds"] for row in found.values()), reverse=True)

@@ -57,13 +57,18 @@ def made(folder, options):
 
 
 def host(stage, camera, renderer, options, edit="", image=""):
-    """:returns: the report of one process, None where the renderer does not run here"""
+    """:returns: the report of one process, None where the renderer does not run here or takes too long"""
     plugin, settings = RENDERERS[renderer]
     flags = [word for setting in settings for word in ("--set", setting)] + (["--edit", edit] if edit else [])
     with tempfile.TemporaryDirectory() as folder:
         caches = {"PATINA_CACHE": folder, "MESA_SHADER_CACHE_DIR": folder} if options.cold else {}
-        process = hydraBuild.run_engine(stage, *([image] if image else []), "--renderer", plugin, "--camera", camera, "--size",
-                                        options.size, "--repeats", options.repeats, *flags, **caches)
+        try:
+            process = hydraBuild.run_engine(stage, *([image] if image else []), "--renderer", plugin, "--camera", camera,
+                                            "--size", options.size, "--repeats", options.repeats, *flags,
+                                            timeout=options.limit, **caches)
+        except subprocess.TimeoutExpired:
+            print(f"{renderer} took more than {options.limit} s", file=sys.stderr)
+            return None
     if process.returncode != 0:
         print(f"{renderer} does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
         return None
@@ -129,6 +134,7 @@ def main(arguments):
     parser.add_argument("--size", default="640x360")
     parser.add_argument("--runs", type=int, default=5, help="processes of each, of which medians are shown (default: 5)")
     parser.add_argument("--repeats", type=int, default=5, help="moves and edits in each process (default: 5)")
+    parser.add_argument("--limit", type=float, default=300, help="seconds of a process, after which it is left out (300)")
     parser.add_argument("--cold", action="store_true", help="begin with empty caches of shaders")
     parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew last")
     parser.add_argument("--json", help="writes the figures to this file")

@@ -81,6 +81,8 @@ def measure(name, stage, camera, edits, options):
     for run in range(options.runs):
         for renderer in list(runs):  # in turns
             for kind, edit in edits.items():
+                if renderer == "hdEmbree" and kind and edit is not next(iter(edits.values())):
+                    continue  # it sees no edit; one process is enough for the camera
                 image = os.path.join(options.images, f"{name} {renderer}.exr".replace(" ", "-")) if options.images else ""
                 report = host(stage, camera, renderer, options, edit, image if run == 0 else "")
                 if report is None:
@@ -90,7 +92,7 @@ def measure(name, stage, camera, edits, options):
                 found.setdefault("first", []).append(seconds["open"] + seconds["first"])
                 found.setdefault("memory", []).append(report["peakMemory"])
                 found.setdefault("moved", []).extend(seconds["moved"])
-                if edit:
+                if edit and renderer != "hdEmbree":
                     found.setdefault(kind, []).extend(seconds["edited"])
     return {renderer: {key: statistics.median(values) for key, values in found.items()} for renderer, found in runs.items()}
 

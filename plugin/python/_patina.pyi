@@ -415,9 +415,9 @@ class MaterialProbe:
         ...
 class RasterProbe:
     """
-    A material at one shading point, computed by the rasterizer's driver from its GLSL. RuntimeError where there is no OpenGL.
+    A material at one shading point, computed by the rasterizer's driver from its GLSL. RuntimeError where there is no OpenGL. It uses the shader of one of `like` where only numbers differ.
     """
-    def __init__(self, network: Network, methods: dict[str, str] = {}) -> None:
+    def __init__(self, network: Network, methods: dict[str, str] = {}, like: list[RasterProbe] = []) -> None:
         ...
     def albedo(self, wo: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float32]:
         ...
@@ -430,6 +430,9 @@ class RasterProbe:
     def opacity(self, wo: typing.Sequence[float] = [0.0, 0.0, 1.0]) -> float:
         ...
     def sample(self, wo: numpy.typing.ArrayLike, u: numpy.typing.ArrayLike) -> dict[str, typing.Any]:
+        ...
+    @property
+    def shares_shader(self) -> bool:
         ...
     @property
     def warnings(self) -> list[typing.Any]:

@@ -13,6 +13,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <optional>
 
 namespace py = pybind11;
 
@@ -123,6 +125,26 @@ glm::vec3 meanAlbedo(Bsdf& bsdf) {
     return mean;
 }
 
+/// The lobes for one outgoing direction after the other: set up where it is not that of the row
+/// before.
+class LobesByRow {
+public:
+    explicit LobesByRow(const MaterialProbe& probe) : _probe(probe) {}
+
+    Bsdf& seenFrom(const glm::vec3& wo) {
+        if (_bsdf && std::memcmp(&wo, &_wo, sizeof wo) == 0) return *_bsdf;
+        _wo = wo;
+        _bsdf.emplace();
+        _probe.program->evaluate(_probe.seenFrom(wo), *_bsdf);
+        return *_bsdf;
+    }
+
+private:
+    const MaterialProbe& _probe;
+    glm::vec3 _wo{0.0f};
+    std::optional<Bsdf> _bsdf;
+};
+
 py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
     const size_t n = rows(wo, 3, "wo");
     sameRows(n, rows(wi, 3, "wi"));
@@ -131,9 +153,9 @@ py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
     float *values = f.mutable_data(), *densities = pdf.mutable_data();
     {
         py::gil_scoped_release release;
+        LobesByRow lobes(probe);
         for (size_t i = 0; i < n; ++i) {
-            Bsdf bsdf;
-            probe.program->evaluate(probe.seenFrom(row(outgoing, i)), bsdf);
+            Bsdf& bsdf = lobes.seenFrom(row(outgoing, i));
             const glm::vec3 direction = row(incoming, i);
             const BsdfEval e = meanEval(bsdf, direction);
             const float cosine = std::abs(direction.z);
@@ -155,9 +177,9 @@ py::dict sample(const MaterialProbe& probe, const Floats& wo, const Floats& u) {
     int* events = event.mutable_data();
     {
         py::gil_scoped_release release;
+        LobesByRow lobes(probe);
         for (size_t i = 0; i < n; ++i) {
-            Bsdf bsdf;
-            probe.program->evaluate(probe.seenFrom(row(outgoing, i)), bsdf);
+            Bsdf& bsdf = lobes.seenFrom(row(outgoing, i));
             const float* r = random + 4 * i;
             bsdf.seed(uint32_t(i));
             const BsdfSample s = bsdf.sample({r[0], r[1], r[2]}, r[3]);

@@ -32,12 +32,16 @@ struct RasterProbe {
     bool placed = false;
     glm::vec2 uv{0.0f};
 
-    RasterProbe(const Network& network, const MethodChoices& methods) {
+    RasterProbe(const Network& network, const MethodChoices& methods,
+                const std::vector<const RasterProbe*>& like) {
+        std::vector<const RasterBsdf*> others;
+        for (const RasterProbe* probe : like)
+            others.push_back(probe->bsdf.get());
         std::string error;
         {
             const py::gil_scoped_release release;
             bsdf = RasterBsdf::make(compileMaterial(network, textures, diagnostics, methods),
-                                    textures, diagnostics, error);
+                                    textures, diagnostics, error, others);
         }
         if (!bsdf) throw std::runtime_error(error);
     }
@@ -134,9 +138,12 @@ float opacity(const RasterProbe& probe, const std::array<float, 3>& wo) {
 void bindRasterBsdf(py::module_& m) {
     py::class_<RasterProbe>(m, "RasterProbe",
                             "A material at one shading point, computed by the rasterizer's driver "
-                            "from its GLSL. RuntimeError where there is no OpenGL.")
-        .def(py::init<const Network&, const MethodChoices&>(), py::arg("network"),
-             py::arg("methods") = MethodChoices())
+                            "from its GLSL. RuntimeError where there is no OpenGL. It uses "
+                            "the shader of one of `like` where only numbers differ.")
+        .def(py::init<const Network&, const MethodChoices&,
+                      const std::vector<const RasterProbe*>&>(),
+             py::arg("network"), py::arg("methods") = MethodChoices(),
+             py::arg("like") = std::vector<const RasterProbe*>())
         .def("eval", &eval, py::arg("wo"), py::arg("wi"))
         .def("sample", &sample, py::arg("wo"), py::arg("u"))
         .def("albedo", &albedo, py::arg("wo"))
@@ -149,6 +156,8 @@ void bindRasterBsdf(py::module_& m) {
                 probe.uv = {u, v};
             },
             py::arg("u"), py::arg("v"))
+        .def_property_readonly("shares_shader",
+                               [](const RasterProbe& p) { return p.bsdf->sharesShader(); })
         .def_property_readonly("warnings",
                                [](const RasterProbe& p) { return warningList(p.diagnostics); });
 }

@@ -47,9 +47,11 @@ PATINA_FN LayerLight layerProduct(LayerLight a, LayerLight b) {
 }
 
 // The outside of a lobe: alpha of its facets (1 for diffuse), cosine of wo, share that it passes.
-// Measured with a random walk between interfaces of ior 1.33 to 2 and metals.
+// Measured with a random walk between interfaces of ior 1.33 to 2 and metals. Shares of white lobes
+// are 1 but for the last digit, which must not make a weight negative, here and below.
 const float LAYER_SPREAD = 0.05f;
-PATINA_FN vec3 layerKinds(float alpha, float z, float passes) {
+PATINA_FN vec3 layerKinds(float alpha, float z, float share) {
+    float passes = clamp(share, 0.0f, 1.0f);
     if (!(alpha < 1.0f)) return vec3(0.0f, 1.0f - passes, passes);
     float a2 = alpha * alpha;
     float c = min(abs(z), 1.0f);
@@ -82,19 +84,20 @@ PATINA_FN vec3 layerInsideDielectric(float average, float ior, float invIor, flo
 PATINA_FN LayerLight layerThrough(float weight, vec3 coverage, vec3 inside, float alpha, float z,
                                   LayerLight base) {
     vec3 kinds = layerKinds(0.5f * alpha, z, 0.0f);
-    vec3 mirror = coverage * kinds.x + inside * kinds.y;
+    vec3 covered = min(coverage, vec3(1.0f));
+    vec3 mirror = min(covered * kinds.x + inside * kinds.y, vec3(1.0f));
     // Closures that are added may have an albedo above 1: what comes back is that of white ones, in the
     // same parts, so that no more leaves than the base has.
     vec3 whole = max(base.mirrored + base.spread, vec3(1.0f));
     vec3 again = (base.mirrored * mirror + base.spread * inside) / whole;
-    vec3 enters = (1.0f - coverage) / max(1.0f - again, vec3(1e-6f));
+    vec3 enters = (1.0f - covered) / max(1.0f - again, vec3(1e-6f));
     vec3 bare = vec3(1.0f - weight);
     return layerLight(bare + weight * enters * (1.0f - mirror), bare + weight * enters * (1.0f - inside),
                       bare + weight * enters);
 }
 // A top that sends nothing back: sheen, what is opaque, and where the model counts it already.
 PATINA_FN LayerLight layerPast(float weight, vec3 coverage) {
-    return layerEven(1.0f - weight * coverage);
+    return layerEven(max(1.0f - weight * coverage, vec3(0.0f)));
 }
 PATINA_FN LayerLight layerMix(LayerLight a, LayerLight b, float share) {
     return layerSum(layerScaled(a, vec3(share)), layerScaled(b, vec3(1.0f - share)));
@@ -120,7 +123,7 @@ PATINA_FN vec3 shareAverage(vec3 c) {
 
 // Transmittance of tops per channel, without the light that comes back.
 PATINA_FN vec3 passLobe(vec3 coverage, float weight) {
-    return 1.0f - weight * coverage;
+    return max(1.0f - weight * coverage, vec3(0.0f));
 }
 PATINA_FN vec3 passBeside(vec3 a, vec3 b) {
     return max(a + b - 1.0f, vec3(0.0f));

@@ -8,12 +8,25 @@ const int CLASSIC_BLINN_PHONG = 1;
 const int CLASSIC_WARD_BOUNDED = 2;
 const int CLASSIC_WARD_EXACT = 3;
 
+// Where mu lies between two nodes of the table. Smooth lobes reflect mu (Phong) and mu^2 (Blinn-Phong), and
+// cells are wide there: the fraction is that of mu or of mu^2, so that these are met between nodes too.
+PATINA_FN float classicFraction(int plane, float mu, int cell, float alpha) {
+    float low = tableMuAt(float(cell) / float(CLASSIC_MU - 1), alpha);
+    float high = tableMuAt(float(cell + 1) / float(CLASSIC_MU - 1), alpha);
+    float f = (mu - low) / max(high - low, TINY);
+    if (plane == CLASSIC_BLINN_PHONG) f *= (mu + low) / max(high + low, TINY);
+    return clamp(f, 0.0f, 1.0f);
+}
+
 PATINA_FN float classicAlbedo(int plane, float mu, float alpha) {
-    float tm = tableMuCoord(clamp(mu, 0.0f, 1.0f), alpha);
+    float z = clamp(mu, 0.0f, 1.0f);
+    float tm = tableMuCoord(z, alpha);
     float ta = tableAlphaCoord(alpha);
     int row = plane * CLASSIC_ALPHA + tableCell(ta, CLASSIC_ALPHA);
-    int i = CLASSIC_TABLE + row * CLASSIC_MU + tableCell(tm, CLASSIC_MU);
+    int cell = tableCell(tm, CLASSIC_MU);
+    int i = CLASSIC_TABLE + row * CLASSIC_MU + cell;
     float fm = tableFraction(tm, CLASSIC_MU);
+    if (plane <= CLASSIC_BLINN_PHONG) fm = classicFraction(plane, z, cell, alpha);
     float a = mix(albedoTableFetch(i), albedoTableFetch(i + 1), fm);
     float b = mix(albedoTableFetch(i + CLASSIC_MU), albedoTableFetch(i + CLASSIC_MU + 1), fm);
     return mix(a, b, tableFraction(ta, CLASSIC_ALPHA));

@@ -215,6 +215,18 @@ TEST(LobeAlbedo, EqualsTheMeanSampleWeight) {
                     b.measuredInside);
 }
 
+// Sharp lobes reflect mu (Phong) or mu^2 (Blinn-Phong) where the cells of the table are wide.
+TEST(LobeAlbedo, SharpClassicLobesAreKnownBetweenNodes) {
+    for (double n : {1e3, 1e4, 1e5})
+        for (int i = 1; i <= 40; ++i) {
+            const vec3 wo = direction(i / 40.0, 0.3);
+            for (const LobeCase& c : {PATINA_LOBE_CASE("phong", phong, vec3(1.0), n),
+                                      PATINA_LOBE_CASE("blinnPhong", blinnPhong, vec3(1.0), n)})
+                EXPECT_NEAR(c.f64.albedo(wo).x, sampledAlbedo(c.f64, wo, pointCount).x, 5e-3)
+                    << c.name << " " << n << " " << wo.z;
+        }
+}
+
 // Below ior 1 the reflectance jumps to 1 at a critical angle, which no sum of smooth curves
 // follows: 64 facets stand for all. Each of them is 1/64 of the light.
 TEST(LobeAlbedo, CookTorranceKnowsItsCriticalAngle) {

@@ -12,9 +12,9 @@ ROOT = os.path.normpath(os.path.join(FOLDER, "..", "..")) + os.sep
 # Scripts that search like fuzzers: what they try, and how they are run.
 OTHERS = {
     "randomGraphs": ("legal material graphs, evaluated in C++", "./patina python testenv/stability/randomGraphs.py --seed 1 "
-                                                                "--count 10000 --results"),
+                                                                "--count 1000000 --jobs 2 --results"),
     "randomGraphsRaster": ("legal material graphs in C++ and in GLSL, compared",
-                           "./patina python testenv/stability/randomGraphs.py --seed 1 --count 1000 --raster 1 --results"),
+                           "./patina python testenv/stability/randomGraphs.py --seed 1 --count 20000 --raster --results"),
     "racingEdits": ("random edits by two threads while the path tracer renders, under ThreadSanitizer, without Hydra",
                     "./patina python testenv/sanitizers/racingEdits.py --seconds 3600 --results"),
 }

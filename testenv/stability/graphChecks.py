@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks that hold for every material, whatever is in it: numbers at its worst places, from either back end."""
+import functools
+
 import numpy as np
 
 COSINES = (1.0, 0.7, 0.3, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0, -1e-7, -1e-3, -0.4, -1.0)
@@ -18,10 +20,12 @@ def direction(z, phi):
     return (s * np.cos(phi), s * np.sin(phi), z)
 
 
+@functools.lru_cache(maxsize=None)
 def directions(cosines=COSINES, turns=(0.0, 2.1)):
     return np.array([direction(z, phi) for z in cosines for phi in turns], dtype=np.float32)
 
 
+@functools.lru_cache(maxsize=None)
 def pairs():
     """:returns: outgoing and incoming directions: a grid, and exact opposites"""
     wo = directions()
@@ -30,6 +34,7 @@ def pairs():
     return np.concatenate([a, wo, wo]), np.concatenate([b, wo, -wo])
 
 
+@functools.lru_cache(maxsize=None)
 def randoms():
     ends = (0.0, 0.37, LAST)
     return np.array([(x, y, z, w) for x in ends for y in (0.0, 0.61, LAST) for z in (0.0, LAST) for w in (0.0, 0.5, LAST)],
@@ -85,10 +90,16 @@ def check(probe, graph, budget=BUDGET):
     return failures
 
 
-def _check_samples(probe, failures):
+@functools.lru_cache(maxsize=None)
+def draws():
+    """:returns: outgoing directions and random numbers at their ends"""
     u = randoms()
     wo = directions((1.0, 0.5, 1e-2, 1e-4, 1e-8, -1e-7, -0.6))
-    wo, u = np.repeat(wo, len(u), axis=0), np.tile(u, (len(wo), 1))
+    return np.repeat(wo, len(u), axis=0), np.tile(u, (len(wo), 1))
+
+
+def _check_samples(probe, failures):
+    wo, u = draws()
     s = probe.sample(wo, u)
     places = {"wo": wo, "u": u}
     failures.check(rows(bad(s["weight"])), "weight of a sample", places, s["weight"])
@@ -104,12 +115,20 @@ def check_density(probe):
 
     :returns: list of what failed
     """
-    failures = Failures()
     generator = np.random.default_rng(5)
     wo = np.repeat(directions((0.9, 0.4, 0.1, -0.5), (0.7,)), 64, axis=0)
     u = generator.random((len(wo), 4), dtype=np.float32)
     s = probe.sample(wo, u)
-    f, pdf = probe.eval(wo, s["wi"])
+    return same_density(wo, u, s, *probe.eval(wo, s["wi"]))
+
+
+def same_density(wo, u, s, f, pdf):
+    """:param s: samples that were drawn of wo with u
+    :param f: value of eval() for their directions
+    :param pdf: density of eval() for their directions
+    :returns: list of what failed
+    """
+    failures = Failures()
     drawn = (s["event"] != 0) & (s["event"] & DELTA == 0) & (np.maximum(s["pdf"], pdf) < NARROW)
     places = {"wo": wo, "wi": s["wi"], "u": u}
     far = np.abs(s["pdf"] - pdf) > 0.02 * pdf + 1e-5

@@ -50,6 +50,10 @@ VDFS = {
 BURLEY_GAIN = 1.56  # of a white lobe of roughness 1 at grazing angles: the model as it was published
 # Parts of graphs beside the tables: nodes that take the place of others, or stand between.
 MORE = ("dielectric_btdf", "thin_film_bsdf", "patina_dispersed_ior")
+# Methods that cost a graph tens to thousands of times the usual.
+SLOW = {("energyCompensation", "randomWalk"), ("layering", "positionFree"), ("directionalAlbedo", "quadrature"),
+        ("directionalAlbedo", "monteCarlo16"), ("directionalAlbedo", "monteCarlo64"), ("thinFilm", "spectral"),
+        ("sheen", "quadrature")}
 SIZES = {"float": 1, "vector2": 2, "vector3": 3, "color3": 3}
 
 
@@ -63,17 +67,23 @@ class Graph:
     bound: largest colour that any lobe may reach, added up where closures are added; infinite where colours are huge.
     loses: normals are mapped, so that light may be lost below the horizon.
     thin: light may pass straight through; then albedos are of what does not.
+    layered: a closure lies over another one.
     ward: the albedo of Ward's lobe is that of an isotropic one.
     """
 
-    def __init__(self, seed):
+    def __init__(self, seed, variant=0, prefix=""):
+        """:param variant: other than 0: the same nodes with other numbers, so that the text of their shader stays the same
+        where no number is folded away
+        :param prefix: of the names of nodes, so that a document can hold several graphs
+        """
         self.random = random.Random(seed)
         self.more = random.Random(f"more {seed}")  # of its own, so that what else a seed means stays
-        self.seed = seed
-        self.lines = []
+        self.others = random.Random(f"variant {variant} of {seed}") if variant else None
+        self.seed, self.variant, self.prefix = seed, variant, prefix
+        self.nodes = []  # category, type, name, and inputs: name -> (type, name of a node or '', value)
         self.kinds = []  # categories of closures in it
         self.count = 0
-        self.loses = self.thin = False
+        self.loses = self.thin = self.layered = False
         surface = {}
         bsdf, self.bound = self.bsdf(self.random.randint(1, 4))
         surface["bsdf"] = ("BSDF", bsdf, "")
@@ -88,17 +98,13 @@ class Graph:
         self.node("surfacematerial", "material", {"surfaceshader": ("surfaceshader", name, "")})
 
     def text(self):
-        return '<?xml version="1.0"?>\n<materialx version="1.39">\n' + "\n".join(self.lines) + "\n</materialx>\n"
+        return document(self.nodes)
 
     def node(self, category, kind, inputs):
         """:param inputs: name -> (type, name of a node or '', value)"""
-        name = f"n{self.count}" if kind != "material" else f"graph{self.seed}"
+        name = f"{self.prefix}n{self.count}" if kind != "material" else f"{self.prefix}graph{self.seed}"
         self.count += 1
-        self.lines.append(f'  <{category} name="{name}" type="{kind}">')
-        for key, (type_, source, value) in inputs.items():
-            given = f'nodename="{source}"' if source else f'value="{value}"'
-            self.lines.append(f'    <input name="{key}" type="{type_}" {given}/>')
-        self.lines.append(f"  </{category}>")
+        self.nodes.append((category, kind, name, inputs))
         return name
 
     @property
@@ -113,7 +119,15 @@ class Graph:
         def one():
             return self.random.choice(extremes) if chance < 0.4 else self.random.uniform(low, high)
         values = [one()] * SIZES[kind] if same else [one() for _ in range(SIZES[kind])]
-        return values
+        return [self.other(value, low, high, extremes) for value in values] if self.others else values
+
+    def other(self, value, low, high, extremes):
+        """:returns: a number in place of `value`. What graphs fold away or branch on, 0 and 1, stays"""
+        if value in (0.0, 1.0):
+            return value
+        if self.others.random() < 0.4:
+            return self.others.choice([extreme for extreme in extremes if extreme not in (0.0, 1.0)])
+        return self.others.uniform(low, high)
 
     def value(self, kind, low, high):
         """:returns: an input of a number: written, or connected to a pattern"""
@@ -224,10 +238,12 @@ class Graph:
             values = [float(x) for x in by[2].split(",")] if by[2] else [float("inf")]
             return self.node("multiply", "BSDF", {"in1": first, "in2": by}), bound * max(1.0, *values)
         if chance < 0.38:
+            self.layered = True
             return self.node("layer", "BSDF", {"top": first, "base": ("VDF", self.vdf(2), "")}), bound
         b, other = self.bsdf(depth - 1)
         second = ("BSDF", b, "")
         if chance < 0.68:
+            self.layered = True
             if self.more.random() < 0.1:
                 first = ("BSDF", self.filmed(first), "")
             return self.node("layer", "BSDF", {"top": first, "base": second}), max(bound, other)
@@ -258,12 +274,28 @@ class Graph:
         return self.node("mix", "VDF", {"fg": first, "bg": second, "mix": self.value("float", 0, 1)})
 
 
-def methods(seed, points):
+def document(nodes):
+    """:param nodes: of one graph or of several, as Graph has them
+    :returns: the text
+    """
+    lines = ['<?xml version="1.0"?>', '<materialx version="1.39">']
+    for category, kind, name, inputs in nodes:
+        lines.append(f'  <{category} name="{name}" type="{kind}">')
+        for key, (type_, source, value) in inputs.items():
+            given = f'nodename="{source}"' if source else f'value="{value}"'
+            lines.append(f'    <input name="{key}" type="{type_}" {given}/>')
+        lines.append(f"  </{category}>")
+    return "\n".join([*lines, "</materialx>", ""])
+
+
+def methods(seed, points, slow=1.0):
     """Methods forced for one graph in three: about a quarter of the choice points, at random.
 
     :param points: choice points as _patina.choice_points() gives them
+    :param slow: the share of methods in SLOW that are kept; the others give way to the default
     """
     generator = random.Random(seed * 7919 + 1)
     if generator.random() > 0.33:
         return {}
-    return {point: generator.choice(names)[0] for point, names in points if generator.random() < 0.25}
+    chosen = {point: generator.choice(names)[0] for point, names in points if generator.random() < 0.25}
+    return {point: name for point, name in chosen.items() if (point, name) not in SLOW or generator.random() < slow}

@@ -3,8 +3,12 @@
 `raster` there has both back ends compared."""
 import os
 import re
+import xml.etree.ElementTree as ElementTree
 from types import SimpleNamespace
 
+import graphText
+
+KINDS = {*graphText.BSDFS, *graphText.EDFS, *graphText.VDFS, *graphText.MORE}
 CORPUS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "corpus")
 EXPECTED = re.compile(r"<!-- expected: (.*) -->")
 
@@ -27,7 +31,12 @@ def read(path):
         text = file.read()
     found = EXPECTED.search(text)
     words = found.group(1).split() if found else []
-    expected, methods = SimpleNamespace(bound=1.0, loses=False, thin=False, ward=False), {}
+    nodes = [(node.tag, node.get("type"), node.get("name"), {
+        given.get("name"): (given.get("type"), given.get("nodename", ""), given.get("value", "")) for given in node})
+        for node in ElementTree.fromstring(text)]
+    kinds = [category for category, *_ in nodes]
+    expected, methods = SimpleNamespace(bound=1.0, loses=False, thin=False, ward=False, seed=1, nodes=nodes, kinds=[
+        kind for kind in kinds if kind in KINDS], layered="layer" in kinds), {}
     for word in words:
         name, equals, value = word.partition("=")
         if name == "bound":

@@ -76,6 +76,12 @@ def test_corpus(path):
     assert randomGraphs.failures(_patina, randomGraphs.load(_patina, text), expected, methods, raster) == []
 
 
+@pytest.mark.parametrize("path", kept.corpus(), ids=os.path.basename)
+def test_corpus_by_looks(path):
+    text, expected, methods = kept.read(path)
+    assert randomGraphs.look(_patina, randomGraphs.load(_patina, text), expected, methods)[0] == []
+
+
 def test_a_seed_is_a_text_for_ever():
     assert graphText.Graph(7).text() == graphText.Graph(7).text()
     assert len({graphText.Graph(seed).text() for seed in range(40)}) == 40

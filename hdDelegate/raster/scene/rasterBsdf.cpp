@@ -29,8 +29,10 @@ std::string shaderOf(const MaterialProgram& program, const GlslMaterial& glsl) {
 } // namespace
 
 struct RasterBsdf::Gpu {
-    std::unique_ptr<EglContext> context;
-    std::unique_ptr<GlProgram> program;
+    std::shared_ptr<EglContext> context;
+    std::string text; ///< that the program was compiled from
+    std::shared_ptr<GlProgram> program;
+    bool sharesShader = false;
     GlBuffer parameters, albedoTable;
     std::vector<std::shared_ptr<const GlTexture>> textures;
 };
@@ -39,16 +41,17 @@ RasterBsdf::RasterBsdf(std::unique_ptr<Gpu> gpu) : _gpu(std::move(gpu)) {}
 
 RasterBsdf::~RasterBsdf() {
     // Objects made with the context go before it.
-    const std::unique_ptr<EglContext> context = std::move(_gpu->context);
+    const std::shared_ptr<EglContext> context = _gpu->context;
     const EglContext::Use use(*context);
     _gpu.reset();
 }
 
 std::unique_ptr<RasterBsdf> RasterBsdf::make(std::shared_ptr<const MaterialProgram> program,
                                              const TextureSystem& textures,
-                                             Diagnostics& diagnostics, std::string& error) {
+                                             Diagnostics& diagnostics, std::string& error,
+                                             const std::vector<const RasterBsdf*>& like) {
     auto gpu = std::make_unique<Gpu>();
-    gpu->context = EglContext::create(error);
+    gpu->context = like.empty() ? EglContext::create(error) : like[0]->_gpu->context;
     if (!gpu->context) return nullptr;
     const EglContext::Use use(*gpu->context);
     if (!use.ok()) {
@@ -58,14 +61,22 @@ std::unique_ptr<RasterBsdf> RasterBsdf::make(std::shared_ptr<const MaterialProgr
     const GlslMaterial glsl = makeGlslMaterial(program->ir());
     for (const std::string& line : glsl.leftOut)
         diagnostics.warn("", "", line);
-    gpu->program =
-        GlProgram::make({{GL_COMPUTE_SHADER, "material", shaderOf(*program, glsl)}}, error);
+    gpu->text = shaderOf(*program, glsl);
+    for (const RasterBsdf* other : like)
+        if (other->_gpu->text == gpu->text) gpu->program = other->_gpu->program;
+    gpu->sharesShader = gpu->program != nullptr;
+    if (!gpu->sharesShader)
+        gpu->program = GlProgram::make({{GL_COMPUTE_SHADER, "material", gpu->text}}, error);
     if (!gpu->program) return nullptr;
     gpu->parameters = GlBuffer(glsl.parameters);
     gpu->albedoTable = GlBuffer(sh::ALBEDO_TABLE_SIZE * sizeof(float), patinaAlbedoTable);
     RasterTextures uploaded(textures, diagnostics, GL_RGBA32F);
     gpu->textures = uploaded.units(glsl.textures);
     return std::unique_ptr<RasterBsdf>(new RasterBsdf(std::move(gpu)));
+}
+
+bool RasterBsdf::sharesShader() const {
+    return _gpu->sharesShader;
 }
 
 std::vector<RasterBsdf::Answer> RasterBsdf::evaluate(const std::vector<Query>& queries,

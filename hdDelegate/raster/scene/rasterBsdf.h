@@ -32,12 +32,17 @@ public:
     };
 
     /// @param textures that the program was compiled with
+    /// @param like of one context, which is used again; so is the shader of one whose text is the
+    /// same, as it is where nothing but numbers differs
     /// @returns null with one line in `error` where there is no OpenGL, or the driver does not take
     /// the text
     static std::unique_ptr<RasterBsdf> make(std::shared_ptr<const MaterialProgram> program,
                                             const TextureSystem& textures, Diagnostics& diagnostics,
-                                            std::string& error);
+                                            std::string& error,
+                                            const std::vector<const RasterBsdf*>& like = {});
     ~RasterBsdf();
+
+    bool sharesShader() const; ///< none was compiled
 
     /// Answers all queries at once. `uv`, when given, is the value of every primvar of two floats,
     /// and with 0 as third coordinate the position.

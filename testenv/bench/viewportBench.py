@@ -125,7 +125,7 @@ def show(name, found):
         ratios = [f"{own} x{found[own][key] / values[key]:.2f} of {peer}" for own in OWN if key in found.get(own, {})
                   for peer, values in found.items() if peer not in OWN and values.get(key)]
         print(f"  {label:<28}" + ", ".join(cells) + ("   " + ", ".join(ratios) if ratios else ""))
-    memory = ", ".join(f"{renderer} {values['memory'] / 1e6:.0f} MB" for renderer, values in found.items() if "memory" in values)
+    memory = ", ".join(f"{who} {values['memory'] / 1e6:.0f} MB" for who, values in found.items() if "memory" in values)
     print(f"  {'peak memory':<28}{memory}", flush=True)
 
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/unusedFunctions.h"
 
+#include "shaders/glslText.h"
+
 #include <cctype>
 #include <map>
 #include <set>
@@ -19,40 +21,18 @@ struct Function {
     size_t begin, end; ///< in the text, from its return type to its closing brace
 };
 
-void blank(std::string& text, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i)
-        if (text[i] != '\n') text[i] = ' ';
-}
-
-/// Blanks comments.
-std::string withoutComments(std::string text) {
-    for (size_t i = 0; i + 1 < text.size(); ++i) {
-        if (text[i] != '/' || (text[i + 1] != '/' && text[i + 1] != '*')) continue;
-        const bool line = text[i + 1] == '/';
-        const size_t found = text.find(line ? "\n" : "*/", i + 2);
-        const size_t end = found == std::string::npos ? text.size() : found + (line ? 0 : 2);
-        blank(text, i, end);
-        i = end - 1;
-    }
-    return text;
-}
-
 /// Moves lines that begin with # from `code` to `directives`, in their places.
 void partDirectives(std::string& code, std::string& directives) {
     directives.assign(code.size(), ' ');
-    for (size_t at = 0; at < code.size();) {
-        size_t end = code.find('\n', at);
+    for (size_t at = 0, end; at < code.size(); at = end + 1) {
+        end = code.find('\n', at);
         if (end == std::string::npos) end = code.size();
         const size_t first = code.find_first_not_of(" \t", at);
         if (first < end && code[first] == '#') {
-            while (end < code.size() && code[end - 1] == '\\') { // goes on
-                end = code.find('\n', end + 1);
-                if (end == std::string::npos) end = code.size();
-            }
+            end = endOfLine(code, at);
             directives.replace(at, end - at, code, at, end - at);
             blank(code, at, end);
         }
-        at = end + 1;
     }
 }
 

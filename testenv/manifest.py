@@ -167,10 +167,16 @@ COSTLY = (
     "hdDelegate/raster/tests::testGlslAgreement::*",
     "hdDelegate/raster/tests::testGlslMaterial::*",
     "hdDelegate/raster/measure/tests::testDomeMethods::*",
+    "testenv/cli/test_chart.py::test_errors_of_pictures_are_those_of_the_table",
+    "testenv/cli/test_check.py::test_command",
     "testenv/cli/test_predictions.py::test_renders_tell_the_predicted_error[[]raster]",
     "testenv/raster/test_areaLights.py::test_outlines_keep_*",
     "testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]*",
     "testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last*",
+    "testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]manyDomes]",
+    "testenv/raster/test_places.py::test_a_caster_far_away_takes_no_shadow",
+    "testenv/raster/test_places.py::test_bumps_of_polygons_stand_in_the_world",
+    "testenv/render/test_instanceValues.py::test_the_rasterizer_shows_them_too",
     "testenv/view/test_planPanel.py::test_a_method_changes_the_picture_as_its_albedo_says",
 )
 

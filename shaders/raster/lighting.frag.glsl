@@ -138,7 +138,7 @@ vec3 along(MaterialSample s) {
             } else {
                 // The light's own sample tells how much of it the point sees.
                 vec3 there = l.sampled;
-                shadow = shadowAt(l, isAtPlace(l) ? normalize(there - point.position) : there);
+                shadow = shadowByMaps(l, isAtPlace(l) ? normalize(there - point.position) : there);
             }
         }
         float weight = l.weight * (delta ? 1.0 : heuristic(pdf, trustOf(kind) * density));

@@ -133,33 +133,43 @@ float skyReaches(vec3 wi) {
         m = skyCells[cell].worldToFibres;
         layer = skyCells[cell].fibreLayer;
     }
-    float seen = isInFront(false, skyMaps, m, layer, p, isTube() ? planeTowards(towards) : up, 3e-5);
-    if (seen == 0.0 || isTube()) return seen;
-    // These texels are wide: the plane of what is small or round reaches through what is near.
+    // These texels are wide: the plane of what is small or round reaches through what is near. So a point
+    // above the surface is compared too, without a plane. It is a loop since drivers copy a function to each of
+    // its calls.
     float texel = 2.0 / (float(textureSize(skyMaps, 0).x) * length(vec3(m[0].x, m[1].x, m[2].x)));
-    return isInFront(false, skyMaps, m, layer, point.position + up * (0.9 * texel), vec3(0.0), 3e-5);
+    vec3 n = isTube() ? planeTowards(towards) : up;
+    float seen = 1.0;
+    for (int i = 0; i < (isTube() ? 1 : 2) && seen > 0.0; ++i) {
+        seen = isInFront(false, skyMaps, m, layer, p, n, 3e-5);
+        p = point.position + up * (0.9 * texel);
+        n = vec3(0.0);
+    }
+    return seen;
 }
 
-// Share of the light's sample that arrives; the colour of shadows where it does not.
-vec3 shadowAt(Light l, vec3 wi) {
-    if (l.firstMap < 0) return vec3(1.0);
+// Share of a light's sample that arrives, by maps of its own; the colour of shadows where it does not.
+vec3 shadowByMaps(Light l, vec3 wi) {
     vec3 p = departure(wi);
-    if (l.maps == 0) return mix(l.shadowColor, vec3(1.0), skyReaches(wi));
     float away = isAtPlace(l) ? length(point.position - shadowOrigin(l)) : 1.0;
-    float seen = reaches(l, p);
-    if (seen < 1.0 && l.shadowDistance > 0.0) {
-        // The surface nearest to the light is further off than h where the point moved by h is lit.
-        int steps = l.shadowFalloff > 0.0 ? 8 : 1;
-        float start = l.shadowFalloff > 0.0 ? max(l.shadowDistance - l.shadowFalloff, 0.0) : l.shadowDistance;
-        float blocked = 0.0, last = 1.0 - seen, depth = 1.0;
-        for (int i = 0; i < steps; ++i) {
-            float h = steps > 1 ? mix(start, l.shadowDistance, (float(i) + 0.5) / float(steps)) : start;
-            float now = isAtPlace(l) && h >= away ? 0.0 : min(1.0 - reaches(l, p + wi * h), last);
+    // The surface nearest to the light is further off than h where the point moved by h is lit. The first step
+    // moves nothing.
+    int steps = l.shadowDistance <= 0.0 ? 0 : l.shadowFalloff > 0.0 ? 8 : 1;
+    float start = l.shadowFalloff > 0.0 ? max(l.shadowDistance - l.shadowFalloff, 0.0) : l.shadowDistance;
+    float h = 0.0, blocked = 0.0, last = 1.0, depth = 1.0;
+    for (int i = -1; i < steps && last > 0.0; ++i) {
+        float now = i >= 0 && isAtPlace(l) && h >= away ? 0.0 : min(1.0 - reaches(l, p + wi * h), last);
+        if (i >= 0) {
             blocked += (last - now) * depth;
             depth = steps > 1 ? pow(clamp((l.shadowDistance - h) / l.shadowFalloff, 0.0, 1.0), l.shadowGamma) : 0.0;
-            last = now;
         }
-        seen = 1.0 - blocked;
+        last = now;
+        h = steps > 1 ? mix(start, l.shadowDistance, (float(i) + 1.5) / float(steps)) : start;
     }
-    return mix(l.shadowColor, vec3(1.0), seen);
+    return mix(l.shadowColor, vec3(1.0), 1.0 - (steps > 0 ? blocked : last));
+}
+
+// The same for a light with maps of its own, of the sky, or with none.
+vec3 shadowAt(Light l, vec3 wi) {
+    if (l.firstMap < 0) return vec3(1.0);
+    return l.maps == 0 ? mix(l.shadowColor, vec3(1.0), skyReaches(wi)) : shadowByMaps(l, wi);
 }

@@ -57,13 +57,18 @@ def made(folder, options):
 
 
 def host(stage, camera, renderer, options, edit="", image=""):
-    """:returns: the report of one process, None where the renderer does not run here"""
+    """:returns: the report of one process, None where the renderer does not run here or takes too long"""
     plugin, settings = RENDERERS[renderer]
     flags = [word for setting in settings for word in ("--set", setting)] + (["--edit", edit] if edit else [])
     with tempfile.TemporaryDirectory() as folder:
         caches = {"PATINA_CACHE": folder, "MESA_SHADER_CACHE_DIR": folder} if options.cold else {}
-        process = hydraBuild.run_engine(stage, *([image] if image else []), "--renderer", plugin, "--camera", camera, "--size",
-                                        options.size, "--repeats", options.repeats, *flags, **caches)
+        try:
+            process = hydraBuild.run_engine(stage, *([image] if image else []), "--renderer", plugin, "--camera", camera,
+                                            "--size", options.size, "--repeats", options.repeats, *flags,
+                                            timeout=options.limit, **caches)
+        except subprocess.TimeoutExpired:
+            print(f"{renderer} took more than {options.limit} s", file=sys.stderr)
+            return None
     if process.returncode != 0:
         print(f"{renderer} does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
         return None
@@ -76,6 +81,8 @@ def measure(name, stage, camera, edits, options):
     for run in range(options.runs):
         for renderer in list(runs):  # in turns
             for kind, edit in edits.items():
+                if renderer == "hdEmbree" and kind and edit is not next(iter(edits.values())):
+                    continue  # it sees no edit; one process is enough for the camera
                 image = os.path.join(options.images, f"{name} {renderer}.exr".replace(" ", "-")) if options.images else ""
                 report = host(stage, camera, renderer, options, edit, image if run == 0 else "")
                 if report is None:
@@ -85,7 +92,7 @@ def measure(name, stage, camera, edits, options):
                 found.setdefault("first", []).append(seconds["open"] + seconds["first"])
                 found.setdefault("memory", []).append(report["peakMemory"])
                 found.setdefault("moved", []).extend(seconds["moved"])
-                if edit:
+                if edit and renderer != "hdEmbree":
                     found.setdefault(kind, []).extend(seconds["edited"])
     return {renderer: {key: statistics.median(values) for key, values in found.items()} for renderer, found in runs.items()}
 
@@ -118,8 +125,8 @@ def show(name, found):
         ratios = [f"{own} x{found[own][key] / values[key]:.2f} of {peer}" for own in OWN if key in found.get(own, {})
                   for peer, values in found.items() if peer not in OWN and values.get(key)]
         print(f"  {label:<28}" + ", ".join(cells) + ("   " + ", ".join(ratios) if ratios else ""))
-    print(f"  {'peak memory':<28}" + ", ".join(f"{renderer} {values['memory'] / 1e6:.0f} MB" for renderer, values in found.items()
-                                               if "memory" in values), flush=True)
+    memory = ", ".join(f"{who} {values['memory'] / 1e6:.0f} MB" for who, values in found.items() if "memory" in values)
+    print(f"  {'peak memory':<28}{memory}", flush=True)
 
 
 def main(arguments):
@@ -129,6 +136,7 @@ def main(arguments):
     parser.add_argument("--size", default="640x360")
     parser.add_argument("--runs", type=int, default=5, help="processes of each, of which medians are shown (default: 5)")
     parser.add_argument("--repeats", type=int, default=5, help="moves and edits in each process (default: 5)")
+    parser.add_argument("--limit", type=float, default=300, help="seconds of a process, after which it is left out (300)")
     parser.add_argument("--cold", action="store_true", help="begin with empty caches of shaders")
     parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew last")
     parser.add_argument("--json", help="writes the figures to this file")

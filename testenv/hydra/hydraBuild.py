@@ -84,10 +84,11 @@ def run_host(stage, *arguments, scene_index=False, check=True, **more):
     return _run(command, environment(scene_index, **more), check)
 
 
-def run_engine(stage, *arguments, **more):
+def run_engine(stage, *arguments, timeout=TIMEOUT, **more):
     """Runs engineHost: any renderer, with OpenGL. :param more: environment variables
-    :returns: the finished process, failed or not"""
-    return _run([folder("engineHost"), str(stage), *map(str, arguments)], environment(**more), False)
+    :returns: the finished process, failed or not
+    :raises subprocess.TimeoutExpired: after so many seconds"""
+    return _run([folder("engineHost"), str(stage), *map(str, arguments)], environment(**more), False, timeout)
 
 
 def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=False, timeout=TIMEOUT,

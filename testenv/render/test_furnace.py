@@ -44,7 +44,7 @@ def oren_nayar_albedo(cosine, roughness, color_value):
     return 2 * color_value * (a * 0.5 + b * oren_nayar_interreflection(round(float(cosine), 12)))
 
 
-@pytest.mark.parametrize("roughness", [0.0, 0.25, 0.5, 1.0])
+@pytest.mark.parametrize("roughness", [0.0, 0.5, 1.0])
 def test_diffuse_sphere_shows_its_albedo(tmp_path, roughness):
     image = tmp_path / "furnace.exr"
     record(scene("furnace"), image, "--imageWidth", SIZE, "--imageHeight", SIZE, "--samples", SAMPLES,

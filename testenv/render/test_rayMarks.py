@@ -160,7 +160,7 @@ def test_a_shadow_catcher_weighs_lights_by_what_they_give():
     other = SUN.replace("= 2", "= 1").replace('"sun"', '"other"').replace(
         "float inputs:angle", "bool inputs:shadow:enable = 0\n    float inputs:angle").replace(
         'def DistantLight "other"', 'def DistantLight "other" (\n    prepend apiSchemas = ["ShadowAPI"]\n)')
-    samples = 256
+    samples = 64
     caught = render(quad("floor", marks="bool primvars:patina:shadowCatcher = 1") + one + other +
                     quad("card", 1.0, marks="bool primvars:patina:visibility:camera = 0", **CARD), samples=samples)
     inside = caught["alpha"][MIDDLE]

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/raster/gl/glFaults.h"
 #include "hdDelegate/raster/gl/programCache.h"
+#include "shaders/deadBranches.h"
 #include "shaders/shaderText.h"
 #include "shaders/unusedFunctions.h"
 
@@ -23,7 +24,8 @@ std::string log(GLuint object, PFNGLGETSHADERIVPROC get, PFNGLGETSHADERINFOLOGPR
 /// The text as the driver gets it.
 ShaderText sourceOf(const GlStage& stage, std::string& error) {
     ShaderText source = flattenShader(stage.name, stage.text, error);
-    source.text = "#version 450 core\n#line 1 0\n" + withoutUnusedFunctions(source.text);
+    source.text =
+        "#version 450 core\n#line 1 0\n" + withoutUnusedFunctions(withoutDeadBranches(source.text));
     if (glFault("program") == stage.name) source.text += "#error asked for by PATINA_GL_FAULT\n";
     return source;
 }

@@ -7,6 +7,8 @@ the package. ./patina builds what is needed before.
   patina test --room shaders    the tests for a change to one room, within 3 minutes (with --tier full: all of the room)
   patina test -k furnace        further arguments go to pytest; named files and tests run whatever tier they are in
 
+The summary names the tests that took most of the processor's time; --costs FILE writes that of all.
+
 testenv/manifest.py says which tier and rooms a test belongs to. Several processes share the tests, at most five: as many as
 cores, or one more (`-n 0`: one).
 
@@ -56,8 +58,8 @@ def run(arguments):
     passed_on = [os.path.abspath(a) if _named(a) else a for a in arguments.passed_on]
     tier = arguments.tier or ("all" if any(map(_named, arguments.passed_on)) else "smoke" if arguments.room else "full")
     command = [sys.executable, "-m", "pytest", *_workers(passed_on, tier), "-q", "-ra", "-c",
-               os.path.join(testenv, "pytest.ini"),
-               "--rootdir", root, "-p", "testTiers", "--tier", tier, *_rooms(arguments.room, testenv), *passed_on]
+               os.path.join(testenv, "pytest.ini"), "--rootdir", root, "-p", "testTiers", "-p", "testCosts", "--tier", tier,
+               *_rooms(arguments.room, testenv), *passed_on]
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) == signal.SIG_IGN:  # as by nohup, and child processes inherit it
             signal.signal(number, signal.SIG_DFL)

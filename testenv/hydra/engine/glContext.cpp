@@ -3,10 +3,32 @@
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <GL/gl.h>
+#include <GL/glext.h>
 
 #include <stdexcept>
 
 namespace patina {
+
+namespace {
+
+/// Without windows there is no framebuffer, and some of Storm's draws go to the one that it found.
+void bindFramebuffer() {
+    const auto function = [](const char* name) { return eglGetProcAddress(name); };
+    unsigned int texture = 0, framebuffer = 0;
+    reinterpret_cast<PFNGLCREATETEXTURESPROC>(function("glCreateTextures"))(GL_TEXTURE_2D, 1,
+                                                                            &texture);
+    reinterpret_cast<PFNGLTEXTURESTORAGE2DPROC>(function("glTextureStorage2D"))(texture, 1,
+                                                                                GL_RGBA8, 1, 1);
+    reinterpret_cast<PFNGLCREATEFRAMEBUFFERSPROC>(function("glCreateFramebuffers"))(1,
+                                                                                    &framebuffer);
+    reinterpret_cast<PFNGLNAMEDFRAMEBUFFERTEXTUREPROC>(function("glNamedFramebufferTexture"))(
+        framebuffer, GL_COLOR_ATTACHMENT0, texture, 0);
+    reinterpret_cast<PFNGLBINDFRAMEBUFFERPROC>(function("glBindFramebuffer"))(GL_FRAMEBUFFER,
+                                                                              framebuffer);
+}
+
+} // namespace
 
 GlContext::GlContext() {
     const auto display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
@@ -25,6 +47,7 @@ GlContext::GlContext() {
     _context = eglCreateContext(_display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
     if (!_context || !eglMakeCurrent(_display, EGL_NO_SURFACE, EGL_NO_SURFACE, _context))
         throw std::runtime_error("EGL makes no context of OpenGL 4.5");
+    bindFramebuffer();
 }
 
 GlContext::~GlContext() {

@@ -3,6 +3,7 @@
 // how long images take: any renderer, in the same host, without windows.
 
 #include "testenv/hydra/engine/engine.h"
+#include "testenv/hydra/host/clock.h"
 
 #include <pxr/base/js/json.h>
 #include <pxr/base/tf/stringUtils.h>
@@ -11,7 +12,6 @@
 
 #include <sys/resource.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -35,19 +35,13 @@ const char* const usage =
     "  --edit PATH.INPUT=NUMBERS value of an input, of which each edit takes another share\n"
     "  --repeats N               moves, and edits (0)\n";
 
-class Clock {
-public:
-    /// Seconds since the last call.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - _last).count();
-        _last = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point _last = std::chrono::steady_clock::now();
-};
+double numberOf(const std::string& text) {
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (end == text.c_str() || *end != '\0')
+        throw std::runtime_error("'" + text + "' is no number");
+    return number;
+}
 
 struct CommandLine {
     std::string stage, image, edit;
@@ -74,7 +68,7 @@ CommandLine parse(int argc, char** argv) {
         else if (word == "--edit")
             line.edit = value;
         else if (word == "--repeats")
-            line.repeats = std::atoi(value.c_str());
+            line.repeats = int(numberOf(value));
         else if (word != "--size" ||
                  std::sscanf(value.c_str(), "%dx%d", &line.engine.width, &line.engine.height) != 2)
             throw std::runtime_error("engineHost does not understand " + word + " " + value + "\n" +
@@ -98,7 +92,7 @@ public:
                 prim.GetAttribute(TfToken("inputs:" + text.substr(dot + 1, equal - dot - 1)));
         if (!_attribute) throw std::runtime_error("there is no input " + text.substr(0, equal));
         for (const std::string& number : TfStringTokenize(text.substr(equal + 1), ","))
-            _numbers.push_back(std::atof(number.c_str()));
+            _numbers.push_back(numberOf(number));
     }
 
     void apply(double share) {

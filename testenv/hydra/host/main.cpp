@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // hydraHost: renders a stage through Hydra from the command line.
 
+#include "testenv/hydra/host/clock.h"
 #include "testenv/hydra/host/commandLine.h"
 #include "testenv/hydra/host/editScript.h"
 #include "testenv/hydra/host/report.h"
 
 #include <pxr/usd/usdGeom/camera.h>
 
-#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -15,20 +15,6 @@
 using namespace patina;
 
 namespace {
-
-/// Measures what happens between its calls.
-class Clock {
-public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - _last).count();
-        _last = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point _last = std::chrono::steady_clock::now();
-};
 
 /// Moves the camera a little, in the session layer.
 void moveCamera(const UsdStageRefPtr& stage, const SdfPath& path, int step) {

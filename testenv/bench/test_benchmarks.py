@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Benchmarks of a size that tells nothing but that they run, and what they make of the numbers they measure."""
+import argparse
 import json
 import math
 import shutil
@@ -12,6 +13,7 @@ import growthStages
 import inProcess
 import planBench
 import rayBench
+import viewportBench
 
 
 def found(bench, *arguments, folder):
@@ -88,3 +90,22 @@ def test_rays_of_a_frame_alone(tmp_path):
     assert row["intersect"] >= 16 * 9 * 2  # a ray of the camera for each sample
     assert row["occluded"] > 0 and 0 < row["hits"] <= row["intersect"] + row["occluded"]
     assert math.isfinite(row["frame"][0]) and row["bare"][0] > 0.0
+
+
+def test_viewport_leaves_out_what_does_not_run(monkeypatch, capsys):
+    """Storm does not run; hdEmbree, which sees no edit, is asked once and has no figure for one."""
+    asked = []
+
+    def host(stage, camera, renderer, options, edit="", image=""):
+        asked.append((renderer, edit))
+        return None if renderer == "Storm" else {
+            "peakMemory": 1e6, "seconds": {"open": 1.0, "first": len(asked), "moved": [2.0, 3.0], "edited": [4.0, 8.0]}}
+
+    monkeypatch.setattr(viewportBench, "host", host)
+    options = argparse.Namespace(runs=1, images=None)
+    found = viewportBench.measure("a", "a.usda", "/camera", {"material": "m", "light": "l"}, options)
+    assert [edit for renderer, edit in asked if renderer == "hdEmbree"] == ["m"] and "Storm" not in found
+    assert "material" not in found["hdEmbree"] and found["rasterizer"]["material"] == 6.0
+    assert found["rasterizer"]["first"] == 1.0 + 1.5  # of two processes, the median
+    viewportBench.show("a", found)
+    assert "hdEmbree" not in capsys.readouterr().out.split("edit of a material")[1].split("\n")[0]

@@ -80,9 +80,8 @@ def measure(name, stage, camera, edits, options):
     runs = {renderer: {} for renderer in RENDERERS}
     for run in range(options.runs):
         for renderer in list(runs):  # in turns
-            for kind, edit in edits.items():
-                if renderer == "hdEmbree" and kind and edit is not next(iter(edits.values())):
-                    continue  # it sees no edit; one process is enough for the camera
+            # hdEmbree sees no edit: one process is enough for the camera.
+            for kind, edit in list(edits.items())[:1 if renderer == "hdEmbree" else None]:
                 image = os.path.join(options.images, f"{name} {renderer}.exr".replace(" ", "-")) if options.images else ""
                 report = host(stage, camera, renderer, options, edit, image if run == 0 else "")
                 if report is None:

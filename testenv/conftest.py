@@ -7,6 +7,8 @@ import sys
 import pytest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+if os.environ.get("PATINA_BUILD_DIR"):  # tests run programs in other folders
+    os.environ["PATINA_BUILD_DIR"] = os.path.abspath(os.environ["PATINA_BUILD_DIR"])
 
 import googleTests  # noqa: E402
 

@@ -155,6 +155,17 @@ def test_it_is_found_through_a_link(checkout, tmp_path):
     assert process.stdout == "ran -m patina compare\n"
 
 
+def test_relative_folders_are_meant_from_where_it_is_called(checkout, tmp_path):
+    """Commands change folders themselves, and give the build's place to other processes."""
+    write(tmp_path / "tools" / "cmake", '#!/bin/sh\necho "cmake $*" >> "$CALLS"\n', program=True)
+    write(checkout.root / ".venv" / "bin" / "python",
+          PYTHON.replace('"ran $*"', '"$PATINA_BUILD_DIR:$PYTHONPATH"'), program=True)
+    process, calls = checkout.run("record", PATINA_BUILD_DIR=str(tmp_path / "other")[1:],
+                                  PATINA_VENV=str(checkout.root / ".venv")[1:])
+    assert process.stdout == f"{tmp_path}/other:{checkout.root}/plugin:{tmp_path}/other/python\n", process.stderr
+    assert f"cmake --build {tmp_path}/other" in builds(calls)[0]
+
+
 @pytest.mark.parametrize("command", ["compare", "chart"])
 def test_what_a_command_needs_is_installed_by_it(checkout, command):
     calls = checkout.run("record")[1]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded: the n-th call of a kind fails. Of calls that write, read or map, those on files below
-// a folder count; of those for memory, large ones. test_faults.py and faults.py build it.
+// a folder count; of those for memory, large ones. test_faults.py and faults.py build it. Where the
+// process dies afterwards, failNthDeath.h tells whose defect that is.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -19,6 +20,8 @@ static int failAt, count, problem;
 static char failed[32], trace[1 << 16], kind[16] = "write";
 static const size_t largePiece = 1 << 16;
 
+#include "failNthDeath.h"
+
 /// @param name write, read, map or memory
 void failNthKind(const char* name) {
     strncpy(kind, name, sizeof kind - 1);
@@ -32,6 +35,7 @@ void failNthBegin(const char* path, int at, int number) {
     problem = number;
     count = 0;
     failed[0] = trace[0] = 0;
+    if (at) watchForDeath();
 }
 /// @returns the functions that were called while none was to fail, one on a line
 const char* failNthTrace(void) {
@@ -46,6 +50,7 @@ static int countsCall(const char* name) {
     if (strlen(trace) + strlen(name) + 2 < sizeof trace) strcat(strcat(trace, name), "\n");
     if (++count != failAt) return 0;
     strcpy(failed, name);
+    askedDepth = backtrace(asked, deepest);
     errno = problem;
     return 1;
 }

@@ -2,6 +2,7 @@
 """Fuzzers that make an input from a seed, and run it in a process that may die (hand.py)."""
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import outcomes
 import shrink
 
 SHRINK_SECONDS = 60
+COUNTED = re.compile(r"^counted: (.+)$", re.MULTILINE)  # what an input has more of than itself, such as kills
 
 
 class Hand:
@@ -65,17 +67,22 @@ def outcome(hand, module, data, extension, seed=0):
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def run(module, seconds, seed, say):
-    """Runs a fuzzer for a time.
+def run(module, seconds, seed, say, inputs=None):
+    """Runs a fuzzer for a time, or a number of inputs.
 
     :param say: called with a line for each finding
-    :returns: dict of inputs, seconds, counts by kind, and findings: (kind, signature, data, error)"""
+    :param inputs: their number; None: as many as the time allows
+    :returns: dict of inputs, seconds, counts by kind, what an input holds several of (sums by name), and findings: (kind,
+        signature, data, error)"""
     hand, start, counts, findings, last = Hand(), time.monotonic(), {}, {}, seed
+    sums = {}
     try:
-        while time.monotonic() - start < seconds:
+        while time.monotonic() - start < seconds and (inputs is None or last - seed < inputs):
             data = module.make(last)
             kind, signature, answer = outcome(hand, module, data, module.EXTENSION, last)
             counts[kind] = counts.get(kind, 0) + 1
+            for name in COUNTED.findall(answer["error"]):
+                sums[name] = sums.get(name, 0) + 1
             if kind not in outcomes.GOOD and signature not in findings:
                 say(f"seed {last}: {signature}")
                 smaller = shrink.lines(data,
@@ -86,4 +93,5 @@ def run(module, seconds, seed, say):
         taken = time.monotonic() - start
     finally:
         hand.end()
-    return {"inputs": last - seed, "seconds": taken, "counts": counts, "findings": list(findings.values()), "lines": None}
+    return {"inputs": last - seed, "seconds": taken, "counts": counts, "sums": sums, "findings": list(findings.values()),
+            "lines": None}

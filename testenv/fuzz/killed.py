@@ -7,6 +7,7 @@ import json
 import os
 import random as randoms
 import signal
+import sys
 import time
 
 import outcomes
@@ -65,6 +66,8 @@ def _render(words, folder, seconds=None):
         time.sleep(0.0005)
     os.kill(process, signal.SIGKILL)
     state = os.waitpid(process, 0)[1]
+    if os.WIFSIGNALED(state):
+        print("counted: kills", file=sys.stderr)
     return None if os.WIFSIGNALED(state) else os.waitstatus_to_exitcode(state)
 
 

@@ -8,6 +8,7 @@ import sys
 import traceback
 
 BROKEN = 99  # exit status of an input that breaks a promise; the last line of standard error says which
+LIBRARY = 98  # of one that another library dies of, as it would without Patina
 KINDS = ("crash", "hang", "memory", "traceback", "promise")  # findings
 GOOD = ("fine", "message", "library")
 SENTINEL = b"an image that was there before\n"
@@ -102,6 +103,8 @@ def kind_of(answer):
         return "memory" if "bad_alloc" in text else "crash"
     if answer["status"] == BROKEN:
         return "promise"
+    if answer["status"] == LIBRARY:
+        return "library"
     if "Traceback (most recent call last)" in text or _UNFORESEEN.search(text):
         return "traceback"
     if "out of memory" in text or "bad_alloc" in text:
@@ -113,7 +116,7 @@ def kind_of(answer):
 
 def signature(kind, answer):
     """:returns: a text that is equal for findings of one cause, as far as can be told from outside"""
-    lines = [line for line in answer["error"].splitlines() if line.strip()]
+    lines = [line for line in answer["error"].splitlines() if line.strip() and not line.startswith("counted: ")]
     if kind == "crash":
         frames = [line for line in lines if line.lstrip().startswith("File ")]
         return f"signal {answer['signal']}" + (" " + frames[0].strip() if frames else "")

@@ -24,7 +24,7 @@ OTHERS = {
 KINDS = {
     "crash": "*crash*: the process died of a signal.",
     "hang": "*hang*: the process did not end within its time limit.",
-    "library": "*library*: another library failed, and fails without Patina too.",
+    "library": "*library*: another library failed, and fails without Patina too; or it died in the very call that failed.",
     "memory": "*memory*: the process ran out of memory.",
     "promise": "*promise*: a result breaks what Patina claims. An image holds NaN, say, an old image is lost, or back ends "
                "differ.",
@@ -40,7 +40,8 @@ def read(path=FILE):
 def row(machine, seed, found):
     """:param found: numbers of a run, as generated.run() and native.run() have them"""
     return {"machine": machine, "seed": seed, "inputs": found["inputs"], "seconds": round(found["seconds"], 1),
-            "counts": found["counts"], "lines": list(found["lines"]) if found.get("lines") else None,
+            "counts": found["counts"], **({"sums": found["sums"]} if found.get("sums") else {}),
+            "lines": list(found["lines"]) if found.get("lines") else None,
             "findings": [signature.replace(ROOT, "") for _, signature, *_ in found["findings"]]}
 
 
@@ -58,12 +59,14 @@ def sums(table):
     """:returns: dict of machine -> inputs, seconds, counts by kind, lines of the last run that has them, and findings"""
     found = {}
     for run in table["runs"]:
-        of = found.setdefault(run["machine"], {"inputs": 0, "seconds": 0.0, "counts": {}, "lines": None, "findings": []})
+        of = found.setdefault(run["machine"], {"inputs": 0, "seconds": 0.0, "counts": {}, "sums": {}, "lines": None,
+                                               "findings": []})
         of["inputs"] += run["inputs"]
         of["seconds"] += run["seconds"]
         of["lines"] = run["lines"] or of["lines"]
-        for kind, number in run["counts"].items():
-            of["counts"][kind] = of["counts"].get(kind, 0) + number
+        for key in ("counts", "sums"):
+            for kind, number in run.get(key, {}).items():
+                of[key][kind] = of[key].get(kind, 0) + number
         of["findings"] += [reason for reason in run["findings"] if reason not in of["findings"]]
     return found
 
@@ -84,6 +87,7 @@ def page():
             rows.append((f"`{name}`", what, "no run is noted", "", "", *[""] * len(kinds), f"`{command}`"))
             continue
         total, seconds = total + of["inputs"], seconds + of["seconds"]
+        what += "".join(f": {number:,} {name}" for name, number in sorted(of["sums"].items()))
         rows.append((f"`{name}`", what, f"{of['inputs']:,}", f"{of['seconds'] / 3600:.2f}",
                      f"{of['inputs'] / max(of['seconds'], 1e-3):.2g}" if of["inputs"] < 100 * of["seconds"] else
                      f"{of['inputs'] / max(of['seconds'], 1e-3):,.0f}",

@@ -28,6 +28,34 @@ def library(tmp_path_factory):
     return path
 
 
+CARELESS = """#include <stdlib.h>
+#include <string.h>
+char* take(void) { return malloc(1 << 20); }
+char* fill(char* piece) { return memset(piece, 1, 1 << 20); }
+void careless(void) { fill(take()); }
+"""
+
+
+@pytest.mark.parametrize("words, whose", [("taker.careless()", "a library died in the call that failed"),
+                                          ("user.fill(taker.take())", ""), ("print(taker.take())", "lives")])
+def test_a_library_that_dies_of_its_own_call_is_told_apart(words, whose, library, tmp_path):
+    """From a caller that hands on what it did not get."""
+    (tmp_path / "careless.c").write_text(CARELESS)
+    for name in ("taker", "user"):
+        subprocess.run([shutil.which("cc") or "gcc", "-shared", "-fPIC", "-O0", "-o", str(tmp_path / f"{name}.so"),
+                        str(tmp_path / "careless.c")], check=True)
+    code = ("import ctypes, sys\nf = ctypes.CDLL(sys.argv[1])\ntaker, user = map(ctypes.CDLL, sys.argv[2:])\n"
+            "taker.take.restype = user.fill.restype = ctypes.c_void_p\nuser.fill.argtypes = [ctypes.c_void_p]\n"
+            f"f.failNthKind(b'memory')\nf.failNthBegin(b'/', 1, 12)\n{words}\n")
+    done = subprocess.run([sys.executable, "-c", code, library, *(str(tmp_path / f"{name}.so") for name in ("taker", "user"))],
+                          capture_output=True, text=True, env=dict(os.environ, LD_PRELOAD=library))
+    if whose == "lives":
+        assert done.returncode == 0 and done.stdout == "None\n" and not done.stderr
+        return
+    assert done.returncode < 0 and "died after malloc failed, called by taker.so" in done.stderr, done.stderr
+    assert done.stderr.strip().endswith(whose or "in user.so"), done.stderr
+
+
 def told(library, tmp_path, outputs, number):
     """:returns: what became of a render with each call failing in turn, the last with none"""
     (tmp_path / "stage.usda").write_text(STAGE)

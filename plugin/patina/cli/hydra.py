@@ -39,7 +39,7 @@ def run(arguments):
 def _places():
     """:returns: (folder for PXR_PLUGINPATH_NAME, path of patinaHydraInfo)
     :raises CommandError: when there is no plugin"""
-    build = os.environ.get("PATINA_BUILD_DIR", "")
+    build = os.path.abspath(os.environ["PATINA_BUILD_DIR"]) if os.environ.get("PATINA_BUILD_DIR") else ""  # hosts run elsewhere
     # PREFIX/lib/patina/python/patina/cli/hydra.py of what `cmake --install` made
     prefix = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), *[".."] * 5))
     places = [(os.path.join(prefix, "plugin", "usd"), os.path.join(prefix, "bin", "patinaHydraInfo"))]

@@ -68,7 +68,12 @@ private:
             };
             try {
                 const Release release{_raster};
-                RenderLoop::prepareAndRender(state, camera);
+                try {
+                    RenderLoop::prepareAndRender(state, camera);
+                } catch (const DeviceError&) {
+                    throwIfLost();
+                    throw;
+                }
             } catch (const DeviceError& error) {
                 _deviceFailure = error.what();
                 release(); // another back end needs the memory
@@ -353,11 +358,14 @@ private:
             return !after.empty() && passes >= std::atoi(after.c_str());
         };
         bool full = asked("memory");
-        for (GLenum error; !full && (error = gl.GetError()) != GL_NO_ERROR;)
+        // Without a context there may be an error for ever.
+        bool lost = _context->lost() || asked("lost");
+        for (GLenum error; !full && !lost && (error = gl.GetError()) != GL_NO_ERROR;) {
             full = error == GL_OUT_OF_MEMORY;
+            lost = error == GL_CONTEXT_LOST;
+        }
         if (full) throw DeviceError("the driver is out of memory");
-        if (_context->lost() || asked("lost"))
-            throw DeviceError("the driver has reset the OpenGL context");
+        if (lost) throw DeviceError("the driver has reset the OpenGL context");
     }
 
     std::unique_ptr<EglContext> _context;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Calls that fail once: the n-th that writes an output (a full disk, a device that fails), maps or reads a file, or asks for a
-large piece of memory. The old image or the new one is there, whole, and the message is one line. Where another library dies
+large piece of memory; and contexts of OpenGL that are lost at the n-th call. The old image or the new one is there, whole, and the message is one line. Where another library dies
 in the very call that failed, Patina could not have known, and no promise is broken (failNthDeath.h)."""
 import errno
 import json
@@ -19,12 +19,12 @@ EXTENSION = ".json"
 LINES = False
 CPU_SECONDS = 300  # a driver in software compiles before it draws: with all AOVs for a minute and a half
 NUMBERS = {"write": ("ENOSPC", "EIO", "EDQUOT", "EROFS"), "read": ("EIO", "EMFILE"), "map": ("ENOMEM", "EACCES"),
-           "memory": ("ENOMEM",)}
+           "memory": ("ENOMEM",), "context": ("EIO",)}
 OUTPUTS = (("image.png",), ("image.exr",), ("image.exr", "--keepCheckpoint"),
            ("image.exr", "--part", "1/2", "--partial", "a.part"),
            ("image.tif", "--bits", "32"), ("image.exr", "--aov", "all"), ("image.exr", "--report", "a.html", "--json=b.json"))
 # Calls of each kind that a render makes after all is loaded; of memory the rasterizer's driver makes most
-CALLS = {"write": 520, "read": 300, "map": 3, "memory": 110}
+CALLS = {"write": 520, "read": 300, "map": 3, "memory": 110, "context": 12000}
 DRIVER_CALLS = 20000
 # What tells that a library cannot go on, and no caller could help it; the second is the dynamic linker's
 DIED = (b": a library died in the call that failed", b"cannot allocate memory for thread-local data: ABORT")
@@ -34,14 +34,17 @@ _library = []
 def make(seed):
     """:returns: the bytes of an input: what is rendered, which call fails, and with which error"""
     r = randoms.Random(seed)
-    kind = r.choice(("write", "write", "read", "map", "memory", "memory"))
+    kind = r.choice(("write", "write", "read", "map", "memory", "memory", "context"))
     output, backend = r.choice(OUTPUTS), r.choice(("embree", "embree", "raster"))
-    if "--part" in output:  # which the rasterizer refuses
+    if kind == "context":
+        output, backend = r.choice([words for words in OUTPUTS if "--part" not in words]), "raster"
+    elif "--part" in output:  # which the rasterizer refuses
         backend = "embree"
     most = DRIVER_CALLS if backend == "raster" and kind == "memory" and r.random() < 0.5 else CALLS[kind]
     return json.dumps({"output": output, "kind": kind, "error": r.choice(NUMBERS[kind]),
-                       "at": r.randint(1, 60 if kind == "write" and r.random() < 0.5 else most), "backend": backend},
-                      indent=1).encode() + b"\n"
+                       "at": r.randint(1, 60 if kind == "write" and r.random() < 0.5 else
+                                       300 if kind == "context" and r.random() < 0.5 else most),
+                       "backend": backend}, indent=1).encode() + b"\n"
 
 
 def library():
@@ -76,12 +79,17 @@ def execute(path, folder):
             "f.failNthWhich.restype = ctypes.c_char_p\nstatus = main.main(sys.argv[6:])\nwhich = f.failNthWhich().decode()\n"
             "f.failNthBegin(b'', 0, 0)\nprint('counted: failing calls' if which else '', file=sys.stderr)\n"
             "sys.stderr.flush()\nos._exit(status)\n")
+    environment = dict(os.environ, LD_PRELOAD=library())
+    if asked["kind"] == "context":
+        environment["PATINA_GL_FAULT"] = f"lostAtCall:{asked['at']}"
     done = subprocess.run([sys.executable, "-X", "faulthandler", "-c", code, library(), folder, asked["kind"], str(asked["at"]),
-                           str(getattr(errno, asked["error"])), *words], env=dict(os.environ, LD_PRELOAD=library()),
+                           str(getattr(errno, asked["error"])), *words], env=environment,
                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=outcomes.end_with_parent)
     # That memory is missing is what was asked for here, and to say so no finding.
     sys.stderr.buffer.write(done.stderr.replace(b"out of memory", b"the memory that fails").replace(b"bad_alloc", b"bad alloc"))
     sys.stderr.flush()
+    if b"has reset the OpenGL context" in done.stderr:
+        print("counted: lost contexts", file=sys.stderr)
     if b"\ndied after" in b"\n" + done.stderr:
         print("counted: failing calls", file=sys.stderr)
     if done.returncode and any(text in done.stderr for text in DIED):

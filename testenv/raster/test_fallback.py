@@ -25,7 +25,8 @@ def record(stage, image, *arguments, **environment):
     """:returns: the finished process, and what --json says"""
     report = str(image) + ".json"
     command = ["record", stage, str(image), *SIZE, "--json=" + report, *arguments]
-    if any(name.startswith("MESA_") for name in environment):  # Mesa reads its variables once
+    # Mesa reads its variables once, and the functions of OpenGL are loaded once.
+    if any(name.startswith("MESA_") for name in environment) or "lostAtCall" in environment.get("PATINA_GL_FAULT", ""):
         process = subprocess.run([sys.executable, "-m", "patina", *command], capture_output=True, text=True,
                                  env=dict(os.environ, **environment), check=False)
     else:
@@ -63,6 +64,8 @@ FAILS = {
     "lostBefore": ("lost:0", "has reset the OpenGL context"),
     "lostMidway": ("lost:2", "has reset the OpenGL context"),
     "outOfMemory": ("memory:1", "out of memory"),
+    # At any call of OpenGL: while programs are compiled, buffers are filled, passes are drawn.
+    **{f"lostAtCall{n}": (f"lostAtCall:{n}", "has reset the OpenGL context") for n in (20, 60, 100, 150, 200, 1000, 5000)},
 }
 
 

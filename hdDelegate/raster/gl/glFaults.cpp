@@ -2,6 +2,7 @@
 #include "hdDelegate/raster/gl/glFaults.h"
 
 #include "hdDelegate/raster/gl/deviceError.h"
+#include "hdDelegate/raster/gl/glFunctions.h"
 
 #include <cstdlib>
 #include <sstream>
@@ -16,6 +17,11 @@ std::string glFault(const std::string& kind) {
         if (fault.compare(0, kind.size() + 1, kind + ":") == 0)
             return fault.substr(kind.size() + 1);
     return std::string();
+}
+
+void throwIfLost() {
+    if (gl.GetGraphicsResetStatus() != GL_NO_ERROR)
+        throw DeviceError("the driver has reset the OpenGL context");
 }
 
 std::string oneLine(const std::string& log) {

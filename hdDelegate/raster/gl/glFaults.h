@@ -8,6 +8,7 @@ namespace patina {
 /// Faults that a test asks the driver for. The environment variable PATINA_GL_FAULT holds some of
 /// them, separated by commas:
 /// - `lost:N`        the context is lost once N passes are drawn (0: before the first)
+/// - `lostAtCall:N` the context is lost at the N-th call of OpenGL; read when the first one is made
 /// - `memory:N`      the driver is out of memory once N passes are drawn
 /// - `program:NAME`  a program whose first stage has that name does not compile (background,
 ///   shadow)

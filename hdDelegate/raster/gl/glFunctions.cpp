@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/gl/glFunctions.h"
 
+#include "hdDelegate/raster/gl/glFaults.h"
+#include "hdDelegate/raster/gl/lostContext.h"
+
 #include <EGL/egl.h>
+
+#include <cstdlib>
 
 namespace patina {
 
@@ -16,6 +21,8 @@ bool loadGlFunctions(std::string& error) {
     }
     PATINA_GL_FUNCTIONS(PATINA_GL_LOAD)
 #undef PATINA_GL_LOAD
+    const std::string losing = glFault("lostAtCall");
+    if (!losing.empty()) loseContextAtCall(std::atol(losing.c_str()));
     return true;
 }
 

@@ -175,6 +175,7 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
     RasterMaterial& m = cached.material;
     m.programs = cached.pending->programs;
     if (!m.programs) {
+        throwIfLost();
         _diagnostics.warn(key, "",
                           "the driver does not take the material's shader; displayColor is "
                           "shown: " +

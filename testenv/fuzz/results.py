@@ -17,6 +17,10 @@ OTHERS = {
                            "./patina python testenv/stability/randomGraphs.py --seed 1 --count 20000 --raster --results"),
     "racingEdits": ("random edits by two threads while the path tracer renders, under ThreadSanitizer, without Hydra",
                     "./patina python testenv/sanitizers/racingEdits.py --seconds 3600 --results"),
+    **{f"hydraEdits{kind.capitalize()}": (f"random edits of a stage through Hydra while the path tracer renders, under {name}: "
+                                          "half of them by the delegate, half by scene indices",
+                                          f"testenv/hydra/sanitize.sh {kind} 50000 build-{kind} --results")
+       for kind, name in (("address", "AddressSanitizer"), ("thread", "ThreadSanitizer"))},
 }
 
 
@@ -28,6 +32,7 @@ KINDS = {
     "memory": "*memory*: the process ran out of memory.",
     "promise": "*promise*: a result breaks what Patina claims. An image holds NaN, say, an old image is lost, or back ends "
                "differ.",
+    "report": "*report*: a sanitizer reported an error.",
     "traceback": "*traceback*: an exception that the command had not foreseen.",
 }
 

@@ -3,7 +3,11 @@
 # Builds the Hydra plugin and its tests with sanitizers and runs them: 10,000 random edits while rendering,
 # and everything that hosts do to a delegate. Each sanitizer has a build folder of its own.
 #
-#   testenv/hydra/sanitize.sh [address|thread|undefined|both] [EDITS] [BUILD_FOLDER]
+#   testenv/hydra/sanitize.sh [address|thread|undefined|both] [EDITS] [BUILD_FOLDER] [--results]
+#
+# The edits come in runs of 5,000 by the delegate and as many by scene indices, each with a seed of its own
+# from PATINA_HYDRA_SEED on (default 20240817). --results adds a row for each run to testenv/fuzz/results.json,
+# of which docs/trust.md is made (address and thread).
 #
 # Without arguments (or with "both"): AddressSanitizer, then ThreadSanitizer, in BUILD_FOLDER-address and
 # BUILD_FOLDER-thread. A summary ends the run: program, seconds, exit status, reports. The logs stay in the
@@ -16,6 +20,12 @@
 # host's; prims that sync side by side are those of testHydraCore.
 set -euo pipefail
 
+results=""
+words=()
+for word in "$@"; do
+    if [[ $word == --results ]]; then results=yes; else words+=("$word"); fi
+done
+set -- "${words[@]}"
 kinds=${1:-both}
 edits=${2:-10000}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
@@ -34,8 +44,24 @@ export LSAN_OPTIONS=suppressions=$supp/leak.supp:print_suppressions=0
 # glibc 2.36 (it dies after some 1500 threads): intercept_tls_get_addr=0.
 export TSAN_OPTIONS=suppressions=$supp/thread.supp:ignore_noninstrumented_modules=1:second_deadlock_stack=1:history_size=4:intercept_tls_get_addr=0
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
-export PATINA_HYDRA_EDITS=$edits
 
+# Runs a program of a build, and adds a line to the summary.
+runProgram() {
+    local program=$1 name=$2 code=0 start=$SECONDS reports deep log
+    log=$build/$name.log
+    # Slow, but without whole stacks leaks of OpenUSD's diagnostics are not known as such.
+    deep=$([[ $program == hydraEdits ]] && echo 1 || echo 0)
+    ASAN_OPTIONS=$ASAN_OPTIONS:fast_unwind_on_malloc=$deep \
+        "$build/tests/$program" 2>&1 | tee "$log" || code=${PIPESTATUS[0]}
+    reports=$(grep -cE '(ERROR|WARNING): [A-Za-z]+Sanitizer|runtime error:' "$log" || true)
+    summary+="$kind $name: $((SECONDS - start)) s, exit status $code, $reports reports"$'\n'
+    [[ $code == 0 && $reports == 0 ]] || status=1
+    [[ $program != hydraEdits || -z $results || $kind == undefined ]] ||
+        python3 "$root/testenv/hydra/editResults.py" "$kind" "$PATINA_HYDRA_SEED" "$PATINA_HYDRA_EDITS" \
+            "$((SECONDS - start))" "$code" "$log"
+}
+
+firstSeed=${PATINA_HYDRA_SEED:-20240817}
 status=0
 summary=""
 for kind in $kinds; do
@@ -56,17 +82,11 @@ for kind in $kinds; do
         continue
     fi
     [[ $kind == thread ]] && export PXR_WORK_THREAD_LIMIT=1 || unset PXR_WORK_THREAD_LIMIT
-    for program in testHydraCore hydraLifetime hydraEdits; do
-        log=$build/$program.log
-        start=$SECONDS
-        code=0
-        # Slow, but without whole stacks leaks of OpenUSD's diagnostics are not known as such.
-        deep=$([[ $program == hydraEdits ]] && echo 1 || echo 0)
-        ASAN_OPTIONS=$ASAN_OPTIONS:fast_unwind_on_malloc=$deep \
-            "$build/tests/$program" 2>&1 | tee "$log" || code=${PIPESTATUS[0]}
-        reports=$(grep -cE '(ERROR|WARNING): [A-Za-z]+Sanitizer|runtime error:' "$log" || true)
-        summary+="$kind $program: $((SECONDS - start)) s, exit status $code, $reports reports"$'\n'
-        [[ $code == 0 && $reports == 0 ]] || status=1
+    for program in testHydraCore hydraLifetime; do runProgram $program $program; done
+    seed=$firstSeed
+    for ((left = edits; left > 0; left -= 5000)); do
+        export PATINA_HYDRA_SEED=$((seed++)) PATINA_HYDRA_EDITS=$((left < 5000 ? left : 5000))
+        runProgram hydraEdits "hydraEdits$PATINA_HYDRA_SEED"
     done
 done
 printf '\n%s edits\n%s' "$edits" "$summary"

@@ -45,7 +45,7 @@ def once(program, seed):
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
     except subprocess.TimeoutExpired as error:
         return [("hang", f"seed {seed} does not end")], str(error)
-    found = {("race", f"{kind}: {where}") for kind, _, where in _REPORT.findall(done.stdout)}
+    found = {("report", f"{kind}: {where}") for kind, _, where in _REPORT.findall(done.stdout)}
     if not found and done.returncode:
         found = {("crash" if done.returncode < 0 else "promise", f"seed {seed} ends with {done.returncode}")}
     return sorted(found), done.stdout

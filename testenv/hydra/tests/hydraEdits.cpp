@@ -18,11 +18,9 @@ using namespace patina;
 
 namespace {
 
-constexpr uint32_t seed = 20240817;
-
-int editCount() {
-    const char* text = std::getenv("PATINA_HYDRA_EDITS");
-    return text ? std::atoi(text) : 400;
+int number(const char* variable, int otherwise) {
+    const char* text = std::getenv(variable);
+    return text ? std::atoi(text) : otherwise;
 }
 
 HostOptions optionsFor(bool sceneIndex) {
@@ -76,9 +74,10 @@ TEST_P(HydraEdits, EndLikeAFreshHost) {
     const UsdStageRefPtr stage = makeBaseStage();
     std::optional<Host> host;
     host.emplace(stage, optionsFor(GetParam()));
+    const uint32_t seed = uint32_t(number("PATINA_HYDRA_SEED", 20240817));
     RandomEdits edits(stage, *host, seed);
     Random pace(seed + 1);
-    const int count = editCount();
+    const int count = number("PATINA_HYDRA_EDITS", 400);
     // Differences are found near their cause, but most edits meet a render that goes on.
     const int between = std::max(count / 40, 10);
     std::string recent;

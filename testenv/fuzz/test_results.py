@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rows of the table of runs say what the runs said."""
+import json
+import os
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[1:1] = [HERE, os.path.join(HERE, "..", "hydra")]
+
+import editResults  # noqa: E402
+import results  # noqa: E402
+
+RACE = """WARNING: ThreadSanitizer: data race (pid=7)
+  Write of size 8 at 0x7b0400001f40 by main thread:
+SUMMARY: ThreadSanitizer: data race /some/where/film.cpp:12 in patina::Film::add
+"""
+FAILURE = "edited and fresh host differ after 125 edits, the last of them moves\n"
+
+
+def test_edits_through_hydra():
+    for status, log, counts, findings in (
+            (0, "[  PASSED  ] 2 tests.\n", {"fine": 200}, []),
+            (66, RACE + RACE, {"report": 2, "fine": 1}, ["data race film.cpp:12 in patina::Film::add"]),
+            (1, FAILURE, {"promise": 1, "fine": 199}, ["seed 3 ends with 1"]),
+            (139, "", {"crash": 1, "fine": 0}, ["seed 3 ends with 139"])):
+        row = editResults.row("thread", 3, 100, 5.0, status, log)
+        assert row["machine"] in results.OTHERS and row["counts"] == counts and row["findings"] == findings
+        assert set(counts) <= set(results.KINDS) | {"fine"}
+
+
+def test_a_row_is_added_and_summed(tmp_path):
+    table = tmp_path / "table.json"
+    table.write_text(json.dumps({"runs": [], "mended": [], "mistakes": [], "known": ["a gap"]}))
+    found = {"inputs": 2, "seconds": 3.0, "counts": {"fine": 2}, "sums": {"kills": 5}, "findings": []}
+    for _ in range(2):
+        results.append([results.row("killed", 1, found)], str(table))
+    read = results.read(str(table))
+    assert read["known"] == ["a gap"]
+    killed = results.sums(read)["killed"]
+    assert killed["inputs"] == 4 and killed["sums"] == {"kills": 10} and killed["counts"] == {"fine": 4}

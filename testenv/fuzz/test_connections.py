@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Commands that read a stage or a document call no other machine, whatever addresses these name."""
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+pytest.importorskip("_patina")
+pytest.importorskip("pxr.Usd")
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+STAGE = """#usda 1.0
+(
+    subLayers = [@http://example.org/layer.usda@]
+)
+def Camera "camera"
+{
+    double3 xformOp:translate = (0, 0, 6)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def DomeLight "dome"
+{
+    asset inputs:texture:file = @https://example.org/sky.exr@
+}
+def SphereLight "lamp"
+{
+    asset inputs:shaping:ies:file = @//example.org/lamp.ies@
+}
+def "many" (
+    prepend references = @http://example.org/many.usd@</many>
+    prepend payload = @ftp://example.org/more.usdz@
+)
+{
+}
+def Sphere "ball" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{
+    rel material:binding = </look>
+}
+def Material "look"
+{
+    token outputs:surface.connect = </look/s.outputs:surface>
+    def Shader "s"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        token outputs:surface
+        color3f inputs:diffuseColor.connect = </look/t.outputs:rgb>
+    }
+    def Shader "t"
+    {
+        uniform token info:id = "UsdUVTexture"
+        asset inputs:file = @https://example.org/color.<UDIM>.png@
+        color3f outputs:rgb
+    }
+}
+"""
+DOCUMENT = """<?xml version="1.0"?>
+<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">
+  <xi:include href="http://example.org/more.mtlx"/>
+  <image name="i" type="color3"><input name="file" type="filename" value="http://example.org/a.png"/></image>
+  <standard_surface name="s" type="surfaceshader"><input name="base_color" type="color3" nodename="i"/></standard_surface>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+</materialx>
+"""
+COMMANDS = {
+    "record": ("record", "shot.usda", "image.exr", "--camera", "/camera", "-w", "16", "--samples", "1", "--report",
+               "report.html", "--threads", "1"),
+    "raster": ("record", "shot.usda", "image.png", "--camera", "/camera", "-w", "16", "--samples", "1", "--backend", "raster"),
+    "explain": ("explain", "shot.usda"), "explainDocument": ("explain", "look.mtlx"), "check": ("check", "look.mtlx"),
+    "bsdf": ("bsdf", "albedo", "look.mtlx"), "bake": ("bake", "look.mtlx", "baked.usda", "--to", "UsdPreviewSurface", "--resolution", "8"),
+    "shader": ("shader", "look.mtlx", "--target", "glsl"),
+}
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    compiler = shutil.which("cc") or shutil.which("gcc")
+    if not compiler:
+        pytest.skip("no C compiler to build the library that refuses connections")
+    path = str(tmp_path_factory.mktemp("preload") / "connections.so")
+    subprocess.run([compiler, "-shared", "-fPIC", "-o", path, os.path.join(HERE, "connections.c")], check=True)
+    return path
+
+
+def run(library, folder, *words):
+    environment = dict(os.environ, LD_PRELOAD=library, PYTHONPATH=os.pathsep.join(path for path in sys.path if path))
+    return subprocess.run([sys.executable, *words], cwd=folder, env=environment, text=True, capture_output=True, timeout=600)
+
+
+def test_a_connection_is_noticed(library, tmp_path):
+    done = run(library, tmp_path, "-c", "import socket; socket.create_connection(('127.0.0.1', 9))")
+    assert done.returncode < 0 and "a connection was tried" in done.stderr
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_no_connection_is_opened(name, library, tmp_path):
+    (tmp_path / "shot.usda").write_text(STAGE)
+    (tmp_path / "look.mtlx").write_text(DOCUMENT)
+    done = run(library, tmp_path, "-m", "patina", *COMMANDS[name])
+    assert done.returncode == 0 and "a connection was tried" not in done.stderr, done.stderr
+    assert "No module" not in done.stderr and "usage:" not in done.stderr and "Traceback" not in done.stderr, done.stderr

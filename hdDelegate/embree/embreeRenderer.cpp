@@ -180,7 +180,15 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     _spent.clear();
     constexpr int maxThreads = 4096;
     Arena arena(std::min(_settings.threads, maxThreads));
-    arena.execute([&] { updateScene(state, camera); });
+    try {
+        arena.execute([&] { updateScene(state, camera); });
+    } catch (...) { // for want of memory, say: what is half made is made anew by the next render
+        _builtBefore = buildCounts();
+        _lights.reset();
+        _embree.reset();
+        _compiled.reset();
+        throw;
+    }
     if (stopped()) return;
     ScenePlan plan = _embree->plan();
     plan.addPaths(_settings);

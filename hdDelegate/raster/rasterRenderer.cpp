@@ -79,6 +79,9 @@ private:
                 release(); // another back end needs the memory
                 _compiler.reset();
                 throw;
+            } catch (...) { // what is half made is made anew by the next render
+                release();
+                throw;
             }
         } catch (const DeviceError& error) {
             blameDevice();

@@ -88,7 +88,8 @@ def make(seed):
                        "backend": r.choice(("embree", "embree", "raster"))}, indent=1).encode() + b"\n"
 
 
-def _write_all(folder):
+def write_all(folder):
+    """Puts a stage with all that it reads into a folder."""
     balls = "".join(f'    def Sphere "s{i}"\n    {{\n        double radius = 0.0{i % 9 + 1}\n    }}\n' for i in range(400))
     for name, text in (("shot.usda", STAGE), ("layer.usda", LAYER % balls), ("look.mtlx", LOOK), ("lamp.ies", (
             "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 2 1 1 0 0 0\n1 1 1\n0 45 90\n0 360\n1 2 3\n4 5 6\n"))):
@@ -132,7 +133,7 @@ def execute(path, folder):
     """Renders while files change, in a process that may die. :returns: its exit status"""
     with open(path, encoding="utf-8") as file:
         asked = json.load(file)
-    _write_all(folder)
+    write_all(folder)
     whole = {}
     for name in FILES:
         with open(os.path.join(folder, name), "rb") as file:

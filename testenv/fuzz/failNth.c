@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded: the n-th call of a kind fails. Of calls that write, read or map, those on files below
-// a folder count; of those for memory, large ones. test_faults.py and faults.py build it. Where the
-// process dies afterwards, failNthDeath.h tells whose defect that is.
+// a folder count; of those for memory, large ones, or all that Patina's own C++ makes.
+// test_faults.py and faults.py build it. Where the process dies afterwards, failNthDeath.h tells
+// whose defect that is.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -22,7 +23,7 @@ static const size_t largePiece = 1 << 16;
 
 #include "failNthDeath.h"
 
-/// @param name write, read, map or memory
+/// @param name write, read, map, memory or own
 void failNthKind(const char* name) {
     strncpy(kind, name, sizeof kind - 1);
 }
@@ -183,4 +184,35 @@ int posix_memalign(void** result, size_t alignment, size_t size) {
 }
 void* aligned_alloc(size_t alignment, size_t size) {
     return countsPiece(size, "memalign") ? NULL : __libc_memalign(alignment, size);
+}
+
+// Patina's own allocations of any size: `new` fails by an exception. The module is loaded by then.
+extern void _ZSt17__throw_bad_allocv(void); // std::__throw_bad_alloc()
+static int asksForOwn(const void* caller) {
+    return failAt && strcmp(kind, "own") == 0 && isPatinas(caller) && ++count == failAt;
+}
+static void* newPiece(size_t size, size_t alignment, const void* caller) {
+    int fails = asksForOwn(caller);
+    if (fails) {
+        strcpy(failed, "new");
+        askedDepth = backtrace(asked, deepest);
+    }
+    void* made = fails                           ? NULL
+                 : alignment > 2 * sizeof(void*) ? __libc_memalign(alignment, size)
+                                                 : __libc_malloc(size ? size : 1);
+    if (!made) _ZSt17__throw_bad_allocv();
+    return made;
+}
+void* _Znwm(size_t size) {
+    return newPiece(size, 0, __builtin_return_address(0));
+}
+void* _Znam(size_t size) {
+    return newPiece(size, 0, __builtin_return_address(0));
+}
+void* _ZnwmSt11align_val_t(size_t size, size_t alignment) {
+    return newPiece(size, alignment, __builtin_return_address(0));
+}
+/// @returns how many calls of the kind were made
+int failNthCount(void) {
+    return count;
 }

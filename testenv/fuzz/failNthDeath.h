@@ -22,6 +22,24 @@ static const char* objectOf(const void* address) {
     return slash ? slash + 1 : found.dli_fname;
 }
 
+/// Whether an address is of Patina's module, which is loaded by the first failNthBegin().
+static const char *moduleBegin, *moduleEnd;
+static int isPatinas(const void* address) {
+    return (const char*)address >= moduleBegin && (const char*)address < moduleEnd;
+}
+static int findModule(struct dl_phdr_info* object, size_t size, void* unused) {
+    (void)size, (void)unused;
+    const char* slash = object->dlpi_name ? strrchr(object->dlpi_name, '/') : NULL;
+    if (!slash || strncmp(slash + 1, "_patina.", 8) != 0) return 0;
+    for (int k = 0; k < object->dlpi_phnum; k++) {
+        const ElfW(Phdr)* part = &object->dlpi_phdr[k];
+        if (part->p_type != PT_LOAD || !(part->p_flags & PF_X)) continue;
+        moduleBegin = (const char*)object->dlpi_addr + part->p_vaddr;
+        moduleEnd = moduleBegin + part->p_memsz;
+    }
+    return 1;
+}
+
 /// Patina's module, and Python, which runs the rest of Patina.
 static int isOwn(const void* address) {
     Dl_info found, program;
@@ -105,6 +123,7 @@ static void watchForDeath(void) {
     void* some[2];
     backtrace(some, 2); // loads what it needs, before a call fails
     askedDepth = 0;
+    dl_iterate_phdr(findModule, NULL);
     if (watched++) return;
     struct sigaction action;
     memset(&action, 0, sizeof action);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Calls that fail once: the n-th that writes an output (a full disk, a device that fails), maps or reads a file, or asks for a
-large piece of memory; and contexts of OpenGL that are lost at the n-th call. The old image or the new one is there, whole, and the message is one line. Where another library dies
+large piece of memory; the n-th piece, of any size, that Patina's own C++ asks for; and contexts of OpenGL that are lost at the
+n-th call. The old image or the new one is there, whole, and the message is one line. Where another library dies
 in the very call that failed, Patina could not have known, and no promise is broken (failNthDeath.h)."""
 import errno
 import json
@@ -19,13 +20,13 @@ EXTENSION = ".json"
 LINES = False
 CPU_SECONDS = 300  # a driver in software compiles before it draws: with all AOVs for a minute and a half
 NUMBERS = {"write": ("ENOSPC", "EIO", "EDQUOT", "EROFS"), "read": ("EIO", "EMFILE"), "map": ("ENOMEM", "EACCES"),
-           "memory": ("ENOMEM",), "context": ("EIO",)}
+           "memory": ("ENOMEM",), "own": ("ENOMEM",), "context": ("EIO",)}
 OUTPUTS = (("image.png",), ("image.exr",), ("image.exr", "--keepCheckpoint"),
            ("image.exr", "--part", "1/2", "--partial", "a.part"),
            ("image.tif", "--bits", "32"), ("image.exr", "--aov", "all"), ("image.exr", "--report", "a.html", "--json=b.json"))
-# Calls of each kind that a render makes after all is loaded; of memory the rasterizer's driver makes most
-CALLS = {"write": 520, "read": 300, "map": 3, "memory": 110, "context": 12000}
-DRIVER_CALLS = 20000
+# Calls of each kind that a render makes after all is loaded; of memory the rasterizer and its driver make more
+CALLS = {"write": 520, "read": 300, "map": 3, "memory": 110, "own": 56000, "context": 12000}
+RASTER_CALLS = {"memory": 20000, "own": 210000}
 # What tells that a library cannot go on, and no caller could help it; the second is the dynamic linker's
 DIED = (b": a library died in the call that failed", b"cannot allocate memory for thread-local data: ABORT")
 _library = []
@@ -34,13 +35,13 @@ _library = []
 def make(seed):
     """:returns: the bytes of an input: what is rendered, which call fails, and with which error"""
     r = randoms.Random(seed)
-    kind = r.choice(("write", "write", "read", "map", "memory", "memory", "context"))
+    kind = r.choice(("write", "write", "read", "map", "memory", "memory", "own", "own", "context"))
     output, backend = r.choice(OUTPUTS), r.choice(("embree", "embree", "raster"))
     if kind == "context":
         output, backend = r.choice([words for words in OUTPUTS if "--part" not in words]), "raster"
     elif "--part" in output:  # which the rasterizer refuses
         backend = "embree"
-    most = DRIVER_CALLS if backend == "raster" and kind == "memory" and r.random() < 0.5 else CALLS[kind]
+    most = RASTER_CALLS[kind] if backend == "raster" and kind in RASTER_CALLS and r.random() < 0.7 else CALLS[kind]
     return json.dumps({"output": output, "kind": kind, "error": r.choice(NUMBERS[kind]),
                        "at": r.randint(1, 60 if kind == "write" and r.random() < 0.5 else
                                        300 if kind == "context" and r.random() < 0.5 else most),
@@ -56,7 +57,7 @@ def library():
         newest = max(os.stat(file).st_mtime for file in (source, os.path.join(HERE, "failNthDeath.h")))
         if compiler and not (os.path.exists(path) and os.stat(path).st_mtime > newest):
             made = f"{path}.{os.getpid()}"
-            subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", made, source, "-ldl"], check=True)
+            subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", made, source, "-ldl", "-lstdc++"], check=True)
             os.replace(made, path)
         _library.append(path if compiler else "")
     return _library[0]
@@ -68,7 +69,7 @@ def execute(path, folder):
         asked = json.load(file)
     if not library():
         return 0
-    changing._write_all(folder)
+    changing.write_all(folder)
     image, *more = asked["output"]
     with open(os.path.join(folder, image), "wb") as file:
         file.write(outcomes.SENTINEL)

@@ -70,7 +70,8 @@ COMMANDS = {
                "report.html", "--threads", "1"),
     "raster": ("record", "shot.usda", "image.png", "--camera", "/camera", "-w", "16", "--samples", "1", "--backend", "raster"),
     "explain": ("explain", "shot.usda"), "explainDocument": ("explain", "look.mtlx"), "check": ("check", "look.mtlx"),
-    "bsdf": ("bsdf", "albedo", "look.mtlx"), "bake": ("bake", "look.mtlx", "baked.usda", "--to", "UsdPreviewSurface", "--resolution", "8"),
+    "bsdf": ("bsdf", "albedo", "look.mtlx"),
+    "bake": ("bake", "look.mtlx", "baked.usda", "--to", "UsdPreviewSurface", "--resolution", "8"),
     "shader": ("shader", "look.mtlx", "--target", "glsl"),
 }
 

@@ -27,8 +27,13 @@ void ProgramCompiler::add(std::function<void()> work) {
         std::string error;
         if (auto context = EglContext::sharing(_shared, error)) {
             _contexts.push_back(std::move(context));
-            ++_idle;
-            _threads.emplace_back(&ProgramCompiler::run, this, _contexts.back().get());
+            ++_idle; // what the thread subtracts when it begins
+            try {
+                _threads.emplace_back(&ProgramCompiler::run, this, _contexts.back().get());
+            } catch (const std::exception&) { // no thread can be had: help() does it
+                --_idle;
+                _maximum = int(_threads.size());
+            }
         } else {
             _maximum = 0;
         }

@@ -22,7 +22,8 @@ public:
     ProgramCompiler(const EglContext& shared, int threads);
     ~ProgramCompiler(); ///< lets go of what has not begun, and waits for the rest
 
-    /// Has a function run once, with a context current, about in the order of the calls.
+    /// Has a function run once, with a context current, about in the order of the calls. It throws
+    /// nothing.
     void add(std::function<void()> work);
     /// Runs one function on this thread. @returns false when none waits
     bool help();

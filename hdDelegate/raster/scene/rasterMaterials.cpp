@@ -171,6 +171,7 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
         return cached.standIn;
     }
     await(*cached.pending);
+    if (cached.pending->failure) std::rethrow_exception(cached.pending->failure);
     cached.taken = true;
     RasterMaterial& m = cached.material;
     m.programs = cached.pending->programs;
@@ -325,9 +326,13 @@ std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial
     const auto make = [pending = shared, texts = std::move(texts)] {
         if (const std::string slow = glFault("compiling"); !slow.empty())
             std::this_thread::sleep_for(std::chrono::milliseconds(std::atoi(slow.c_str())));
-        std::string error;
-        pending->programs = makePrograms(texts, error);
-        if (!pending->programs) pending->error = oneLine(error);
+        try {
+            std::string error;
+            pending->programs = makePrograms(texts, error);
+            if (!pending->programs) pending->error = oneLine(error);
+        } catch (...) { // for the render's thread
+            pending->failure = std::current_exception();
+        }
         pending->done = true;
     };
     // displayColor stands in for all others.

@@ -15,6 +15,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <map>
 
@@ -33,6 +34,7 @@ struct PendingPrograms {
     std::atomic<bool> done{false};
     std::shared_ptr<const RasterPrograms> programs; ///< null where the driver does not take them
     std::string error;
+    std::exception_ptr failure; ///< that they were not made for: no memory, say
 };
 
 /// A material on the GPU.

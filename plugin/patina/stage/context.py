@@ -151,6 +151,6 @@ class Guard:
     def __exit__(self, kind, error, trace):
         if kind is None or not issubclass(kind, Exception):
             return False
-        text = one_line(error)[:300]
+        text = "there is not enough memory for it" if issubclass(kind, MemoryError) else one_line(error)[:300]
         self.context.warn(self.prim.GetPath(), "", f"cannot be read and is not drawn: {text}")
         return True

@@ -37,6 +37,9 @@ public:
     /// @throws std::runtime_error when the file is not written
     void write(const std::string& file);
 
+    /// The device of OpenGL.
+    const std::string& device() const { return _context.name(); }
+
 private:
     GlContext _context;
     UsdStageRefPtr _stage;

@@ -24,8 +24,9 @@ namespace {
 
 const char* const usage =
     "usage: engineHost STAGE [IMAGE] [options]\n"
-    "Renders a stage with UsdImagingGLEngine and prints seconds and peak memory as JSON: \"open\" "
-    "the stage,\n"
+    "Renders a stage with UsdImagingGLEngine and prints OpenGL's device, seconds and peak memory "
+    "as JSON:\n"
+    "\"open\" the stage, "
     "\"first\" image (the renderer's start in it), \"moved\" after each move of the camera, "
     "\"edited\" after each edit.\n"
     "  --renderer ID             plugin (HdPatinaRendererPlugin)\n"
@@ -148,6 +149,7 @@ void run(const CommandLine& line) {
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
     const JsObject report = {{"seconds", JsValue(seconds)},
+                             {"device", JsValue(engine.device())},
                              {"peakMemory", JsValue(double(used.ru_maxrss) * 1024.0)}};
     std::cout << JsWriteToString(JsValue(report)) << std::endl;
 }

@@ -70,7 +70,7 @@ GlContext::GlContext() {
     if (!_context || !eglMakeCurrent(_display, EGL_NO_SURFACE, EGL_NO_SURFACE, _context))
         throw std::runtime_error("EGL makes no context of OpenGL 4.5");
     bindFramebuffer();
-    const auto text = reinterpret_cast<PFNGLGETSTRINGPROC>(eglGetProcAddress("glGetString"));
+    const auto text = reinterpret_cast<decltype(&glGetString)>(eglGetProcAddress("glGetString"));
     if (const auto* name = text(GL_RENDERER)) _name = reinterpret_cast<const char*>(name);
 }
 

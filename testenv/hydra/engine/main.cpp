@@ -24,11 +24,11 @@ namespace {
 
 const char* const usage =
     "usage: engineHost STAGE [IMAGE] [options]\n"
-    "Renders a stage with UsdImagingGLEngine and prints OpenGL's device, seconds and peak memory "
-    "as JSON:\n"
-    "\"open\" the stage, "
+    "Renders a stage with UsdImagingGLEngine and prints seconds and peak memory as JSON: \"open\" "
+    "the stage,\n"
     "\"first\" image (the renderer's start in it), \"moved\" after each move of the camera, "
-    "\"edited\" after each edit.\n"
+    "\"edited\" after each edit;\n"
+    "\"device\" is what OpenGL draws on.\n"
     "  --renderer ID             plugin (HdPatinaRendererPlugin)\n"
     "  --camera PATH             camera prim\n"
     "  --size WxH                pixels (64x64)\n"

@@ -65,6 +65,10 @@ void Engine::render() {
     buffer->Unmap();
 }
 
+VtDictionary Engine::statistics() const {
+    return _engine->GetRenderStats();
+}
+
 void Engine::write(const std::string& file) {
     HdRenderBuffer* buffer = _engine->GetAovRenderBuffer(HdAovTokens->color);
     buffer->Resolve();

@@ -28,7 +28,7 @@ const char* const usage =
     "the stage,\n"
     "\"first\" image (the renderer's start in it), \"moved\" after each move of the camera, "
     "\"edited\" after each edit;\n"
-    "\"device\" is what OpenGL draws on.\n"
+    "\"statistics\" are numbers of the renderer's own, \"device\" is what OpenGL draws on.\n"
     "  --renderer ID             plugin (HdPatinaRendererPlugin)\n"
     "  --camera PATH             camera prim\n"
     "  --size WxH                pixels (64x64)\n"
@@ -148,7 +148,11 @@ void run(const CommandLine& line) {
     seconds["edited"] = JsValue(edited);
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
+    JsObject statistics; // of the last image
+    for (const auto& [name, value] : engine.statistics())
+        if (value.IsHolding<double>()) statistics[name] = JsValue(value.UncheckedGet<double>());
     const JsObject report = {{"seconds", JsValue(seconds)},
+                             {"statistics", JsValue(statistics)},
                              {"device", JsValue(engine.device())},
                              {"peakMemory", JsValue(double(used.ru_maxrss) * 1024.0)}};
     std::cout << JsWriteToString(JsValue(report)) << std::endl;

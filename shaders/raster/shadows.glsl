@@ -144,10 +144,10 @@ float skyReaches(vec3 wi) {
 vec3 shadowAt(Light l, vec3 wi) {
     if (l.firstMap < 0) return vec3(1.0);
     vec3 p = departure(wi);
-    if (l.maps == 0) return mix(l.shadowColor, vec3(1.0), skyReaches(wi));
+    if (PATINA_LIGHT_SKY(l.maps == 0)) return mix(l.shadowColor, vec3(1.0), skyReaches(wi));
     float away = isAtPlace(l) ? length(point.position - shadowOrigin(l)) : 1.0;
     float seen = reaches(l, p);
-    if (seen < 1.0 && l.shadowDistance > 0.0) {
+    if (PATINA_LIGHT_FADES(seen < 1.0 && l.shadowDistance > 0.0)) {
         // The surface nearest to the light is further off than h where the point moved by h is lit.
         int steps = l.shadowFalloff > 0.0 ? 8 : 1;
         float start = l.shadowFalloff > 0.0 ? max(l.shadowDistance - l.shadowFalloff, 0.0) : l.shadowDistance;

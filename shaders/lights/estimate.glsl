@@ -10,9 +10,9 @@ PATINA_FN vec3 estimateFrom(vec3 place, vec3 along, vec3 point) {
     return v - t * along;
 }
 
-// Of a light that faces the point. Falls from 1 / distance^2 far away to 1 / distance beside what is long.
-PATINA_FN float estimateAt(float power, float radius, float least, float distance) {
-    return power / max(distance * max(distance, radius), least);
+// Of a light that faces the point. Falls from 1 / away^2 far away to 1 / away beside what is long.
+PATINA_FN float estimateAt(float power, float radius, float least, float away) {
+    return power / max(away * max(away, radius), least);
 }
 
 // How much of that goes in a direction. cosine: of its angle to the axis; spread: of the directions to the parts of the

@@ -32,6 +32,7 @@ int listed(int k, out float share) {
 }
 
 float estimateOf(int i, vec3 p, vec3 n) {
+    if (!isLinked(vIds.z, lights[i].category)) return 0.0;
     vec3 d = estimateFrom(estimates[i].place, estimates[i].along, p);
     float away = max(length(d), 1e-20), spread = estimates[i].radius / away;
     vec3 w = d / away;

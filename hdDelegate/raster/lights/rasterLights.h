@@ -85,6 +85,8 @@ public:
                    int mapSize, int pixels, int most = maxSmallMaps) const;
 
     uint32_t seed() const { return _seed; }
+    /// Every pass has Sampled::cells then, with empty lists where no light is at a place.
+    bool pixelsChoose() const { return _pixelsChoose; }
     /// Whether every material takes samples of domes: first looks are no part of the other methods.
     bool samplesDomes() const {
         return _domeMethods.size() == _domeMethods.count("sampled") || !_hasDome;

@@ -310,7 +310,7 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     b.firstSampled = sampled.firstSampled;
     b.firstShared = sampled.firstShared;
     b.sharedEvery = sampled.sharedEvery;
-    if (!sampled.estimates.empty()) {
+    if (lights.pixelsChoose()) {
         b.lightsChosen = RasterLights::chosen;
         b.cellsLow = sampled.cells.low;
         b.cellsPerUnit = sampled.cells.perUnit;

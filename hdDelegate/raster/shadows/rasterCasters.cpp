@@ -35,11 +35,12 @@ int RasterPasses::skyCells(const RasterScene& scene) {
 }
 
 /// Shadow maps of a pass, where pixels choose among all lights that have some: fewer where there is
-/// much to draw into each. Volumes are lit by all lights of a pass, each of which takes long.
+/// much to draw into each; a call takes as long as some hundred triangles. Volumes are lit by all
+/// lights of a pass, each of which takes long.
 int RasterPasses::mostMaps(const RasterScene& scene) {
     if (!scene.volumes().empty()) return RasterLights::maxSmallMaps;
-    const size_t triangles = std::max<size_t>(1, scene.trianglesDrawn());
-    return int(std::clamp<size_t>(10000000 / triangles, RasterLights::maxSmallMaps,
+    const size_t each = std::max<size_t>(1, scene.trianglesDrawn() + 500 * scene.draws().size());
+    return int(std::clamp<size_t>(10000000 / each, RasterLights::maxSmallMaps,
                                   RasterLights::maxManyMaps));
 }
 

@@ -67,11 +67,14 @@ TEST(LightEstimate, isTheIrradianceFarAwayAndNearItNearBy) {
         // The brightest side: along the normal, across cylinders.
         const vec3 out = p.shape.flat ? p.shape.normal : glm::normalize(p.light.axis1);
         // At ten radii outlines are seen under a cosine of 0.995, and squared distances to parts of
-        // a light are off by as much: 2 % in all. At one radius from the surface no factor of the
-        // estimate is off by more than 3.
+        // a light are off by as much: 2 % in all. The side of a cylinder that is seen is nearer
+        // than its middle, by pi / 4 of its radius in the mean, which its length is seen longer by.
+        // At one radius from the surface no factor of the estimate is off by more than 3.
         const float far = 10.0f * p.estimate.radius, near = 2.0f * p.estimate.radius;
         const vec3 at = p.shape.origin + out * far, beside = p.shape.origin + out * near;
-        EXPECT_NEAR(p.estimate.towards(at, 0.0f) / irradiance(p, at), 1.0, 0.02) << int(type);
+        const float nearer = type == LightType::Cylinder ? 0.25f * pi * 0.15f / far : 0.0f;
+        EXPECT_NEAR(p.estimate.towards(at, 0.0f) / irradiance(p, at), 1.0, 0.02 + nearer)
+            << int(type);
         const double ratio = p.estimate.towards(beside, 0.0f) / irradiance(p, beside);
         EXPECT_LT(ratio, 3.0) << int(type);
         EXPECT_GT(ratio, 1.0 / 3.0) << int(type);

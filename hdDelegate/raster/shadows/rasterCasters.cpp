@@ -40,8 +40,8 @@ int RasterPasses::skyCells(const RasterScene& scene) {
 int RasterPasses::mostMaps(const RasterScene& scene) {
     if (!scene.volumes().empty()) return RasterLights::maxSmallMaps;
     const size_t each = std::max<size_t>(1, scene.trianglesDrawn() + 500 * scene.draws().size());
-    return int(std::clamp<size_t>(10000000 / each, RasterLights::maxSmallMaps,
-                                  RasterLights::maxManyMaps));
+    return int(
+        std::clamp<size_t>(10000000 / each, RasterLights::maxSmallMaps, RasterLights::maxManyMaps));
 }
 
 void RasterPasses::drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass) {

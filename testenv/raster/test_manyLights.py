@@ -50,8 +50,8 @@ KINDS = (  # type, inputs, API
     ("SphereLight", "float inputs:intensity = 1\n        bool treatAsPoint = 1\n        float inputs:radius = 0.2", ""),
     ("CylinderLight", "float inputs:intensity = 12\n        float inputs:length = 0.7\n        float inputs:radius = 0.01\n"
      "        bool treatAsLine = 1", ""),
-    ("DiskLight", "float inputs:intensity = 40\n        float inputs:radius = 0.1\n        float inputs:shaping:cone:angle = 35\n"
-     "        float inputs:shaping:cone:softness = 0.4", "ShapingAPI"),
+    ("DiskLight", "float inputs:intensity = 40\n        float inputs:radius = 0.1\n"
+     "        float inputs:shaping:cone:angle = 35\n        float inputs:shaping:cone:softness = 0.4", "ShapingAPI"),
     ("SphereLight", SHAPED + "0.02\n        float inputs:radius = 0.1", "ShapingAPI"),
 )
 
@@ -81,7 +81,8 @@ FAR = STAGE.replace('def Xform "World"\n{', """def Xform "World"
 {
     double3 xformOp:translate = (200000, -50000, 70000)
     float3 xformOp:scale = (100, 100, 100)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]""").replace("metersPerUnit = 1\n", "metersPerUnit = 0.01\n")
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]""")
+FAR = FAR.replace("metersPerUnit = 1\n", "metersPerUnit = 0.01\n")
 DIM = [(k, t.replace("float inputs:intensity = ", "float inputs:intensity = -") if i % 4 == 1 else t, a)
        for i, (k, t, a) in enumerate(KINDS)]
 

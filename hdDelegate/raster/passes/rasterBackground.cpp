@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/passes/rasterBackground.h"
 
+#include "shaders/lights.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,12 +22,7 @@ std::unique_ptr<GlProgram> program(const char* head, std::string& error) {
 
 /// Half of the size of the box around a shape, in the shape's coordinates.
 vec3 halfOf(int kind) {
-    switch (kind) {
-    case shLights::SHAPE_RECT: return vec3(0.5f, 0.5f, 0.0f);
-    case shLights::SHAPE_DISK: return vec3(1.0f, 1.0f, 0.0f);
-    case shLights::SHAPE_CYLINDER: return vec3(0.5f, 1.0f, 1.0f);
-    default: return vec3(1.0f);
-    }
+    return shLights::shapeExtent(kind, {vec3(0.0f), mat3(1.0f), mat3(1.0f), 1.0f});
 }
 
 } // namespace

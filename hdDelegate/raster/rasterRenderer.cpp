@@ -107,7 +107,10 @@ private:
         std::function<void(const RasterMaterials::Ready&)> compiling;
         if (!standIns)
             compiling = [this](const RasterMaterials::Ready& ready) { notifyCompiling(ready); };
-        _raster->update(state, _origin, camera, _settings, lightPlan(state), stopFlag(), compiling);
+        RasterInstances places(_compiled->compiled(state, _settings).placements,
+                               camera.timeCode(0.5f), _origin);
+        const auto plan = RasterLightPlan::of(state, _settings, places, _compiled->lightImages());
+        _raster->update(state, _origin, camera, _settings, plan, stopFlag(), compiling);
         _lightsMayDiffer |= _raster->lightsMayDiffer();
         if (standIns) notifyCompiling(_raster->programsReady());
         if (stopped()) return;
@@ -116,10 +119,10 @@ private:
         if (_lights && !_lightsMayDiffer && domeSamples == _domeSamples) return;
         _lightsMayDiffer = false;
         _domeSamples = domeSamples;
-        RasterInstances places(_raster->parts().placements, camera.timeCode(0.5f), _origin);
         _lights = std::make_unique<RasterLights>(
             state, _settings, places, camera.timeCode(0.5f), domeSamples, _raster->domeMethods(),
-            _compiled->lightImages(), *_domes, *_raster->parts().links, _scene->diagnostics());
+            _compiled->lightImages(), *_domes, *_raster->parts().links, _scene->diagnostics(),
+            plan.needsChoice());
     }
 
     /// Threads that compile beside this one.
@@ -144,35 +147,6 @@ private:
                                        double(ready.wanted - ready.ready) /
                                        double(ready.ready - _readyAtStart);
         });
-    }
-
-    /// The lights for the planner to look at; without a tolerance it does not.
-    RasterLightPlan lightPlan(const SceneState& state) {
-        RasterLightPlan plan;
-        for (const auto& item : state.lights) {
-            const Light& light = *item.second;
-            if (!_settings.enableSceneLights || !light.visible || light.filters.empty()) continue;
-            plan.needFilters();
-            if (light.type == LightType::Dome) plan.needSamples();
-        }
-        if (_settings.tolerance < 0.0) return plan;
-        for (const auto& item : state.geometry)
-            if (item.second->kind == GeometryKind::Volume) plan.needSamples();
-        for (const auto& item : state.lights) {
-            const Light& light = *item.second;
-            if (!_settings.enableSceneLights || !light.visible) continue;
-            if (light.type != LightType::Dome) {
-                plan.addArea(light);
-                continue;
-            }
-            std::shared_ptr<const EnvironmentMap> map;
-            if (!light.textureFile.empty())
-                map = _compiled->lightImages().environment(
-                    light.textureFile, light.textureColorSpace,
-                    environmentFormat(light.textureFormat), light.path, "inputs:texture:file");
-            plan.addDome(map.get());
-        }
-        return plan;
     }
 
     /// With places as seen from the origin.

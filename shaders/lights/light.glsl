@@ -5,6 +5,15 @@
 // and it says how it draws samples of spheres, by
 //   bool sphereFound(ShapeFrame s, vec3 origin, vec3 direction, out float t, out float density)
 // which gives the first point that a ray meets, and the density by solid angle of its samples in that direction.
+
+// Constants before this file may state facts that hold for all lights: drivers compile code that never runs, and software
+// OpenGL runs it. Whether a rect has an image, a light has a profile.
+#ifndef PATINA_LIGHT_IMAGE
+#define PATINA_LIGHT_IMAGE(has) (has)
+#endif
+#ifndef PATINA_LIGHT_PROFILE
+#define PATINA_LIGHT_PROFILE(has) (has)
+#endif
 #include "shaders/lights/table.glsl"
 #include "shaders/lights/ies.glsl"
 #include "shaders/lights/shaping.glsl"
@@ -46,7 +55,7 @@ vec3 shapingFactor(Light l, vec3 away) {
     Shaping s = Shaping(l.shapingAxis, l.shapingX, l.shapingY, l.focusTint, l.focus, hasCone(l), l.coneStart, l.coneEnd);
     float c = shapingCosine(s, away);
     vec3 f = shapingBeam(s, c);
-    if (l.firstProfile < 0) return f;
+    if (!PATINA_LIGHT_PROFILE(l.firstProfile >= 0)) return f;
     float phi = iesAzimuth(s.x, s.y, away);
     return f * lightTableAt(l.firstProfile, directionCell(l.profileThetas, l.profilePhis, acos(c), phi)).x;
 }
@@ -63,7 +72,7 @@ vec3 toShape(Light l, vec3 v) {
 // A rect's image at a position in the shape's coordinates: radiance factor, and density of samples
 // relative to uniform.
 vec4 imageOfRect(Light l, vec3 q) {
-    if (l.firstValue < 0) return vec4(1.0);
+    if (!PATINA_LIGHT_IMAGE(l.firstValue >= 0)) return vec4(1.0);
     ivec2 size = ivec2(l.columns, l.rows);
     ivec2 cell = clamp(ivec2((0.5 - q.xy) * vec2(size)), ivec2(0), size - 1);
     return vec4(lightTableAt(l.firstValue, rectTexels(q, size.x, size.y)),
@@ -137,7 +146,7 @@ vec3 lightFrom(Light l, LightSample s, vec3 p, out vec3 wi, out float density, o
         if (kind != LIGHT_LINE) return radiance / d2;
         return radiance / d2 * (lineAcross(l.axis0, wi) / s.density);
     }
-    if (kind == SHAPE_RECT && l.firstValue >= 0) radiance *= imageOfRect(l, toShape(l, s.place - l.origin)).rgb;
+    if (PATINA_LIGHT_IMAGE(kind == SHAPE_RECT && l.firstValue >= 0)) radiance *= imageOfRect(l, toShape(l, s.place - l.origin)).rgb;
     float c = -dot(s.normal, wi);
     if (kind == LIGHT_TRIANGLE) {
         if ((l.flags & LIGHT_TWO_SIDED) != 0) c = abs(c);

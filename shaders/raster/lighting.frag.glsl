@@ -34,7 +34,7 @@ float trustOf(int kind) {
 // That each pixel takes of a light.
 float samplesOf(Light l) {
     int kind = l.kind;
-    bool sky = kind == LIGHT_DOME || kind == LIGHT_MORE_DOME;
+    bool sky = PATINA_LIGHT_SKY(kind == LIGHT_DOME || kind == LIGHT_MORE_DOME);
     return l.perPixel > 0.0 ? l.perPixel : sky ? l.domeSamples : 1.0;
 }
 
@@ -51,7 +51,19 @@ bool isSunOfDome(Light l) {
     return (l.flags & LIGHT_OF_DOME) != 0;
 }
 
+#ifdef MANY_LIGHTS
+#include "shaders/raster/manyLights.glsl"
+#endif
 #include "shaders/raster/refraction.glsl"
+
+// Of the side that is seen; zero where light also comes from behind.
+vec3 facingNormal() {
+#if defined(MATERIAL_TRANSMITS) || defined(MATERIAL_IS_FIBRE)
+    return vec3(0.0);
+#else
+    return dot(point.normal, point.view) < 0.0 ? -point.normal : point.normal;
+#endif
+}
 
 bool outlines = false;    // lights that are their outline go another way, see areaLights.glsl
 bool lightsAlone = false; // no sample of the BSDF finds the same light
@@ -83,7 +95,7 @@ vec3 fromLight(Light l, bool guides) {
     float weight = 1.0;
     if (!isDelta(l)) {
         // Weights of domes come from the density's table on both sides.
-        bool sky = kind == LIGHT_DOME || kind == LIGHT_MORE_DOME;
+        bool sky = PATINA_LIGHT_SKY(kind == LIGHT_DOME || kind == LIGHT_MORE_DOME);
         float chance = samplesOf(l) * (sky ? domePdf(l, wi, 0.0) : density);
         bool found = kind != LIGHT_TRIANGLE && bsdfSamples > 0 && !lightsAlone;
         weight = (found ? heuristic(trustOf(kind) * chance, float(bsdfSamples) * f.pdf) : 1.0) / density;
@@ -108,13 +120,22 @@ vec3 along(MaterialSample s) {
     bool delta = (s.event & LOBE_DELTA) != 0;
     float pdf = float(bsdfSamples) * s.pdf;
     float sky = -1.0;
+#ifdef MANY_LIGHTS
+    int at = 0;
+    while (true) {
+        float share;
+        int i = nextAlong(at, delta || s.pdf > NARROW, point.position, s.wi, share);
+        if (i < 0) break;
+#else
+    const float share = 1.0;
     for (int i = 0; i < lightsFound; ++i) {
+#endif
         Light l = lights[i];
         int kind = l.kind;
         if (isDelta(l) || kind > LIGHT_DOME || !isLit(l) || (outlines && isOutline(l))) continue;
         vec3 radiance;
         float density, seen = 1.0;
-        if (kind == LIGHT_DOME) {
+        if (PATINA_LIGHT_SKY(kind == LIGHT_DOME)) {
 #ifdef DOME_METHOD
             continue; // see skyLight()
 #endif
@@ -132,7 +153,7 @@ vec3 along(MaterialSample s) {
         }
         vec3 shadow = vec3(1.0);
         if (l.firstMap >= 0) {
-            if (kind == LIGHT_DOME || (kind == LIGHT_DISTANT && l.versine > NARROW_SUN)) {
+            if (PATINA_LIGHT_SKY(kind == LIGHT_DOME || (kind == LIGHT_DISTANT && l.versine > NARROW_SUN))) {
                 if (sky < 0.0) sky = skyReaches(s.wi);
                 shadow = mix(l.shadowColor, vec3(1.0), sky);
             } else {
@@ -141,7 +162,7 @@ vec3 along(MaterialSample s) {
                 shadow = shadowByMaps(l, isAtPlace(l) ? normalize(there - point.position) : there);
             }
         }
-        float weight = l.weight * (delta ? 1.0 : heuristic(pdf, trustOf(kind) * density));
+        float weight = share * l.weight * (delta ? 1.0 : heuristic(pdf, trustOf(kind) * density));
         sum += (s.diffuseWeight * l.diffuse + s.specularWeight * l.specular) * radiance *
                shadow * weight;
     }
@@ -188,12 +209,23 @@ void main() {
     // Neighbours take other samples of what is between firstShared and lightsTaken.
     int turn = (int(gl_FragCoord.x) + 3 * int(gl_FragCoord.y) + passIndex) % sharedEvery;
     int every = isFirstLook() ? 1 : 0, own = (lightsTaken - firstShared) / sharedEvery;
+#ifdef MANY_LIGHTS
+    own = lightsChosen;
+    vec2 inCells = randomAt(uvec2(gl_FragCoord.xy), uint(passIndex), 50u);
+    beginChoice(point.position, facingNormal(), vec4(inCells, randomAt(uvec2(gl_FragCoord.xy), uint(passIndex), 51u)));
+#endif
     vec3 noisy = vec3(0.0);
     for (int k = firstSampled - every; k < firstShared + own; ++k) {
         bool pooled = k >= firstShared, guides = k < firstSampled;
-        Light l = lights[pooled ? firstShared + turn + (k - firstShared) * sharedEvery : max(k, 0)];
-        if (!guides && (!isLit(l) || isSunOfDome(l))) continue;
         float share = pooled ? float(sharedEvery) : 1.0;
+#ifdef MANY_LIGHTS
+        int i = pooled ? nextChosen(share) : max(k, 0);
+        if (i < 0) break;
+#else
+        int i = pooled ? firstShared + turn + (k - firstShared) * sharedEvery : max(k, 0);
+#endif
+        Light l = lights[i];
+        if (!guides && (!isLit(l) || isSunOfDome(l))) continue;
         vec3 light;
 #ifdef AREA_OUTLINES
         if (outlines && isOutline(l) && !guides)

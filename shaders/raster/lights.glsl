@@ -22,6 +22,14 @@ vec4 lightValue(int i) {
     return lightTables[i];
 }
 
+// Likewise facts that hold for all lights, see light.glsl. Whether a light is at infinity and not narrow, whether the
+// distance of its shadows is limited.
+#ifndef PATINA_LIGHT_SKY
+#define PATINA_LIGHT_SKY(is) (is)
+#endif
+#ifndef PATINA_LIGHT_FADES
+#define PATINA_LIGHT_FADES(does) (does)
+#endif
 #include "shaders/lights/light.glsl"
 #include "shaders/lights/sphereInside.glsl"
 #include "shaders/lights/dome.glsl"
@@ -65,6 +73,6 @@ vec3 fromShape(Light l, vec3 v) {
 // lightFrom() of the light's sample, and with its filters. density: of all samples of the light
 vec3 lightSample(Light l, vec3 p, out vec3 wi, out float density, out float reach) {
     vec3 radiance = lightFrom(l, LightSample(l.sampled, l.normal, l.density), p, wi, density, reach);
-    if (l.kind == LIGHT_DOME || l.kind == LIGHT_MORE_DOME) density *= l.domeSamples;
+    if (PATINA_LIGHT_SKY(l.kind == LIGHT_DOME || l.kind == LIGHT_MORE_DOME)) density *= l.domeSamples;
     return radiance == vec3(0.0) ? radiance : radiance * filterFactor(l, p, wi, reach);
 }

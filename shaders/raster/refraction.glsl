@@ -78,12 +78,21 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
     vec3 sum = vec3(0.0);
     float texel = 4.0 * PI / max(domeTexels, 1.0);
     float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(float(bsdfSamples) * pdf * passesTaken * texel, 1e-20));
+#ifdef MANY_LIGHTS
+    int at = 0;
+    while (true) {
+        float share;
+        int i = nextAlong(at, delta || pdf > NARROW, origin, direction, share);
+        if (i < 0) break;
+#else
+    const float share = 1.0;
     for (int i = 0; i < lightsFound; ++i) {
+#endif
         Light l = lights[i];
         int kind = l.kind;
         if (isDelta(l) || kind > LIGHT_DOME || !isLit(l)) continue;
         vec3 radiance;
-        if (kind == LIGHT_DOME) {
+        if (PATINA_LIGHT_SKY(kind == LIGHT_DOME)) {
             radiance = radianceOfDome(l, direction, clamp(lod, 0.0, float(domeLevel))) *
                        filterFactor(l, origin, direction, LIGHT_FAR);
         } else {
@@ -91,7 +100,7 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
             if (!lightAlong(l, origin, direction, t, density, radiance)) continue;
             radiance *= filterFactor(l, origin, direction, t);
         }
-        sum += radiance * l.weight * l.specular;
+        sum += radiance * (share * l.weight) * l.specular;
     }
     return sum;
 }
@@ -113,10 +122,24 @@ vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool
     float mean = largest(sigma) > 0.0 ? min(1.0 / largest(sigma), 0.5 * distance) : 0.0;
     PhaseMixture phase = phaseMixture(m, vec3(1.0));
     vec3 found = vec3(0.0);
-    for (int i = firstSampled; i < lightsTaken; ++i) {
+    int end = lightsTaken;
+#ifdef MANY_LIGHTS
+    int cell = listCell;
+    end = firstShared + lightsChosen;
+    vec2 inCells = randomAt(uvec2(gl_FragCoord.xy), uint(passIndex), 52u);
+    beginChoice(start + direction * mean, vec3(0.0), vec4(inCells, randomAt(uvec2(gl_FragCoord.xy), uint(passIndex), 53u)));
+#endif
+    for (int k = firstSampled; k < end; ++k) {
+        float share = 1.0;
+#ifdef MANY_LIGHTS
+        int i = k < firstShared ? k : nextChosen(share);
+        if (i < 0) break;
+#else
+        int i = k;
+#endif
         Light l = lights[i];
         if (!isLit(l) || isSunOfDome(l)) continue;
-        if (l.kind == LIGHT_DOME && l.domeSamples == 0.0) { // nobody samples it: its mean
+        if (PATINA_LIGHT_SKY(l.kind == LIGHT_DOME && l.domeSamples == 0.0)) { // nobody samples it: its mean
             found += radianceOfDome(l, direction, max(float(domeLevel) - 1.0, 0.0)) * l.weight *
                      l.specular * filterFactor(l, start + direction * mean, direction, LIGHT_FAR);
             continue;
@@ -127,8 +150,11 @@ vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool
         vec3 p = phaseMixtureEval(phase, -direction, wi).value;
         // The object's own far side is in the shadow maps, so they tell nothing of light from there.
         bool outwards = dot(wi, point.geometricNormal) > 0.0;
-        found += radiance * p * l.specular * (boundary && !outwards ? vec3(1.0) : shadowAt(l, wi));
+        found += radiance * p * l.specular * (boundary && !outwards ? vec3(1.0) : shadowAt(l, wi)) * share;
     }
+#ifdef MANY_LIGHTS
+    listCell = cell;
+#endif
     return sum + scattering * stretch * found;
 }
 #endif

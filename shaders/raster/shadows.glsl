@@ -153,7 +153,7 @@ vec3 shadowByMaps(Light l, vec3 wi) {
     float away = isAtPlace(l) ? length(point.position - shadowOrigin(l)) : 1.0;
     // The surface nearest to the light is further off than h where the point moved by h is lit. The first step
     // moves nothing.
-    int steps = l.shadowDistance <= 0.0 ? 0 : l.shadowFalloff > 0.0 ? 8 : 1;
+    int steps = !PATINA_LIGHT_FADES(l.shadowDistance > 0.0) ? 0 : l.shadowFalloff > 0.0 ? 8 : 1;
     float start = l.shadowFalloff > 0.0 ? max(l.shadowDistance - l.shadowFalloff, 0.0) : l.shadowDistance;
     float h = 0.0, blocked = 0.0, last = 1.0, depth = 1.0;
     for (int i = -1; i < steps && last > 0.0; ++i) {
@@ -171,5 +171,6 @@ vec3 shadowByMaps(Light l, vec3 wi) {
 // The same for a light with maps of its own, of the sky, or with none.
 vec3 shadowAt(Light l, vec3 wi) {
     if (l.firstMap < 0) return vec3(1.0);
-    return l.maps == 0 ? mix(l.shadowColor, vec3(1.0), skyReaches(wi)) : shadowByMaps(l, wi);
+    if (PATINA_LIGHT_SKY(l.maps == 0)) return mix(l.shadowColor, vec3(1.0), skyReaches(wi));
+    return shadowByMaps(l, wi);
 }

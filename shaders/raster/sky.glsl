@@ -8,6 +8,15 @@ const int DOME_PREFILTERED = 2;
 const int DOME_HARMONICS = 3;
 const int PREFILTERED_LEVELS = 5; // of PrefilteredSky
 
+// Domes and their suns come before the lights that pixels choose among.
+int endOfDomes(int end) {
+#ifdef MANY_LIGHTS
+    return min(end, firstShared);
+#else
+    return end;
+#endif
+}
+
 // Only lobes of some kinds are left in the material; bits are those of LOBE_*.
 void keepLobes(int kinds) {
     float sum = 0.0;
@@ -83,7 +92,7 @@ vec3 skyByLobes(bool mirrors) {
             if (share < 0.0) share = skyShare(normal);
             seen = share;
         }
-        for (int k = 0; k < lightsFound; ++k) {
+        for (int k = 0; k < endOfDomes(lightsFound); ++k) {
             Light l = lights[k];
             if (l.kind != LIGHT_DOME || !isLit(l)) continue;
             vec3 light = kind == LOBE_MIRROR ? prefiltered(l, mirrored, lobeAlpha(i))
@@ -109,7 +118,7 @@ vec3 skyBySamples() {
         bool delta = (s.event & LOBE_DELTA) != 0;
         float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(s.pdf * float(count) * texel, 1e-20));
         float sky = -1.0;
-        for (int k = 0; k < lightsFound; ++k) {
+        for (int k = 0; k < endOfDomes(lightsFound); ++k) {
             Light l = lights[k];
             if (l.kind != LIGHT_DOME || !isLit(l)) continue;
             vec3 light = radianceOfDome(l, s.wi, clamp(lod, 0.0, float(domeLevel))) *
@@ -137,7 +146,7 @@ vec3 skyLight() {
             chances[i] = lobeChance[i];
         }
         keepLobes((1 << LOBE_DIFFUSE) | (1 << LOBE_SHEEN));
-        for (int k = firstSampled; k < lightsTaken; ++k)
+        for (int k = firstSampled; k < endOfDomes(lightsTaken); ++k)
             if (isSunOfDome(lights[k]) && isLit(lights[k])) sum += fromLight(lights[k], false);
         for (int i = 0; i < LOBES; ++i) {
             lobeWeight[i] = weights[i];

@@ -81,6 +81,7 @@ namespace patina {
     X(ProgramParameteri, PROGRAMPARAMETERI)                                                        \
     X(QueryCounter, QUERYCOUNTER)                                                                  \
     X(ReadPixels, READPIXELS)                                                                      \
+    X(Scissor, SCISSOR)                                                                            \
     X(ShaderSource, SHADERSOURCE)                                                                  \
     X(TextureBuffer, TEXTUREBUFFER)                                                                \
     X(TextureParameterf, TEXTUREPARAMETERF)                                                        \

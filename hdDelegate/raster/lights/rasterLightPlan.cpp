@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/lights/rasterLightPlan.h"
 
+#include "hdDelegate/raster/lights/rasterLights.h"
 #include "materialNetwork/plan/methods.h"
 #include "materialNetwork/planner/planner.h"
 #include "materialNetwork/planner/predictLight.h"
@@ -71,6 +72,56 @@ double peakShare(const EnvironmentMap& map) {
     for (int i = 0; i < side * side / 100; ++i)
         peak += light[size_t(i)];
     return sum > 0.0 ? peak / sum : 0.0;
+}
+
+RasterLightPlan RasterLightPlan::of(const SceneState& state, const RenderSettings& settings,
+                                    RasterInstances& places, LightImages& images) {
+    RasterLightPlan plan;
+    if (!settings.enableSceneLights) return plan;
+    size_t placed = 0;
+    for (const auto& item : state.lights) {
+        const Light& light = *item.second;
+        if (!light.visible) continue;
+        const bool dome = light.type == LightType::Dome;
+        if (!dome && light.type != LightType::Distant && light.type != LightType::Mesh)
+            placed += places.places(light.group).size();
+        plan._images |= !light.textureFile.empty();
+        plan._profiles |= !light.iesFile.empty();
+        plan._sky |= dome || light.type == LightType::Distant;
+        plan._fades |= light.shadowDistance > 0.0f;
+        if (light.filters.empty()) continue;
+        plan.needFilters();
+        if (dome) plan.needSamples();
+    }
+    if (placed >= size_t(RasterLights::many)) plan.needChoice();
+    if (settings.tolerance < 0.0) return plan;
+    for (const auto& item : state.geometry)
+        if (item.second->kind == GeometryKind::Volume) plan.needSamples();
+    for (const auto& item : state.lights) {
+        const Light& light = *item.second;
+        if (!light.visible) continue;
+        if (light.type != LightType::Dome) {
+            plan.addArea(light);
+            continue;
+        }
+        std::shared_ptr<const EnvironmentMap> map;
+        if (!light.textureFile.empty())
+            map = images.environment(light.textureFile, light.textureColorSpace,
+                                     environmentFormat(light.textureFormat), light.path,
+                                     "inputs:texture:file");
+        plan.addDome(map.get());
+    }
+    return plan;
+}
+
+std::string RasterLightPlan::text() const {
+    if (!_needsChoice) return std::string();
+    std::string text = "#define MANY_LIGHTS\n";
+    if (!_images) text += "#define PATINA_LIGHT_IMAGE(has) false\n";
+    if (!_profiles) text += "#define PATINA_LIGHT_PROFILE(has) false\n";
+    if (!_sky) text += "#define PATINA_LIGHT_SKY(is) false\n";
+    if (!_fades) text += "#define PATINA_LIGHT_FADES(does) false\n";
+    return text;
 }
 
 void RasterLightPlan::addDome(const EnvironmentMap* map) {

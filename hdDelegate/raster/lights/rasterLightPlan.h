@@ -2,7 +2,10 @@
 #pragma once
 
 #include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/lights/lightImages.h"
+#include "hdDelegate/raster/scene/rasterInstances.h"
 #include "hdDelegate/scene/light.h"
+#include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
 #include "materialNetwork/plan/methodPlan.h"
 
@@ -26,11 +29,21 @@ public:
     /// peakShare() of the skies that rows are of (hdDelegate/raster/measure/measuredSky).
     static constexpr double evenPeak = 0.01, softPeak = 0.05, sunPeak = 0.83;
 
+    /// Of all lights of a scene. Without a tolerance the planner looks at none.
+    static RasterLightPlan of(const SceneState& state, const RenderSettings& settings,
+                              RasterInstances& places, LightImages& images);
+
     void addDome(const EnvironmentMap* map); ///< null: the same from everywhere
     void addArea(const Light& light);
     /// Some light has filters, which programs then take in.
     void needFilters() { _needsFilters = true; }
     bool needsFilters() const { return _needsFilters; }
+    /// There are so many lights that pixels choose among them, which programs then can do.
+    void needChoice() { _needsChoice = true; }
+    bool needsChoice() const { return _needsChoice; }
+    /// What programs that choose among lights begin with: facts that hold for all lights, so that
+    /// software OpenGL need not run code for what there is none of.
+    std::string text() const;
     /// Volumes and what transmits look at samples of domes, and so does what filters change:
     /// nothing else may be chosen.
     void needSamples() { _needsSamples = true; }
@@ -52,7 +65,8 @@ private:
     Option areas(const MethodPlan& material, const std::string& method, bool& measured) const;
 
     double _peak = 0.0;
-    bool _hasDome = false, _needsSamples = false, _needsFilters = false;
+    bool _hasDome = false, _needsSamples = false, _needsFilters = false, _needsChoice = false;
+    bool _images = false, _profiles = false, _sky = false, _fades = false; ///< some light has
     std::set<std::string> _areas; ///< the shapes, as rows name them
 };
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The samples that a pass takes of the lights.
 
+#include "base/maths.h"
 #include "hdDelegate/raster/lights/lightChoice.h"
 #include "hdDelegate/raster/lights/rasterLights.h"
 #include "hdDelegate/raster/passes/passNumbers.h"
-#include "base/maths.h"
+#include "hdDelegate/raster/shadows/rasterCulling.h"
 #include "shaders/lights.h"
 
 #include <algorithm>
@@ -81,8 +82,9 @@ int RasterLights::mapsOf(const Source& s, const ShadowBounds& bounds) const {
 
 /// Lights by how many maps they need, each kind with its own share of the room.
 /// @returns index of the source and how often it counts
-std::vector<std::pair<size_t, float>>
-RasterLights::choose(uint32_t pass, const ShadowBounds& bounds, int room) const {
+std::vector<std::pair<size_t, float>> RasterLights::choose(uint32_t pass,
+                                                           const ShadowBounds& bounds, int room,
+                                                           int emitterSamples) const {
     std::vector<std::pair<size_t, float>> out;
     std::vector<size_t> groups[3]; // no maps, one, six
     std::vector<size_t> domes;
@@ -101,14 +103,21 @@ RasterLights::choose(uint32_t pass, const ShadowBounds& bounds, int room) const 
         room -= mapsOf(_sources[domes[c.index]], bounds);
     }
     room = std::max(room, 7);
-    const int others = int(out.size()) * std::max(_domeSamples, 1) + maxCoarseSamples;
+    const int others = int(out.size()) * std::max(_domeSamples, 1) +
+                       (_pixelsChoose ? emitterSamples : int(maxCoarseSamples));
     const int left = std::max(maxTaken - others, 3);
     const int ones = int(groups[1].size()), sixes = int(groups[2].size());
     const int forSixes = std::min(sixes, std::max(1, (room - std::min(ones, room / 4)) / 6));
-    int maximum[3] = {maxUnshadowed, sixes > 0 ? room - 6 * forSixes : room, forSixes};
+    int maximum[3] = {_pixelsChoose ? int(maxTaken) : int(maxUnshadowed),
+                      sixes > 0 ? room - 6 * forSixes : room, forSixes};
     for (int k = 0, given = left; k < 3; ++k) { // a third each at least
         const int wanted = std::min(maximum[k], int(groups[k].size()));
-        maximum[k] = std::min(wanted, given / (3 - k));
+        int later = 0; // that the others have no use for
+        for (int j = k + 1; _pixelsChoose && j < 3; ++j)
+            later += std::min(maximum[j], int(groups[j].size()));
+        const int share =
+            _pixelsChoose ? std::max(given / (3 - k), given - later) : given / (3 - k);
+        maximum[k] = std::min(wanted, share);
         given -= maximum[k];
     }
     const vec3 center = 0.5f * (bounds.receiverMin + bounds.receiverMax);
@@ -133,8 +142,8 @@ RasterLights::choose(uint32_t pass, const ShadowBounds& bounds, int room) const 
 }
 
 RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& emitters,
-                                           const ShadowBounds& bounds, int mapSize,
-                                           int pixels) const {
+                                           const ShadowBounds& bounds, int mapSize, int pixels,
+                                           int most) const {
     Sampled out;
     int wanted = 0;
     for (const Source& s : _sources)
@@ -166,10 +175,19 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
         maximum *= 4;
         out.mapSize /= 2;
     }
+    // A pixel that takes few of the lights needs the shadows of all. The maps have as many texels
+    // all together as where lights are fewer.
+    if (_pixelsChoose && wanted > maximum && most > maximum) {
+        const float texels = float(mapSize) * float(mapSize) * float(maxMaps);
+        maximum = std::min(most, int(maxManyMaps));
+        const int side = int(std::sqrt(texels / float(std::min(wanted, maximum)))) / 32 * 32;
+        out.mapSize = std::clamp(side, int(leastManyMap), out.mapSize);
+    }
     out.mapSize = enoughFor(pixels, out.mapSize);
     int room = maximum - forEmitters;
     std::vector<bool> taken(_sources.size(), false);
-    for (const auto& choice : choose(pass, bounds, room)) {
+    std::vector<std::pair<GpuLight, size_t>> placed; // with the sources
+    for (const auto& choice : choose(pass, bounds, room, emitterSamples)) {
         const Source& s = _sources[choice.first];
         taken[choice.first] = true;
         const uint32_t set = 100 + 16 * uint32_t(choice.first);
@@ -185,17 +203,42 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
             else if (_shadows && s.shadows)
                 castShadow(g, s.shadowCategory, passNumbers(_seed, index, set + 1), bounds, room,
                            out);
-            out.lights.push_back(g);
+            if (_pixelsChoose && s.atPlace())
+                placed.emplace_back(g, choice.first);
+            else
+                out.lights.push_back(g);
         }
     }
     takeEmitters(pass, emitterSamples, emitters, bounds, maximum, out);
+    out.firstShared = int(out.lights.size());
+    if (_pixelsChoose) choosePerPixel(pass, bounds, placed, out);
     if (out.lights.size() > size_t(maxTaken)) out.lights.resize(size_t(maxTaken));
     out.taken = int(out.lights.size());
-    out.found = out.firstShared = out.taken;
+    out.found = out.taken;
+    if (!_pixelsChoose) out.firstShared = out.taken;
     for (size_t i = 0; i < _sources.size(); ++i)
         if (!taken[i] && _sources[i].fixed.is(shLights::LIGHT_IS_SEEN))
             out.lights.push_back(draw(_sources[i], vec3(0.5f)));
     return out;
+}
+
+void RasterLights::choosePerPixel(uint32_t pass, const ShadowBounds& bounds,
+                                  const std::vector<std::pair<GpuLight, size_t>>& placed,
+                                  Sampled& out) const {
+    // Neighbours in the list are neighbours in space, so that what is chosen is spread over it.
+    std::vector<vec3> places;
+    for (const auto& [light, source] : placed)
+        places.push_back(_sources[source].position);
+    const size_t first = out.lights.size();
+    out.estimates.resize(first);
+    for (const uint32_t i : mortonOrder(places)) {
+        if (out.lights.size() == size_t(maxTaken)) break;
+        out.lights.push_back(placed[i].first);
+        out.estimates.push_back(_sources[placed[i].second].estimate);
+        out.estimates.back().power *= placed[i].first.weight;
+    }
+    out.cells =
+        LightCells(out.estimates, first, bounds.receiverMin, bounds.receiverMax, _seed, pass);
 }
 
 void RasterLights::takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,

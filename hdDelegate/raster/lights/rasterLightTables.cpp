@@ -57,6 +57,7 @@ const RectImage* RasterLightTables::rect(const Light& light, LightImages& images
             mean += double(weights.back());
         }
     mean /= double(weights.size());
+    r.mean = std::isfinite(mean) ? float(mean / 3.0) : 0.0f;
     if (!(mean > 0.0) || !std::isfinite(mean)) {
         mean = 1.0;
         std::fill(weights.begin(), weights.end(), 1.0f);
@@ -75,9 +76,11 @@ ProfileTable RasterLightTables::profile(const Light& light, Diagnostics& diagnos
     const auto profile = lightProfile(light, diagnostics);
     if (!profile) return {};
     const ProfileGrid grid = profileGrid(light, *profile, 361, 73);
-    const ProfileTable out = {int(_values.size()), grid.thetas, grid.phis};
-    for (float v : grid.values)
+    ProfileTable out = {int(_values.size()), grid.thetas, grid.phis, 0.0f};
+    for (float v : grid.values) {
         _values.emplace_back(v, 0.0f, 0.0f, 0.0f);
+        out.largest = std::max(out.largest, v);
+    }
     return out;
 }
 

@@ -11,6 +11,7 @@ namespace patina {
 /// An image on a rect light with the density that its samples are drawn with.
 struct RectImage {
     int first = 0, width = 0, height = 0; ///< in the buffer: rgb, w density relative to uniform
+    float mean = 0.0f;                    ///< of all texels and channels
     std::shared_ptr<const ImageRGB> image;
     Distribution2d distribution;
 
@@ -24,6 +25,7 @@ struct RectImage {
 /// A profile as a ProfileGrid in the buffer.
 struct ProfileTable {
     int first = -1, thetas = 0, phis = 0;
+    float largest = 1.0f; ///< value; 1 without a profile
 };
 
 /// Tables of lights that shaders look up in one buffer: images of rects, profiles, harmonics of

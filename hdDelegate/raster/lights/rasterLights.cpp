@@ -23,9 +23,11 @@ int categoryOf(const std::string& link, const LinkNames& links) {
 RasterLights::RasterLights(const SceneState& state, const RenderSettings& settings,
                            RasterInstances& places, float timeCode, int domeSamples,
                            const std::set<std::string>& domeMethods, LightImages& images,
-                           RasterDomes& domes, const LinkNames& links, Diagnostics& diagnostics)
+                           RasterDomes& domes, const LinkNames& links, Diagnostics& diagnostics,
+                           bool pixelsChoose)
     : _domeMethods(domeMethods), _domeSamples(domeSamples), _seed(uint32_t(settings.seed)),
-      _shadows(settings.enableShadows), _takeAway(takesLightAway(state, settings)) {
+      _shadows(settings.enableShadows), _takeAway(takesLightAway(state, settings)),
+      _pixelsChoose(pixelsChoose) {
     if (!domeMethods.empty() && domeMethods.count("sampled") == 0) _domeSamples = 0;
     domes.begin();
     if (settings.enableSceneLights)
@@ -107,6 +109,12 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
     g.category = categoryOf(light.lightLink, links);
     g.set(shLights::LIGHT_IS_SEEN, cameraVisible && !s.delta);
     g.setFilters(filters);
+    if (s.atPlace()) {
+        GpuLight bright = g;
+        bright.radiance = s.radiance;
+        s.estimate = estimateOf(bright, is.kind == ResolvedLight::Kind::Area ? &s.shape : nullptr,
+                                (s.image ? s.image->mean : 1.0f) * profile.largest);
+    }
     _sources.push_back(s);
     if (light.type == LightType::Dome && s.sunIrradiance != vec3(0.0f)) {
         Source sun = s;

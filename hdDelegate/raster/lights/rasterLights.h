@@ -3,6 +3,7 @@
 
 #include "hdDelegate/compiled/linkNames.h"
 #include "hdDelegate/lights/areaShape.h"
+#include "hdDelegate/raster/lights/lightCells.h"
 #include "hdDelegate/raster/lights/rasterDomes.h"
 #include "hdDelegate/raster/lights/rasterEmitters.h"
 #include "hdDelegate/raster/lights/rasterLight.h"
@@ -28,20 +29,26 @@ public:
     static constexpr int maxMaps = 32;          ///< shadow maps per pass in the full size
     static constexpr int maxSmallMaps = 128;    ///< in half of it, where lights need more
     static constexpr int maxTinyMaps = 512;     ///< smaller still, for as few pixels a side
-    static constexpr int texelsPerPixel = 4;    ///< along a side of a map, and of the image
-    static constexpr int smallestMap = 256;     ///< what casts is no coarser in small images
-    static constexpr int maxUnshadowed = 64;    ///< lights without shadows per pass
-    static constexpr int maxDomes = 24;         ///< per pass
-    static constexpr int lookEvery = 8;         ///< of a light's samples a pixel takes one in
-    static constexpr int maxTaken = 208;        ///< samples per pass, see Lights in lights.glsl
+    static constexpr int maxManyMaps = 1280;    ///< where pixels choose among lights
+    static constexpr int leastManyMap = 128;    ///< texels along their sides
+    /// Lights at places, from this number on, among which pixels choose; see LightCells.
+    static constexpr int many = 17;
+    static constexpr int chosen = 4;         ///< of them by a pixel in a pass
+    static constexpr int texelsPerPixel = 4; ///< along a side of a map, and of the image
+    static constexpr int smallestMap = 256;  ///< what casts is no coarser in small images
+    static constexpr int maxUnshadowed = 64; ///< lights without shadows per pass
+    static constexpr int maxDomes = 24;      ///< per pass
+    static constexpr int lookEvery = 8;      ///< of a light's samples a pixel takes one in
+    static constexpr int maxTaken = 208;     ///< samples per pass, see Lights in lights.glsl
 
     /// @param domeSamples per pass, where domes are sampled
     /// @param domeMethods of `domeLight`, by which materials are drawn
     /// @param links that prims were given numbers by
+    /// @param pixelsChoose whether pixels choose among the lights, and programs know that
     RasterLights(const SceneState& state, const RenderSettings& settings, RasterInstances& places,
                  float timeCode, int domeSamples, const std::set<std::string>& domeMethods,
                  LightImages& images, RasterDomes& domes, const LinkNames& links,
-                 Diagnostics& diagnostics);
+                 Diagnostics& diagnostics, bool pixelsChoose = false);
 
     /// The lights as a pass knows them.
     struct Sampled {
@@ -53,14 +60,18 @@ public:
         bool fibres = false; ///< lights have maps for fibres, too
         /// Which lights are for what, see passFields.glsl.
         int found = 0, firstSampled = 0, firstShared = 0, sharedEvery = 1;
+        /// Where pixels choose among the lights from firstShared on: of those, by their numbers.
+        std::vector<LightEstimate> estimates;
+        LightCells cells;
         bool many = false; ///< of a first look: all lights have as many samples as help
     };
     /// For a first look: many samples of each light, of which every pixel takes others than its
     /// neighbours, so that what is wrong is noise and not the same everywhere.
     /// @param maximum shadow maps that may be drawn; where they do not suffice, lights are as in
     /// sample()
+    /// @param most as in sample()
     Sampled sampleLook(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
-                       int mapSize, int pixels, int maximum) const;
+                       int mapSize, int pixels, int maximum, int most = maxSmallMaps) const;
     /// For the first image where maps are too dear for that: light by as many samples, shadows of
     /// domes by the cells of the sky, and of other lights by the maps of few of their samples. It
     /// is not right in the mean where there are shadows, so nothing of it may stay.
@@ -69,10 +80,13 @@ public:
                         int pixels, int maximum) const;
     /// @param mapSize of shadow maps, when there are not too many
     /// @param pixels along the longer side of the image
+    /// @param most shadow maps that may be drawn where pixels choose among lights
     Sampled sample(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
-                   int mapSize, int pixels) const;
+                   int mapSize, int pixels, int most = maxSmallMaps) const;
 
     uint32_t seed() const { return _seed; }
+    /// Every pass has Sampled::cells then, with empty lists where no light is at a place.
+    bool pixelsChoose() const { return _pixelsChoose; }
     /// Whether every material takes samples of domes: first looks are no part of the other methods.
     bool samplesDomes() const {
         return _domeMethods.size() == _domeMethods.count("sampled") || !_hasDome;
@@ -109,6 +123,8 @@ private:
         vec3 sunDirection{0.0f}, sunIrradiance{0.0f}; ///< of a dome, in its frame
         std::shared_ptr<const EnvironmentMap> environment;
         const RectImage* image = nullptr;
+        LightEstimate estimate;
+        bool atPlace() const { return kind != Dome && kind != Distant; }
     };
 
     /// @param filters of it in the tables; -1: it has none
@@ -130,8 +146,10 @@ private:
                      const std::vector<GpuLight>& shared, std::vector<GpuLight> pool);
     int mapsOf(const Source& source, const ShadowBounds& bounds) const;
     static int enoughFor(int pixels, int mapSize);
+    void choosePerPixel(uint32_t pass, const ShadowBounds& bounds,
+                        const std::vector<std::pair<GpuLight, size_t>>& placed, Sampled& out) const;
     std::vector<std::pair<size_t, float>> choose(uint32_t pass, const ShadowBounds& bounds,
-                                                 int room) const;
+                                                 int room, int emitterSamples) const;
     void takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,
                       const ShadowBounds& bounds, int maximum, Sampled& out) const;
     /// @param maximum maps that there is room for; a light that needs more is not shadowed
@@ -148,6 +166,7 @@ private:
     int _domeSamples = 1; ///< 0: no material looks at samples of domes
     uint32_t _seed = 0;
     bool _shadows = true, _hasDome = false, _hasWideSun = false, _takeAway = false;
+    bool _pixelsChoose = false;
     static constexpr float narrowSun = 0.003f; ///< see lighting.frag.glsl
 };
 

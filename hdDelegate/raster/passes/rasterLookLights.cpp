@@ -130,7 +130,12 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
 
 RasterLights::Sampled RasterLights::sampleLook(uint32_t pass, const RasterEmitters& emitters,
                                                const ShadowBounds& bounds, int mapSize, int pixels,
-                                               int maximum) const {
+                                               int maximum, int most) const {
+    if (_pixelsChoose) {
+        Sampled out = sample(pass, emitters, bounds, mapSize, pixels, most);
+        out.sharedEvery = every;
+        return out;
+    }
     const auto mapsEach = [&](const Source& s) {
         if (!_shadows || !s.shadows) return 0;
         if (s.kind == Dome) return _domeSamples > 0 ? 1 : 0;
@@ -209,7 +214,7 @@ RasterLights::Sampled RasterLights::sampleFirst(const RasterEmitters& emitters,
         if (samples > 1) pooled += maps;
     }
     const int emitterMaps = emitters.empty() || !_shadows ? 0 : 6 * minEmitterSamples;
-    if (bounds.hasFibres() || lights > maxTaken - minEmitterSamples ||
+    if (_pixelsChoose || bounds.hasFibres() || lights > maxTaken - minEmitterSamples ||
         single + emitterMaps > std::max(maximum, int(maxMaps)))
         return out;
     // Lights that are sharp have one sample, and its maps.

@@ -18,11 +18,8 @@ RasterPasses::RasterPasses(std::string& error)
     gl.CreateVertexArrays(1, &_vertexArray);
     RasterScene::describe(_vertexArray);
     gl.CreateFramebuffers(1, &_shadowTarget);
-    _background = GlProgram::make(
-        {{GL_VERTEX_SHADER, "background", "#include \"shaders/raster/background.vert.glsl\"\n"},
-         {GL_FRAGMENT_SHADER, "background", "#include \"shaders/raster/background.frag.glsl\"\n"}},
-        error);
-    if (!_background) return;
+    _background = std::make_unique<RasterBackground>(error);
+    if (!_background->ok()) return;
     _shadow = GlProgram::make(
         {{GL_VERTEX_SHADER, "shadow", "#include \"shaders/raster/shadow.vert.glsl\"\n"},
          {GL_FRAGMENT_SHADER, "shadow", "#include \"shaders/raster/shadow.frag.glsl\"\n"}},
@@ -256,8 +253,9 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
         pass < uint32_t(RasterLook::passes) && scene.volumes().empty() && lights.samplesDomes();
     const RasterLights::Sampled sampled =
         look ? lights.sampleLook(pass, scene.emitters(), _bounds, shadowMapSize, longer,
-                                 skyCells(scene))
-             : lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, longer);
+                                 skyCells(scene), mostMaps(scene))
+             : lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, longer,
+                             mostMaps(scene));
     std::vector<vec4> pixels, smoothing;
     if (pass == 0) _first.clear();
     if (pass == 0 && look && !sampled.many) {
@@ -295,7 +293,7 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     static_assert(RasterLights::maxTaken * sizeof(GpuLight) <= 63232, "see isEnough()");
     std::vector<GpuLight> taken(sampled.lights.begin(), sampled.lights.begin() + sampled.taken);
     taken.resize(RasterLights::maxTaken);
-    const GlBuffer lightBuffer(sampled.lights), takenBuffer(taken), matrixBuffer(matrices);
+    const GlBuffer takenBuffer(taken), matrixBuffer(matrices);
 
     const RasterView view = camera.view(sample.offset, sample.lens, sample.time, scene.boundsMin(),
                                         scene.boundsMax(), _border);
@@ -308,11 +306,19 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     b.exposure = camera.camera().exposureScale;
     b.passesTaken = float(sample.taken);
     b.sceneExtent = glm::length(scene.boundsMax() - scene.boundsMin());
-    b.lightsSeen = int(sampled.lights.size());
     b.lightsFound = sampled.found;
     b.firstSampled = sampled.firstSampled;
     b.firstShared = sampled.firstShared;
     b.sharedEvery = sampled.sharedEvery;
+    if (lights.pixelsChoose()) {
+        b.lightsChosen = RasterLights::chosen;
+        b.cellsLow = sampled.cells.low;
+        b.cellsPerUnit = sampled.cells.perUnit;
+        b.cellsX = sampled.cells.sides.x;
+        b.cellsY = sampled.cells.sides.y;
+        b.cellsZ = sampled.cells.sides.z;
+        _manyLights.bind(sampled.estimates, sampled.cells, RasterLights::maxTaken);
+    }
     if (const GlTexture& map = domes.maps()) {
         map.bind(16);
         domes.densities().bind(17);
@@ -339,7 +345,6 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     lights.tables().writePass(sampled.tables);
     lights.tables().buffer().bindStorage(8);
     _timer.mark(Surfaces);
-    lightBuffer.bindStorage(4);
     takenBuffer.bindUniform(4);
     matrixBuffer.bindStorage(5);
     _shadowMaps.bind(18);
@@ -350,10 +355,8 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     const float none[4] = {0, 0, 0, 0}, far = 1.0f;
     gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_COLOR, 0, none);
     gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_DEPTH, 0, &far);
-    gl.DepthFunc(GL_LEQUAL);
     if (look) _look->clear();
-    _background->use();
-    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    _background->draw(sampled, view, _color.width(), _color.height());
     gl.DepthFunc(GL_LESS);
     const RasterVisible visible = scene.visible(view.worldToClip);
     {

@@ -4,8 +4,10 @@
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/raster/gl/glTimer.h"
 #include "hdDelegate/raster/lights/rasterLights.h"
+#include "hdDelegate/raster/lights/rasterManyLights.h"
 #include "hdDelegate/raster/lights/rasterSky.h"
 #include "hdDelegate/raster/passes/rasterAovs.h"
+#include "hdDelegate/raster/passes/rasterBackground.h"
 #include "hdDelegate/raster/passes/rasterFilterSplat.h"
 #include "hdDelegate/raster/passes/rasterLook.h"
 #include "hdDelegate/raster/passes/rasterMattes.h"
@@ -22,7 +24,8 @@ public:
     /// @param error is set, and ok() false, when the driver does not take what every pass needs
     explicit RasterPasses(std::string& error);
     bool ok() const {
-        return _background && _shadow && _shadowAround && _depthOnly && _look && _look->ok();
+        return _background && _background->ok() && _shadow && _shadowAround && _depthOnly &&
+               _look && _look->ok();
     }
 
     /// Sets the size of the image, and which of its pixels reach the film.
@@ -84,6 +87,7 @@ private:
     PassBlock block(const RasterScene& scene, const RasterView& view) const;
     void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
     static int skyCells(const RasterScene& scene);
+    static int mostMaps(const RasterScene& scene);
     void drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass);
     /// @param slopes null: only depths are wanted
     void drawCasters(const RasterScene& scene, const ShadowView& view, const GlTexture& maps,
@@ -108,7 +112,8 @@ private:
     void measureReceivers(const RasterScene& scene, const RasterCamera& camera,
                           const RasterView& view);
 
-    std::unique_ptr<GlProgram> _background, _shadow, _shadowAround, _depthOnly;
+    std::unique_ptr<GlProgram> _shadow, _shadowAround, _depthOnly;
+    std::unique_ptr<RasterBackground> _background;
     std::unique_ptr<RasterLook> _look;
     std::unique_ptr<RasterRefraction> _refraction; ///< made when something transmits
     GlBuffer _passBuffer, _albedoTable;
@@ -123,6 +128,7 @@ private:
     GLuint _shadowTarget = 0;
     int _shadowLayers = 0;
     RasterSky _sky;
+    RasterManyLights _manyLights;
     std::vector<vec4> _first, _sums; ///< see showFirst(); of the film's pixels
     std::vector<vec4> _smoothing;    ///< what it does to the sums of the film's pixels
     ShadowBounds _bounds;

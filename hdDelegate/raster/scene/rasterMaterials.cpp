@@ -235,9 +235,11 @@ bool RasterMaterials::light(Cached& cached, const RenderSettings& settings) {
     }
     _domeMethods.insert(dome);
     const std::string text = lightingText(dome, area);
-    const bool changed = text != cached.lighting || cached.filtered != _lights.needsFilters();
+    const bool changed = text != cached.lighting || cached.filtered != _lights.needsFilters() ||
+                         cached.lights != _lights.text();
     cached.lighting = text;
     cached.filtered = _lights.needsFilters();
+    cached.lights = _lights.text();
     return changed;
 }
 
@@ -296,7 +298,9 @@ std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial
                              "#define MATERIAL_IS_THIN " + (glsl.thin ? "true\n" : "false\n") +
                              glsl.definitions;
     const std::string aovs = _aovs.text();
-    auto& shared = _programs[head + lighting + aovs + glsl.text + (faulty ? "faulty" : "")];
+    const std::string lights = _lights.text();
+    auto& shared =
+        _programs[lights + head + lighting + aovs + glsl.text + (faulty ? "faulty" : "")];
     if (shared) return shared;
     ++_built;
     const std::string surface = head +
@@ -312,6 +316,7 @@ std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial
                     head + "#include \"shaders/raster/surface.vert.glsl\"\n"};
     texts.color = fragment(lighting + (lighting.empty() ? "" : glsl.traitsText) +
                            "#include \"shaders/raster/lighting.frag.glsl\"\n");
+    texts.color.text = lights + texts.color.text;
     texts.aovs = fragment(aovs + (_aovs.albedo ? glsl.albedoText : std::string()) +
                           "#include \"shaders/raster/aovs.frag.glsl\"\n");
     texts.shadowVertex = {GL_VERTEX_SHADER, "shadow",

@@ -111,6 +111,7 @@ private:
         std::vector<PlannedMethod> light; ///< how it is lit
         std::string lighting;             ///< text in front of the lighting: methods in force
         bool filtered = false;            ///< its text knows light filters
+        std::string lights;               ///< RasterLightPlan::text() before its text
         bool lit = false;                 ///< `light` is of this update
         bool built = false;               ///< its text, and its programs are asked for
         bool taken = false;               ///< its GPU objects are there

@@ -40,7 +40,8 @@ void RasterScene::update(const SceneState& state, const vec3& origin, const Rast
     const bool same = _complete && asked.tolerance < 0.0 && origin == _origin &&
                       asked == _settings && sameCamera(camera.camera(), _camera) &&
                       _parts.placements == before.placements && _parts.links == before.links &&
-                      _parts.meshLights == before.meshLights && lights.needsFilters() == _filtered;
+                      _parts.meshLights == before.meshLights &&
+                      lights.needsFilters() == _filtered && lights.text() == _lightText;
     const auto edits = same ? _compiled.editsSince(_version, state) : std::nullopt;
     _complete = false;
     _origin = origin;
@@ -48,6 +49,7 @@ void RasterScene::update(const SceneState& state, const vec3& origin, const Rast
     _settings = asked;
     _version = state.version;
     _filtered = lights.needsFilters();
+    _lightText = lights.text();
     _shapes.retainFixed(asked.interactive);
     _lightsMayDiffer = !edits || !edits->delta.lights.empty();
     if (!edits || !updateTouched(*edits, state, camera, stop, compiling)) {

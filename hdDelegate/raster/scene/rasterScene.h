@@ -168,6 +168,7 @@ private:
     CompiledState _parts; ///< of the last update
     // The scene of the last update.
     bool _filtered = false; ///< programs know light filters
+    std::string _lightText; ///< RasterLightPlan::text() before those of programs
     bool _complete = false; ///< it was not stopped, and no material stands in for another
     uint64_t _version = 0;
     Camera _camera;

@@ -34,6 +34,16 @@ int RasterPasses::skyCells(const RasterScene& scene) {
     return int(std::clamp<size_t>(2000000 / triangles, 4, slow ? 24 : 1000));
 }
 
+/// Shadow maps of a pass, where pixels choose among all lights that have some: fewer where there is
+/// much to draw into each; a call takes as long as some hundred triangles. Volumes are lit by all
+/// lights of a pass, each of which takes long.
+int RasterPasses::mostMaps(const RasterScene& scene) {
+    if (!scene.volumes().empty()) return RasterLights::maxSmallMaps;
+    const size_t each = std::max<size_t>(1, scene.trianglesDrawn() + 500 * scene.draws().size());
+    return int(
+        std::clamp<size_t>(10000000 / each, RasterLights::maxSmallMaps, RasterLights::maxManyMaps));
+}
+
 void RasterPasses::drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass) {
     for (const RasterSky::Task& task : _sky.begin(pass, lights.seed(), _bounds, skyCells(scene)))
         drawCasters(scene, task.view, _sky.maps(), task.layer);

@@ -136,8 +136,7 @@ void bakeTurnedInterface(int ndf, bool above, float* out) {
             const TurnedNode node = turnedNode(row, TURNED_ETA_ALPHA, mu);
             if (node.alpha.x == node.alpha.y) continue; // nothing to add
             if (!above || i == 0) quadrature.setView(node.wo, node.alpha);
-            MicrofacetPlace place = microfacetPlace(node.wo, node.alpha, ndf);
-            place.narrow = false; // nodes of the table hold what is between them, too
+            const MicrofacetPlace place = microfacetPlace(node.wo, node.alpha, ndf);
             const double e0 = microfacetAlbedo0(place);
             const vec2 e = quadrature.dielectric(eta);
             const vec2 same = interfaceEntry(place.mu, place.alpha, eta, ndf);

@@ -5,11 +5,8 @@
 //
 // Errors (shaders/tests/testLobeAlbedo.cpp measures them): 1.5e-2 for a mirror, 1e-2 for interfaces
 // from outside, 2e-2 from inside. From inside at grazing angles, where one alpha is ten times the
-// other, up to 0.1. Ward's lobes have tables of the same layout (classicAlbedo.glsl): 2e-2.
-//
-// Where one alpha is more than fifty times the other the tables are up to 0.2 off, and an interface gains a
-// quarter of its light. There E[0] and the interface are summed over facets, within 5e-2.
-const float TURNED_RATIO_MIN = 0.02f;
+// other, up to 0.15; fifty times, up to 0.2: between two of the azimuths the reflectance is no line.
+// Ward's lobes have tables of the same layout (classicAlbedo.glsl): 2e-2.
 
 // The alpha of the isotropic lobe that stands in: what wo sees along its own azimuth, the root mean
 // square when it looks straight down.
@@ -43,7 +40,6 @@ struct MicrofacetPlace {
     float larger; // what follows is for anisotropic lobes: larger alpha, smaller over larger
     float ratio;
     float c; // cosine of the azimuth from the axis of the larger alpha
-    bool narrow; // the ratio is below TURNED_RATIO_MIN
     vec3 wo;
     vec2 axes; // both alphas
     int turnedBase;
@@ -57,7 +53,6 @@ PATINA_FN int turnedRow(int a, int r, int c, int m) {
 PATINA_FN_RARE MicrofacetPlace turnedPlace(MicrofacetPlace p, vec3 wo, vec2 alpha) {
     p.larger = max(alpha.x, alpha.y);
     p.ratio = min(alpha.x, alpha.y) / p.larger;
-    p.narrow = p.ratio < TURNED_RATIO_MIN;
     float across = sqrt(wo.x * wo.x + wo.y * wo.y);
     float along = abs(select(wo.x, wo.y, alpha.x >= alpha.y));
     p.c = min(along / max(across, TINY), 1.0f);
@@ -81,7 +76,6 @@ PATINA_FN MicrofacetPlace microfacetPlace(vec3 wo, vec2 alpha, int ndf) {
     p.larger = p.alpha;
     p.ratio = 1.0f;
     p.c = 1.0f;
-    p.narrow = false;
     p.wo = wo;
     p.axes = alpha;
     p.turnedBase = 0;
@@ -119,7 +113,6 @@ PATINA_FN float microfacetEntry(MicrofacetPlace p, int i) {
 
 // E[0]: the albedo of a perfect mirror, single scattering.
 PATINA_FN float microfacetAlbedo0(MicrofacetPlace p) {
-    if (p.narrow) return clamp(facetSums(p.wo, p.axes, 1.0f, p.ndf).x, ALBEDO_MIN, 1.0f);
     return clamp(microfacetEntry(p, 0), ALBEDO_MIN, 1.0f);
 }
 
@@ -146,7 +139,8 @@ PATINA_FN_RARE vec2 turnedInterface(MicrofacetPlace p, float eta) {
                          tableCell(p.c, TURNED_AZIMUTH), tableCell(tm, TURNED_MU));
     vec4 at = vec4(tableFraction(tm, TURNED_MU), tableFraction(p.c, TURNED_AZIMUTH),
                    tableFraction(tr, TURNED_RATIO), tableFraction(ta, TURNED_ETA_ALPHA));
-    float fe = tableFraction(te, TURNED_ETA);
+    // Below the first node, from inside, the critical angle runs to the horizon: nothing is between these nodes.
+    float fe = select(1.0f, tableFraction(te, TURNED_ETA), !above && tableCell(te, TURNED_ETA) == 0);
     int stepE = 2 * turnedRow(TURNED_ETA_ALPHA, 0, 0, 0);
     int table = p.ndf * MICROFACET_SIZE + select(TURNED_ABOVE, TURNED_BELOW, above) +
                 tableCell(te, TURNED_ETA) * stepE;
@@ -160,11 +154,6 @@ PATINA_FN_RARE vec2 turnedInterface(MicrofacetPlace p, float eta) {
 
 // x: E_R / E[0], the mean reflectance over the facets seen; y: E_T / E[0]. Both not negative.
 PATINA_FN vec2 microfacetInterface(MicrofacetPlace p, float eta) {
-    if (p.narrow) {
-        vec3 sums = facetSums(p.wo, p.axes, eta, p.ndf);
-        float e0 = clamp(sums.x, ALBEDO_MIN, 1.0f);
-        return vec2(min(sums.y / e0, 1.0f), sums.z / e0);
-    }
     vec2 e = interfaceEntry(p.mu, p.alpha, eta, p.ndf);
     if (p.turned) e += turnedInterface(p, eta);
     float r = clamp(e.x + interfaceGuess(p.mu, p.alpha, eta), 0.0f, 1.0f);

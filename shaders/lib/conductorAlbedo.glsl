@@ -25,9 +25,10 @@ PATINA_FN vec3 curveMeanAdded(MicrofacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3
 }
 
 // A "metal" that refracts: close below a critical angle the reflectance jumps, which no sum of
-// smooth curves follows.
+// smooth curves follows. Where there is hardly an interface, it rises to 1 at the horizon alone.
 PATINA_FN bool conductorSteepChannel(float n, float k) {
-    return n < 1.0f && k < 0.5f && n * n - k * k > -0.1f;
+    bool refracts = n < 1.0f && k < 0.5f && n * n - k * k > -0.1f;
+    return refracts || (abs(n - 1.0f) < 0.01f && k < 0.01f);
 }
 
 PATINA_FN bool conductorSteepIor(vec3 n, vec3 k) {

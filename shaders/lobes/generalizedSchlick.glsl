@@ -241,9 +241,11 @@ PATINA_FN SchlickLobe schlickAt(SchlickLobe l, vec3 wo) {
     return l;
 }
 
-// Chance of choosing R at a facet, in RT.
+// Chance of choosing R at a facet, in RT. A steep curve may be so near 0 that no float divides by it.
 PATINA_FN float schlickChance(SchlickLobe l, vec3 f) {
-    return select(lobeMean(f), select(1.0f, 0.0f, l.mode == SCATTER_R), l.mode == SCATTER_RT);
+    float mean = lobeMean(f);
+    mean = select(mean, 0.0f, mean > TINY);
+    return select(mean, select(1.0f, 0.0f, l.mode == SCATTER_R), l.mode == SCATTER_RT);
 }
 
 PATINA_FN LobeEval schlickEval(SchlickLobe l, vec3 wo, vec3 wi) {

@@ -162,13 +162,16 @@ def check_furnace(probe, graph, budget=BUDGET):
         wo = directions((cosine,), (0.3,))
         mean, error = furnace(probe, cosine, 11)
         albedo = probe.albedo(wo)[0]
-        slack = 5.0 * error + budget * max(1.0, float(albedo.max()), graph.bound if np.isfinite(graph.bound) else 1.0)
         place = {"wo": wo}
-        met = mean * present(probe, graph.thin, wo)[0]
+        share = present(probe, graph.thin, wo)[0]
+        highest = max(1.0, float((albedo * share).max()), graph.bound if np.isfinite(graph.bound) else 1.0)
+        slack = 5.0 * error * share + budget * highest
+        met = mean * share
         failures.check([(met > graph.bound + slack).any()], f"sampled albedo above {graph.bound:g}", place, [mean])
         if graph.ward or not np.isfinite(graph.bound):  # a tint of 65504 makes much of the last digit
             continue
-        far = mean - albedo > slack if graph.loses else np.abs(mean - albedo) > slack
+        apart = (mean - albedo) * share
+        far = apart > slack if graph.loses else np.abs(apart) > slack
         failures.check([far.any()], "sampled albedo is not albedo()", place, [np.append(mean, albedo)])
     return failures
 

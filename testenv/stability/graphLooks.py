@@ -36,7 +36,7 @@ BUDGETS = {"dielectric_bsdf": 0.035, "dielectric_btdf": 0.035, "conductor_bsdf":
 FACETS = {"dielectric_bsdf", "dielectric_btdf", "conductor_bsdf"}
 BECKMANN, FILM = 0.02, 0.04
 # Of the tables of anisotropy (anisotropicAlbedo.glsl): from inside, at grazing angles, an interface is further off.
-ANISOTROPIC = {"dielectric_bsdf": 0.1, "dielectric_btdf": 0.1, "conductor_bsdf": 0.05}
+ANISOTROPIC = {"dielectric_bsdf": 0.2, "dielectric_btdf": 0.2, "generalized_schlick_bsdf": 0.2, "conductor_bsdf": 0.05}
 TABLED = (0.1, 10.0)  # iors of dielectrics that the tables hold well
 ROUNDED = 1e-3
 # Beneath a reflecting lobe a transmission is scaled by up to 1 / ALBEDO_MIN = 1000. Where hardly any of it is left, as within
@@ -82,11 +82,12 @@ def budget(nodes):
     layered = any(category == "layer" for category, *_ in nodes)
     for category, _, _, inputs in nodes:
         largest = max(largest, BUDGETS.get(category, 0.0))
-        if category in FACETS:
+        if category in ANISOTROPIC:
             _, source, value = inputs.get("roughness", ("", "", ""))
             along, _, across = value.partition(", ")
+            largest = max(largest, ANISOTROPIC[category] if source or along != across else 0.0)
+        if category in FACETS:
             largest = max(largest, graphChecks.BUDGET if _steep(category, inputs) else 0.0,
-                          ANISOTROPIC[category] if source or along != across else 0.0,
                           BECKMANN if inputs.get("distribution", ("", "", ""))[2] == "beckmann" else 0.0,
                           FILM if "thinfilm_thickness" in inputs else 0.0,
                           UNKNOWN if layered and _only_transmits(category, inputs) and _steep(category, inputs) else 0.0)
@@ -171,12 +172,13 @@ def check_means(probe, graph, drawn, number, allowed, furnace=True, densities=Tr
     albedo = probe.albedo(drawn.views).astype(np.float64)
     mean, error = drawn.means(drawn.samples["weight"])
     bound = graph.bound if np.isfinite(graph.bound) else 1.0
-    slack = quantile * error + allowed * np.maximum(np.maximum(1.0, bound), albedo)
     places = {"wo": drawn.views}
-    met = mean * graphChecks.present(probe, graph.thin, drawn.views)
+    share = graphChecks.present(probe, graph.thin, drawn.views)
+    slack = quantile * error * share + allowed * np.maximum(np.maximum(1.0, bound), albedo * share)
+    met = mean * share
     failures.check(graphChecks.rows(met > graph.bound + slack), f"sampled albedo above {graph.bound:g}", places, mean)
     if furnace and np.isfinite(graph.bound):
-        far = mean - albedo if graph.loses else np.abs(mean - albedo)
+        far = (mean - albedo) * share if graph.loses else np.abs(mean - albedo) * share
         failures.check(graphChecks.rows(far > slack), "sampled albedo is not albedo()", places, np.column_stack([mean, albedo]))
     if densities:
         # What reflects nothing may claim a density and draw nothing: no light counts by it.

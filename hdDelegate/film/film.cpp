@@ -46,24 +46,31 @@ bool alwaysThere(const std::string& name) {
     return id != AovId::unknown && aovRows()[size_t(id)].ofFilm;
 }
 
+/// As assign(), but a vector of that size keeps its memory and is filled on all threads.
+template <class Value> void fill(std::vector<Value>& values, size_t count, const Value& value) {
+    if (values.size() != count) return values.assign(count, value);
+    constexpr size_t part = 1 << 16;
+    parallelFor(size_t(0), (count + part - 1) / part, [&](size_t i) {
+        std::fill(values.begin() + ptrdiff_t(i * part),
+                  values.begin() + ptrdiff_t(std::min(count, (i + 1) * part)), value);
+    });
+}
+
 } // namespace
 
-Film::Plane Film::clearedPlane(const AovSpec& spec, size_t pixels) {
-    Plane plane;
-    if (alwaysThere(spec.name)) return plane;
-    if (spec.kind == AovKind::Mean) {
-        plane.sums.assign((2 * size_t(spec.components) + 1) * pixels, 0.0);
-        return plane;
-    }
+/// @param plane of such an AOV, whose memory is used again, or an empty one
+void Film::clearPlane(const AovSpec& spec, size_t pixels, Plane& plane) {
+    if (alwaysThere(spec.name)) return;
+    if (spec.kind == AovKind::Mean)
+        return fill(plane.sums, (2 * size_t(spec.components) + 1) * pixels, 0.0);
     if (spec.kind == AovKind::Coverage) {
-        plane.cells.resize(pixels);
-        return plane;
+        plane.names = CoverageNames();
+        return plane.cells.assign(pixels, CoverageCell());
     }
     const size_t stride = size_t(spec.components) + 1;
-    plane.nearest.assign(stride * pixels, spec.clearValue);
+    fill(plane.nearest, stride * pixels, spec.clearValue);
     for (size_t i = stride - 1; i < plane.nearest.size(); i += stride)
         plane.nearest[i] = farAway;
-    return plane;
 }
 
 void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool keep) {
@@ -89,10 +96,11 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
     _width = width;
     _height = height;
     _aovs = aovs;
-    _pixels.assign(pixels, Pixel());
-    _planes.clear();
-    for (const AovSpec& spec : _aovs)
-        _planes.push_back(clearedPlane(spec, pixels));
+    fill(_pixels, pixels, Pixel());
+    if (!same) _planes.clear();
+    _planes.resize(_aovs.size());
+    for (size_t i = 0; i < _aovs.size(); ++i)
+        clearPlane(_aovs[i], pixels, _planes[i]);
     _dropped = 0;
 }
 

@@ -164,7 +164,7 @@ private:
     static void recordMean(Pixel& pixel);
     void closeSpan(size_t index);
     void drop() { _dropped.fetch_add(1, std::memory_order_relaxed); }
-    static Plane clearedPlane(const AovSpec& spec, size_t pixels);
+    static void clearPlane(const AovSpec& spec, size_t pixels, Plane& plane);
 
     int _width = 0, _height = 0;
     std::vector<AovSpec> _aovs;

@@ -130,7 +130,8 @@ void FilmStream::readPixels(FilmFileReader& file, Film& film, const Tile& tile) 
 size_t FilmStream::bytesOfPixel(const std::vector<AovSpec>& aovs) {
     size_t bytes = sizeof(Film::Pixel);
     for (const AovSpec& spec : aovs) {
-        const Film::Plane plane = Film::clearedPlane(spec, 1);
+        Film::Plane plane;
+        Film::clearPlane(spec, 1, plane);
         bytes += plane.sums.size() * sizeof(double) + plane.nearest.size() * sizeof(float) +
                  plane.cells.size() * sizeof(uint32_t);
     }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 namespace patina {
 
@@ -23,10 +24,11 @@ template <class T> T rounded(double x) {
 }
 
 template <class T, class F>
-void store(const float* values, size_t components, void* target, const F& convert) {
+void store(const float* values, size_t count, size_t components, void* target, const F& convert) {
     T* out = static_cast<T*>(target);
-    for (size_t i = 0; i < components; ++i)
-        out[i] = convert(values[i]);
+    for (size_t i = 0; i < count; ++i, values += 4)
+        for (size_t c = 0; c < components; ++c)
+            *out++ = convert(values[c]);
 }
 
 int32_t bitsOf(float value) {
@@ -48,37 +50,42 @@ bool isWritableFormat(HdFormat format) {
     }
 }
 
-void writePixel(const float source[4], bool isInteger, HdFormat format, void* target) {
+void writePixels(const float* values, size_t count, bool isInteger, HdFormat format, void* target) {
     const size_t n = HdGetComponentCount(format);
     const HdFormat component = HdGetComponentFormat(format);
-    float values[4] = {source[0], source[1], source[2], source[3]};
+    std::vector<float> numbers;
     if (isInteger) {
         if (component == HdFormatInt32 && n == 1) {
-            std::memcpy(target, source, sizeof(int32_t));
+            char* out = static_cast<char*>(target);
+            for (size_t i = 0; i < count; ++i)
+                std::memcpy(out + i * sizeof(int32_t), values + 4 * i, sizeof(int32_t));
             return;
         }
-        values[0] = float(bitsOf(source[0]));
-        values[1] = values[2] = values[3] = 0.0f;
+        numbers.resize(4 * count);
+        for (size_t i = 0; i < numbers.size(); i += 4)
+            numbers[i] = float(bitsOf(values[i]));
+        values = numbers.data();
     }
     switch (component) {
     case HdFormatUNorm8:
-        store<uint8_t>(values, n, target, [](float x) {
+        store<uint8_t>(values, count, n, target, [](float x) {
             return uint8_t(std::lround(std::clamp(finite(x), 0.0f, 1.0f) * 255.0f));
         });
         break;
     case HdFormatSNorm8:
-        store<int8_t>(values, n, target, [](float x) {
+        store<int8_t>(values, count, n, target, [](float x) {
             return int8_t(std::lround(std::clamp(finite(x), -1.0f, 1.0f) * 127.0f));
         });
         break;
     case HdFormatFloat16:
-        store<GfHalf>(values, n, target, [](float x) {
+        store<GfHalf>(values, count, n, target, [](float x) {
             return GfHalf(std::clamp(std::isnan(x) ? 0.0f : x, -65504.0f, 65504.0f));
         });
         break;
-    case HdFormatFloat32: std::memcpy(target, values, n * sizeof(float)); break;
+    case HdFormatFloat32: store<float>(values, count, n, target, [](float x) { return x; }); break;
     case HdFormatInt32:
-        store<int32_t>(values, n, target, [](float x) { return rounded<int32_t>(finite(x)); });
+        store<int32_t>(values, count, n, target,
+                       [](float x) { return rounded<int32_t>(finite(x)); });
         break;
     default: break;
     }

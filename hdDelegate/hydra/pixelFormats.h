@@ -9,15 +9,15 @@
 
 namespace patina {
 
-/// Whether writePixel() can fill buffers of a format: every plain format of 8, 16 and 32 bits with
+/// Whether writePixels() can fill buffers of a format: every plain format of 8, 16 and 32 bits with
 /// one to four components.
 bool isWritableFormat(HdFormat format);
 
-/// Stores one pixel.
-/// @param values four floats; components that the format lacks are dropped
+/// Stores pixels.
+/// @param values four floats of each; components that the format lacks are dropped
 /// @param isInteger the first value holds the bits of an int32 (ids); such pixels keep their
 ///        number in integer formats and in float ones
 /// UNorm8 and SNorm8 are clamped to their range and rounded; numbers that are not finite become 0.
-void writePixel(const float values[4], bool isInteger, HdFormat format, void* target);
+void writePixels(const float* values, size_t count, bool isInteger, HdFormat format, void* target);
 
 } // namespace patina

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/hydra/clearValue.h"
 #include "hdDelegate/hydra/pixelFormats.h"
+#include "hdDelegate/parallel.h"
 
 #include <pxr/base/gf/vec3i.h>
 #include <pxr/base/tf/diagnostic.h>
@@ -70,26 +71,30 @@ void HdPatinaRenderBuffer::Unmap() {
     if (_mappers > 0) --_mappers;
 }
 
-bool HdPatinaRenderBuffer::write(bool isInteger,
-                                 const std::function<void(int, int, float*)>& pixel) {
+bool HdPatinaRenderBuffer::write(bool isInteger, const std::function<void(int, float*)>& row) {
     std::lock_guard<std::mutex> lock(_mutex);
     if (_mappers > 0) return false;
     const size_t size = _bytes.empty() ? 0 : HdDataSizeOfFormat(_format);
-    uint8_t* out = _bytes.data();
-    for (unsigned y = 0; size && y < _height; ++y)
-        for (unsigned x = 0; x < _width; ++x, out += size) {
-            float values[4] = {0.0f, 0.0f, 0.0f, 1.0f};
-            pixel(int(x), int(y), values);
-            writePixel(values, isInteger, _format, out);
-        }
+    if (size == 0) return true;
+    // Isolated: work of others that wants this buffer would wait for the lock that is held here.
+    runIsolated([&] {
+        parallelFor(0u, _height, [&](unsigned y) {
+            std::vector<float> pixels(4 * size_t(_width), 0.0f);
+            for (size_t i = 3; i < pixels.size(); i += 4)
+                pixels[i] = 1.0f;
+            row(int(y), pixels.data());
+            writePixels(pixels.data(), _width, isInteger, _format,
+                        &_bytes[size_t(y) * _width * size]);
+        });
+    });
     return true;
 }
 
 void HdPatinaRenderBuffer::clear(const VtValue& value) {
     const ClearValue clear = clearValueOf(value);
-    write(clear.isInteger, [&](int, int, float* out) {
-        for (int i = 0; i < 4; ++i)
-            out[i] = clear.values[i];
+    write(clear.isInteger, [&](int, float* pixels) {
+        for (size_t i = 0; i < 4 * size_t(_width); ++i)
+            pixels[i] = clear.values[i % 4];
     });
 }
 

@@ -36,10 +36,10 @@ public:
     bool IsConverged() const override { return _converged; }
     void setConverged(bool converged) { _converged = converged; }
 
-    /// Fills every pixel. @param pixel gives four floats for a column and a row, row 0 at the
-    /// bottom
+    /// Fills every pixel, rows on all threads. @param row gives the pixels of a row, four floats
+    /// each, row 0 at the bottom; there are (0, 0, 0, 1) before
     /// @returns false, and does nothing, while a host has the pixels mapped
-    bool write(bool isInteger, const std::function<void(int, int, float*)>& pixel);
+    bool write(bool isInteger, const std::function<void(int y, float* pixels)>& row);
     /// Fills every pixel with an AOV's clear value.
     void clear(const VtValue& value);
 

@@ -12,6 +12,7 @@
 #include <pxr/imaging/hd/renderPassState.h>
 #include <pxr/imaging/hd/tokens.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace patina {
@@ -163,19 +164,21 @@ void HdPatinaRenderPass::show(const HdPatinaFrame& frame) {
         const bool isColor = spec.name == "color";
         const ClearValue clear = clearValueOf(target.clearValue);
         const std::vector<float>& pixels = found->second;
-        written &= target.buffer->write(spec.isInteger, [&](int x, int y, float* out) {
-            if (x >= frame.width || y >= frame.height) return;
-            const size_t i = size_t(frame.height - 1 - y) * size_t(frame.width) + size_t(x);
-            std::memcpy(out, &pixels[i * size_t(spec.components)],
-                        sizeof(float) * size_t(spec.components));
-            if (isColor) {
-                out[3] = alpha->second[i];
-                for (int k = 0; k < 4 && !clear.empty; ++k)
-                    out[k] += (1.0f - alpha->second[i]) * clear.values[k];
-            } else if (!clear.empty && clear.isInteger == spec.isInteger &&
-                       std::memcmp(out, &spec.clearValue, sizeof(float)) == 0 &&
-                       spec.components == 1) {
-                out[0] = clear.values[0];
+        const bool replaced =
+            !isColor && !clear.empty && clear.isInteger == spec.isInteger && spec.components == 1;
+        const size_t columns = std::min(target.buffer->GetWidth(), unsigned(frame.width));
+        written &= target.buffer->write(spec.isInteger, [&](int y, float* out) {
+            if (y >= frame.height) return;
+            size_t i = size_t(frame.height - 1 - y) * size_t(frame.width);
+            for (const size_t end = i + columns; i < end; ++i, out += 4) {
+                std::copy_n(&pixels[i * size_t(spec.components)], spec.components, out);
+                if (isColor) {
+                    out[3] = alpha->second[i];
+                    for (int k = 0; k < 4 && !clear.empty; ++k)
+                        out[k] += (1.0f - alpha->second[i]) * clear.values[k];
+                } else if (replaced && std::memcmp(out, &spec.clearValue, sizeof(float)) == 0) {
+                    out[0] = clear.values[0];
+                }
             }
         });
     }

@@ -88,6 +88,8 @@ def measure(name, stage, camera, edits, options):
                     runs.pop(renderer)
                     break
                 seconds, found = report["seconds"], runs[renderer]
+                if run == 0 and kind == next(iter(edits)):
+                    print(f"{name}, {renderer}: OpenGL draws on {report['device']}", file=sys.stderr)
                 found.setdefault("first", []).append(seconds["open"] + seconds["first"])
                 found.setdefault("memory", []).append(report["peakMemory"])
                 found.setdefault("moved", []).extend(seconds["moved"])

@@ -21,6 +21,7 @@ def test_it_draws_and_times_moves_and_edits(tmp_path):
     report = json.loads(process.stdout[process.stdout.index("{"):])
     seconds = report["seconds"]
     assert seconds["first"] > 0.0 and len(seconds["moved"]) == len(seconds["edited"]) == 2 and report["peakMemory"] > 1e6
+    assert report["device"] and report["statistics"]["fractionDone"] == 1.0
     drawn = inProcess.pixels(image)
     assert drawn.shape == (18, 32, 3) and np.isfinite(drawn).all() and drawn.mean() > 0.0
 

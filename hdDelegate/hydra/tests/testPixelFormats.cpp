@@ -28,13 +28,13 @@ float bits(int32_t value) {
 TEST(PixelFormats, EightBitsAreClampedAndRounded) {
     const float values[4] = {-1.0f, 0.5f, 2.0f, NAN};
     uint8_t out[4];
-    writePixel(values, false, HdFormatUNorm8Vec4, out);
+    writePixels(values, 1, false, HdFormatUNorm8Vec4, out);
     EXPECT_EQ(out[0], 0);
     EXPECT_EQ(out[1], 128);
     EXPECT_EQ(out[2], 255);
     EXPECT_EQ(out[3], 0);
     int8_t signedOut[4];
-    writePixel(values, false, HdFormatSNorm8Vec4, signedOut);
+    writePixels(values, 1, false, HdFormatSNorm8Vec4, signedOut);
     EXPECT_EQ(signedOut[0], -127);
     EXPECT_EQ(signedOut[2], 127);
 }
@@ -42,7 +42,7 @@ TEST(PixelFormats, EightBitsAreClampedAndRounded) {
 TEST(PixelFormats, HalfsNeverOverflow) {
     const float values[4] = {1e9f, -1e9f, 0.25f, NAN};
     GfHalf out[4];
-    writePixel(values, false, HdFormatFloat16Vec4, out);
+    writePixels(values, 1, false, HdFormatFloat16Vec4, out);
     EXPECT_EQ(float(out[0]), 65504.0f);
     EXPECT_EQ(float(out[1]), -65504.0f);
     EXPECT_EQ(float(out[2]), 0.25f);
@@ -53,12 +53,12 @@ TEST(PixelFormats, IdsKeepTheirNumberInEveryFormat) {
     for (const int32_t id : {-1, 0, 77, std::numeric_limits<int32_t>::max()}) {
         const float values[4] = {bits(id), 0, 0, 0};
         int32_t whole = 5;
-        writePixel(values, true, HdFormatInt32, &whole);
+        writePixels(values, 1, true, HdFormatInt32, &whole);
         EXPECT_EQ(whole, id);
     }
     const float values[4] = {bits(300), 0, 0, 0};
     float real = 0;
-    writePixel(values, true, HdFormatFloat32, &real);
+    writePixels(values, 1, true, HdFormatFloat32, &real);
     EXPECT_EQ(real, 300.0f);
 }
 
@@ -70,7 +70,7 @@ TEST(PixelFormats, NothingIsWrittenBeyondThePixel) {
         uint8_t out[64];
         std::memset(out, 0xAB, sizeof out);
         const float values[4] = {1, 1, 1, 1};
-        writePixel(values, false, format, out);
+        writePixels(values, 1, false, format, out);
         for (size_t i = size; i < sizeof out; ++i)
             ASSERT_EQ(out[i], 0xAB) << "format " << f;
     }

@@ -26,7 +26,10 @@ TEST(RenderBuffer, CountsItsMappers) {
     buffer.Map();
     buffer.Unmap();
     EXPECT_TRUE(buffer.IsMapped());
-    const auto one = [](int, int, float* out) { out[0] = 1.0f; };
+    const auto one = [](int, float* pixels) {
+        for (int x = 0; x < 3; ++x)
+            pixels[4 * x] = 1.0f;
+    };
     EXPECT_FALSE(buffer.write(false, one)) << "a host is reading";
     buffer.Unmap();
     EXPECT_FALSE(buffer.IsMapped());
@@ -40,9 +43,11 @@ TEST(RenderBuffer, CountsItsMappers) {
 TEST(RenderBuffer, RowsGoUpwards) {
     HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
     ASSERT_TRUE(buffer.Allocate(GfVec3i(2, 3, 1), HdFormatFloat32Vec2, false));
-    buffer.write(false, [](int x, int y, float* out) {
-        out[0] = float(x);
-        out[1] = float(y);
+    buffer.write(false, [](int y, float* pixels) {
+        for (int x = 0; x < 2; ++x) {
+            pixels[4 * x] = float(x);
+            pixels[4 * x + 1] = float(y);
+        }
     });
     const float* pixels = static_cast<float*>(buffer.Map());
     EXPECT_EQ(pixels[0], 0.0f);

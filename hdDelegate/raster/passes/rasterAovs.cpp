@@ -2,6 +2,9 @@
 #include "hdDelegate/raster/passes/rasterAovs.h"
 
 #include "hdDelegate/film/aovValues.h"
+#include "hdDelegate/parallel.h"
+
+#include <algorithm>
 
 namespace patina {
 
@@ -49,7 +52,7 @@ void RasterAovs::write(const RasterAovImages& images, const RasterAovRequest& re
     for (size_t a = 0; a < aovs.size(); ++a) {
         const AovSpec& spec = aovs[a];
         const int slot = RasterAovRequest::slot(request.primvars, spec.primvar);
-        for (int y = window[1]; y <= window[3]; ++y)
+        parallelFor(window[1], std::max(window[1], window[3] + 1), [&](int y) {
             for (int x = window[0]; x <= window[2]; ++x) {
                 const size_t i = size_t(height - 1 - y) * size_t(width) + size_t(x);
                 if (images.positions[i].w == 0.0f) continue;
@@ -57,6 +60,7 @@ void RasterAovs::write(const RasterAovImages& images, const RasterAovRequest& re
                 if (aovValue(spec.id, PixelPoint{images, camera, origin, slot, i}, out))
                     film.addAov(int(a), x, y, out, 0.0f);
             }
+        });
     }
 }
 

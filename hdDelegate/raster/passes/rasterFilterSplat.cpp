@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/passes/rasterFilterSplat.h"
 
+#include "hdDelegate/parallel.h"
+
+#include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace patina {
 
@@ -9,22 +13,26 @@ void takeSplats(std::vector<glm::vec4>& pixels, int width, int height, const Ras
                 const int window[4],
                 const std::function<void(int x, int y, const glm::vec4& value)>& take) {
     const int border = sample.border(), stride = width + 2 * border;
+    const int above = std::max(window[1], window[3] + 1);
     const auto rowOf = [&](int y) { // of the film, or beside it
         return &pixels[size_t(height - 1 - y + border) * size_t(stride)] + border;
     };
     // A value that is no number stays where it is, for the film to count.
     std::vector<std::pair<int, int>> broken;
+    std::mutex mutex;
     if (border > 0)
-        for (int y = 0; y < height + 2 * border; ++y)
+        parallelFor(0, height + 2 * border, [&](int y) {
             for (int x = 0; x < stride; ++x) {
                 glm::vec4& p = pixels[size_t(y) * size_t(stride) + size_t(x)];
                 if (std::isfinite(p.x + p.y + p.z + p.w)) continue;
                 p = glm::vec4(0.0f);
+                const std::lock_guard<std::mutex> lock(mutex);
                 broken.emplace_back(x - border, height - 1 - y + border);
             }
+        });
     // The share of number i goes i - border pixels further, so a pixel takes it from there back.
     if (border > 0)
-        for (int y = window[1] - border; y <= window[3] + border; ++y) {
+        parallelFor(window[1] - border, above + border, [&](int y) {
             glm::vec4* row = rowOf(y);
             std::vector<glm::vec4> whole(row - border, row + width + border);
             for (int x = window[0]; x <= window[2]; ++x) {
@@ -33,8 +41,8 @@ void takeSplats(std::vector<glm::vec4>& pixels, int width, int height, const Ras
                     sum += sample.splatX[size_t(i)] * whole[size_t(x + 2 * border - i)];
                 row[x] = sum;
             }
-        }
-    for (int y = window[1]; y <= window[3]; ++y)
+        });
+    parallelFor(window[1], above, [&](int y) {
         for (int x = window[0]; x <= window[2]; ++x) {
             glm::vec4 sum(0.0f);
             for (int i = 0; i <= 2 * border; ++i)
@@ -43,6 +51,7 @@ void takeSplats(std::vector<glm::vec4>& pixels, int width, int height, const Ras
                 if (brokenX == x && brokenY == y) sum.x = NAN;
             take(x, y, sum);
         }
+    });
 }
 
 void addSplats(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,

@@ -26,6 +26,7 @@ struct RasterSample {
 /// @param pixels RGBA, rows from the bottom up, with the sample's border on all sides; they are
 ///        overwritten
 /// @param window xmin, ymin, xmax, ymax of the film, inclusive, y down
+/// @param take called once for each pixel, on all threads
 void takeSplats(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
                 const int window[4],
                 const std::function<void(int x, int y, const glm::vec4& value)>& take);

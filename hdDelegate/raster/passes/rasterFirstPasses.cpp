@@ -3,6 +3,9 @@
 
 #include "hdDelegate/raster/passes/rasterPasses.h"
 
+#include "hdDelegate/parallel.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace patina {
@@ -22,7 +25,7 @@ void RasterPasses::smooth(const RasterSample& sample, bool look, std::vector<vec
         });
     }
     const float was = RasterLook::share(sample.pass), is = RasterLook::share(sample.pass + 1);
-    for (int y = _window[1]; y <= _window[3]; ++y)
+    parallelFor(_window[1], std::max(_window[1], _window[3] + 1), [&](int y) {
         for (int x = _window[0]; x <= _window[2]; ++x) {
             const size_t at = size_t(y) * size_t(_width) + size_t(x);
             const vec3 change = vec3(_smoothing[at]) * is - vec3(before[at]) * was;
@@ -31,6 +34,7 @@ void RasterPasses::smooth(const RasterSample& sample, bool look, std::vector<vec
             const float least = film.allowsNegative() ? -INFINITY : 0.0f;
             film.setMean(x, y, glm::max(mean, vec3(least)), film.alpha(x, y));
         }
+    });
 }
 
 /// Shows an image until the mean of the later passes is better.

@@ -5,8 +5,11 @@
 #include "hdDelegate/raster/passes/rasterAovs.h"
 #include "hdDelegate/raster/passes/rasterPassBlock.h"
 
+#include "hdDelegate/parallel.h"
+
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <set>
 
 namespace patina {
@@ -113,19 +116,28 @@ void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera
     std::set<int> fibres;
     for (const RasterDraw& d : scene.draws())
         if (d.flags & RasterShape::strip) fibres.insert(d.primId);
-    for (size_t i = 0; i < _seen.positions.size(); ++i) {
-        const vec4& p = _seen.positions[i];
-        if (!(p.w > 0.0f) || !std::isfinite(p.x + p.y + p.z)) continue;
-        // Samples beside the pixel's centre, through the lens too.
-        const float away = glm::length(vec3(p) - view.eye);
-        const float beside =
-            2.0f * (view.perspective ? away : 1.0f) * view.pixelSpread + camera.blurAt(away);
-        low = glm::min(low, vec3(p) - beside);
-        high = glm::max(high, vec3(p) + beside);
-        if (fibres.count(_seen.ids[4 * i]) == 0) continue;
-        fibresLow = glm::min(fibresLow, vec3(p) - beside);
-        fibresHigh = glm::max(fibresHigh, vec3(p) + beside);
-    }
+    std::mutex mutex;
+    parallelFor(0, _height, [&](int y) {
+        vec3 rowLow(INFINITY), rowHigh(-INFINITY), rowFibresLow = rowLow, rowFibresHigh = rowHigh;
+        for (size_t i = size_t(y) * size_t(_width); i < size_t(y + 1) * size_t(_width); ++i) {
+            const vec4& p = _seen.positions[i];
+            if (!(p.w > 0.0f) || !std::isfinite(p.x + p.y + p.z)) continue;
+            // Samples beside the pixel's centre, through the lens too.
+            const float away = glm::length(vec3(p) - view.eye);
+            const float beside =
+                2.0f * (view.perspective ? away : 1.0f) * view.pixelSpread + camera.blurAt(away);
+            rowLow = glm::min(rowLow, vec3(p) - beside);
+            rowHigh = glm::max(rowHigh, vec3(p) + beside);
+            if (fibres.count(_seen.ids[4 * i]) == 0) continue;
+            rowFibresLow = glm::min(rowFibresLow, vec3(p) - beside);
+            rowFibresHigh = glm::max(rowFibresHigh, vec3(p) + beside);
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        low = glm::min(low, rowLow);
+        high = glm::max(high, rowHigh);
+        fibresLow = glm::min(fibresLow, rowFibresLow);
+        fibresHigh = glm::max(fibresHigh, rowFibresHigh);
+    });
     _bounds.sceneMin = scene.boundsMin();
     _bounds.sceneMax = scene.boundsMax();
     if (low.x > high.x) {

@@ -50,14 +50,23 @@ void Engine::render() {
     params.colorCorrectionMode = HdxColorCorrectionTokens->disabled;
     params.showRender = true;
     params.clearColor = GfVec4f(0.0f);
+    using Clock = std::chrono::steady_clock;
+    const Clock::duration least = std::chrono::milliseconds(1),
+                          most = std::chrono::milliseconds(16);
+    const auto start = Clock::now();
     for (_engine->Render(_stage->GetPseudoRoot(), params); !_engine->IsConverged();
          _engine->Render(_stage->GetPseudoRoot(), params))
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        // Each look takes time from the renderer, so that only quick images are looked at often.
+        std::this_thread::sleep_for(std::clamp((Clock::now() - start) / 32, least, most));
     HdRenderBuffer* buffer = _engine->GetAovRenderBuffer(HdAovTokens->color);
     if (!buffer) throw std::runtime_error("there is no colour buffer");
     buffer->Resolve();
     if (!buffer->Map()) throw std::runtime_error("the colour buffer cannot be read");
     buffer->Unmap();
+}
+
+VtDictionary Engine::statistics() const {
+    return _engine->GetRenderStats();
 }
 
 void Engine::write(const std::string& file) {

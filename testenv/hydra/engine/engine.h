@@ -3,6 +3,7 @@
 
 #include "testenv/hydra/engine/glContext.h"
 
+#include <pxr/base/vt/dictionary.h>
 #include <pxr/usd/sdf/path.h>
 #include <pxr/usd/usd/stage.h>
 
@@ -36,6 +37,11 @@ public:
     void render();
     /// @throws std::runtime_error when the file is not written
     void write(const std::string& file);
+
+    /// What the renderer counts, of its last image.
+    VtDictionary statistics() const;
+    /// The device of OpenGL.
+    const std::string& device() const { return _context.name(); }
 
 private:
     GlContext _context;

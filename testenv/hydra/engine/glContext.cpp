@@ -6,6 +6,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <cstring>
 #include <stdexcept>
 
 namespace patina {
@@ -28,15 +29,36 @@ void bindFramebuffer() {
                                                                               framebuffer);
 }
 
+/// A display without windows: that of a graphics processor before any of software.
+EGLDisplay windowless() {
+    const auto display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
+        eglGetProcAddress("eglGetPlatformDisplayEXT"));
+    const auto devicesOf =
+        reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
+    const auto textOf = reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(
+        eglGetProcAddress("eglQueryDeviceStringEXT"));
+    if (!display) throw std::runtime_error("EGL has no platform displays");
+    EGLDeviceEXT devices[16];
+    EGLint count = 0;
+    if (devicesOf && textOf && devicesOf(16, devices, &count))
+        for (EGLint i = 0; i < count; ++i) {
+            const char* extensions = textOf(devices[i], EGL_EXTENSIONS);
+            if (extensions && std::strstr(extensions, "EGL_MESA_device_software")) continue;
+            const EGLDisplay found = display(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr);
+            if (found && eglInitialize(found, nullptr, nullptr)) return found;
+        }
+    const EGLDisplay software =
+        display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (!software || !eglInitialize(software, nullptr, nullptr))
+        throw std::runtime_error("EGL has no display without windows");
+    return software;
+}
+
 } // namespace
 
 GlContext::GlContext() {
-    const auto display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
-        eglGetProcAddress("eglGetPlatformDisplayEXT"));
-    if (!display) throw std::runtime_error("EGL has no platform displays");
-    _display = display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (!_display || !eglInitialize(_display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API))
-        throw std::runtime_error("EGL has no display without windows");
+    _display = windowless();
+    if (!eglBindAPI(EGL_OPENGL_API)) throw std::runtime_error("EGL has no OpenGL");
     const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
                              4,
                              EGL_CONTEXT_MINOR_VERSION,
@@ -48,6 +70,8 @@ GlContext::GlContext() {
     if (!_context || !eglMakeCurrent(_display, EGL_NO_SURFACE, EGL_NO_SURFACE, _context))
         throw std::runtime_error("EGL makes no context of OpenGL 4.5");
     bindFramebuffer();
+    const auto text = reinterpret_cast<decltype(&glGetString)>(eglGetProcAddress("glGetString"));
+    if (const auto* name = text(GL_RENDERER)) _name = reinterpret_cast<const char*>(name);
 }
 
 GlContext::~GlContext() {

@@ -27,7 +27,8 @@ const char* const usage =
     "Renders a stage with UsdImagingGLEngine and prints seconds and peak memory as JSON: \"open\" "
     "the stage,\n"
     "\"first\" image (the renderer's start in it), \"moved\" after each move of the camera, "
-    "\"edited\" after each edit.\n"
+    "\"edited\" after each edit;\n"
+    "\"statistics\" are numbers of the renderer's own, \"device\" is what OpenGL draws on.\n"
     "  --renderer ID             plugin (HdPatinaRendererPlugin)\n"
     "  --camera PATH             camera prim\n"
     "  --size WxH                pixels (64x64)\n"
@@ -147,7 +148,12 @@ void run(const CommandLine& line) {
     seconds["edited"] = JsValue(edited);
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
+    JsObject statistics; // of the last image
+    for (const auto& [name, value] : engine.statistics())
+        if (value.IsHolding<double>()) statistics[name] = JsValue(value.UncheckedGet<double>());
     const JsObject report = {{"seconds", JsValue(seconds)},
+                             {"statistics", JsValue(statistics)},
+                             {"device", JsValue(engine.device())},
                              {"peakMemory", JsValue(double(used.ru_maxrss) * 1024.0)}};
     std::cout << JsWriteToString(JsValue(report)) << std::endl;
 }

@@ -17,7 +17,8 @@ def write(path, text, graph, methods, lines):
     """:param graph: with bound, seed, loses, thin and ward, as graphText.Graph
     :param lines: what failed
     """
-    words = [f"bound={graph.bound:g}", f"seed={graph.seed}", *(name for name in ("loses", "thin", "ward") if getattr(graph, name)),
+    words = [f"bound={graph.bound:g}", f"seed={graph.seed}",
+             *(name for name in ("loses", "thin", "ward") if getattr(graph, name)),
              *(f"{point}={name}" for point, name in sorted(methods.items()))]
     failed = "\n     ".join(line.replace("--", "- -") for line in lines)
     comments = f"<!-- expected: {' '.join(words)} -->\n<!-- {failed} -->"

@@ -61,7 +61,7 @@ def _numbers(inputs, name, default):
 
 def _steep(category, inputs):
     """:returns: whether a reflectance may jump, at a critical angle or beside grazing, where no table follows"""
-    if category == "conductor_bsdf":
+    if category in ("conductor_bsdf", "patina_cook_torrance_bsdf"):
         n = _numbers(inputs, "ior", "0.183, 0.421, 1.373")
         k = _numbers(inputs, "extinction", "3.424, 2.346, 1.77")
         return n is None or k is None or any(a > 10.0 or b > 10.0 or (a < 1.0 and b < 0.5) for a, b in zip(n, k, strict=True))
@@ -86,7 +86,7 @@ def budget(nodes):
             _, source, value = inputs.get("roughness", ("", "", ""))
             along, _, across = value.partition(", ")
             largest = max(largest, ANISOTROPIC[category] if source or along != across else 0.0)
-        if category in FACETS:
+        if category in FACETS or category == "patina_cook_torrance_bsdf":
             largest = max(largest, graphChecks.BUDGET if _steep(category, inputs) else 0.0,
                           BECKMANN if inputs.get("distribution", ("", "", ""))[2] == "beckmann" else 0.0,
                           FILM if "thinfilm_thickness" in inputs else 0.0,

@@ -125,10 +125,11 @@ def check_density(probe):
     return same_density(wo, u, s, *probe.eval(wo, s["wi"]))
 
 
-def same_density(wo, u, s, f, pdf):
+def same_density(wo, u, s, f, pdf, reflectance=REFLECTANCE):
     """:param s: samples that were drawn of wo with u
     :param f: value of eval() for their directions
     :param pdf: density of eval() for their directions
+    :param reflectance: the error that a reflectance may have
     :returns: list of what failed
     """
     failures = Failures()
@@ -138,7 +139,7 @@ def same_density(wo, u, s, f, pdf):
     failures.check(drawn & far, "pdf of a sample is not that of eval", places, np.column_stack([s["pdf"], pdf]))
     value = f * np.abs(s["wi"][:, 2:])
     expected = s["weight"] * s["pdf"][:, None]
-    slack = 1e-5 * (1.0 + value.max(axis=1, keepdims=True)) + REFLECTANCE * pdf[:, None]
+    slack = 1e-5 * (1.0 + value.max(axis=1, keepdims=True)) + reflectance * pdf[:, None]
     far = rows(np.abs(value - expected) > 0.02 * value + slack)
     failures.check(drawn & far, "weight of a sample is not f cos / pdf", places, np.column_stack([expected, value]))
     return failures

@@ -37,6 +37,7 @@ FACETS = {"dielectric_bsdf", "dielectric_btdf", "conductor_bsdf"}
 BECKMANN, FILM = 0.02, 0.04
 # Of the tables of anisotropy (anisotropicAlbedo.glsl): from inside, at grazing angles, an interface is further off.
 ANISOTROPIC = {"dielectric_bsdf": 0.2, "dielectric_btdf": 0.2, "generalized_schlick_bsdf": 0.2, "conductor_bsdf": 0.05}
+COLOR_MAX = 65504.0  # of a factor (shaders/lib/degenerate.glsl)
 JUMPING = {"dielectric_bsdf", "dielectric_btdf"}
 TABLED = (0.1, 10.0)  # iors of dielectrics that the tables hold well
 ROUNDED = 1e-3
@@ -70,9 +71,14 @@ def _steep(category, inputs):
     return ior is None or not TABLED[0] <= ior[0] <= TABLED[1]
 
 
-def _only_transmits(category, inputs):
+def _hardly_transmits(category, inputs):
+    """:returns: whether a lobe that transmits alone may do so but little: steep glass, Schlick's curve from 0.25 on (ior 3)"""
     given = inputs.get("scatter_mode", ("", "", "R"))[2]
-    return category == "dielectric_btdf" or (category == "dielectric_bsdf" and given == "T")
+    if category == "generalized_schlick_bsdf":
+        color = _numbers(inputs, "color0", "1, 1, 1")
+        return given == "T" and (color is None or max(color) > 0.25)
+    transmits = category == "dielectric_btdf" or (category == "dielectric_bsdf" and given == "T")
+    return transmits and _steep(category, inputs)
 
 
 def budget(nodes):
@@ -90,8 +96,9 @@ def budget(nodes):
         if category in FACETS or category == "patina_cook_torrance_bsdf":
             largest = max(largest, graphChecks.BUDGET if _steep(category, inputs) else 0.0,
                           BECKMANN if inputs.get("distribution", ("", "", ""))[2] == "beckmann" else 0.0,
-                          FILM if "thinfilm_thickness" in inputs else 0.0,
-                          UNKNOWN if layered and _only_transmits(category, inputs) and _steep(category, inputs) else 0.0)
+                          FILM if "thinfilm_thickness" in inputs else 0.0)
+        if layered and _hardly_transmits(category, inputs):
+            largest = UNKNOWN
     return largest
 
 
@@ -158,12 +165,12 @@ def check_exactly(drawn):
     return failures
 
 
-def check_density(drawn, nodes):
-    """Brewster's angle and the critical one lie 5e-5 apart in the cosine at an ior of 10, and nearer at higher ones: no float
+def check_density(drawn, nodes, bound):
+    """A colour is a factor on a reflectance and on its error. Brewster's angle and the critical one lie 5e-5 apart in the cosine at an ior of 10, and nearer at higher ones: no float
     tells between them how much is reflected."""
     jumps = any(category in JUMPING and _steep(category, inputs) for category, _, _, inputs in nodes)
-    return graphChecks.same_density(drawn.wo, drawn.u, drawn.samples, drawn.f, drawn.pdf,
-                                    1.0 if jumps else graphChecks.REFLECTANCE)
+    reflectance = (1.0 if jumps else graphChecks.REFLECTANCE) * min(max(bound, 1.0), COLOR_MAX)
+    return graphChecks.same_density(drawn.wo, drawn.u, drawn.samples, drawn.f, drawn.pdf, reflectance)
 
 
 def check_means(probe, graph, drawn, number, allowed, furnace=True, densities=True):
@@ -225,7 +232,7 @@ def look(probe, graph, seed, number, methods, furnace=True, densities=True):
     drawn = Drawn(probe, seed, number)
     found = check_exactly(drawn)
     if densities:
-        found += check_density(drawn, graph.nodes)
+        found += check_density(drawn, graph.nodes, graph.bound)
     if number == 0 and densities and reciprocal(graph, methods):
         found += check_reciprocity(probe, seed)
     if found:

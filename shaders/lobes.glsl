@@ -9,6 +9,7 @@
 #include "shaders/lib/ggx.glsl"
 #include "shaders/lib/beckmann.glsl"
 #include "shaders/lib/microfacet.glsl"
+#include "shaders/lib/seenFacets.glsl"
 #include "shaders/lib/albedoTable.glsl"
 #include "shaders/lib/methods/filmSpectrum.glsl"
 #include "shaders/lib/film.glsl"

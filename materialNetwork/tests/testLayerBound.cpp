@@ -20,16 +20,19 @@ TEST(LayerBound, NoMoreLeavesThanTheBaseHasOfWhatEnters) {
             return i % 3 == 0 ? u : i % 3 == 1 ? 1.0f - 1e-3f * u * u : std::round(u);
         };
         const float mirrored = 2.0f * uniform(random), spread = 2.0f * uniform(random);
+        const float transmitted = i % 2 ? 2.0f * uniform(random) : 0.0f;
         const float coverage = share(), inside = share(), alpha = share(), z = share();
         const sh::LayerLight base =
-            sh::layerLight(glm::vec3(mirrored), glm::vec3(spread), glm::vec3(0.0f));
+            sh::layerLight(glm::vec3(mirrored), glm::vec3(spread), glm::vec3(transmitted));
         const sh::LayerLight through =
             sh::layerThrough(1.0f, glm::vec3(coverage), glm::vec3(inside), alpha, z, base);
-        const float leaves = through.mirrored.x * mirrored + through.spread.x * spread;
+        const float leaves = through.mirrored.x * mirrored + through.spread.x * spread +
+                             through.transmitted.x * transmitted;
         // Five roundings of numbers near 1, each 2^-24, over a divisor of 1e-6 at least: 0.3.
-        ASSERT_LE(leaves, (1.0f - coverage) * (mirrored + spread) * 1.3f)
-            << mirrored << " " << spread << " " << coverage << " " << inside << " " << alpha << " "
-            << z;
+        ASSERT_LE(leaves,
+                  (1.0f - coverage) * std::max(mirrored + spread + transmitted, 1.0f) * 1.3f)
+            << mirrored << " " << spread << " " << transmitted << " " << coverage << " " << inside
+            << " " << alpha << " " << z;
     }
 }
 

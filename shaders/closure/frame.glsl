@@ -68,6 +68,10 @@ PATINA_FN vec3 bendNormal(vec3 n, vec3 v, vec3 g) {
     return unitOr(n * (2.0f * nv) + g * lift + v * longer, g);
 }
 
+// The least sine between a tangent and the normal. What is left of a tangent when its part along the normal is
+// taken away is off by 2^-23 of its length, so that below this it is not square to the normal within 1e-3.
+const float TANGENT_MIN = 1e-4f;
+
 // Of a lobe. normal, tangent: as the material gives them, of any length; where they are unusable (0,
 // not finite, parallel) those of the point stand in. flips: turn the frame to the viewer instead of
 // keeping z on the outside.
@@ -78,10 +82,11 @@ PATINA_FN Frame shadingFrame(vec3 view, vec3 geometricNormal, vec3 pointNormal, 
     vec3 facing = bendNormal(unitOr(normal, pointNormal) * side, view, geometricNormal * side);
     f.normal = select(facing, facing * side, flips);
     vec3 t = select(tangent, pointTangent, hasDirection(length(tangent)));
+    float whole = length(t);
     t = t - f.normal * dot(f.normal, t);
     float l = length(t);
     f.tangent = t / l;
-    if (!(l > 1e-6f && l < 1e30f)) f.tangent = anyTangent(f.normal);
+    if (!(l > TANGENT_MIN * whole && l < 1e30f)) f.tangent = anyTangent(f.normal);
     f.bitangent = cross(f.normal, f.tangent);
     f.wo = toLocal(f, view);
     return f;

@@ -87,8 +87,9 @@ PATINA_FN LayerLight layerThrough(float weight, vec3 coverage, vec3 inside, floa
     vec3 covered = min(coverage, vec3(1.0f));
     vec3 mirror = min(covered * kinds.x + inside * kinds.y, vec3(1.0f));
     // Closures that are added may have an albedo above 1: what comes back is that of white ones, in the
-    // same parts, so that no more leaves than the base has.
-    vec3 whole = max(base.mirrored + base.spread, vec3(1.0f));
+    // same parts, so that no more leaves than the base has. What is transmitted is one of these parts: it
+    // leaves at every bounce.
+    vec3 whole = max(base.mirrored + base.spread + base.transmitted, vec3(1.0f));
     vec3 again = (base.mirrored * mirror + base.spread * inside) / whole;
     vec3 enters = (1.0f - covered) / max(1.0f - again, vec3(1e-6f));
     vec3 bare = vec3(1.0f - weight);

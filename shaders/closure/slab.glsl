@@ -16,26 +16,37 @@ PATINA_FN Slab slabOf(vec3 once, vec3 tint, bool twoFaces, bool reflects) {
     return s;
 }
 
+// What does not pass is what that lobe sends back, not what a rough guess tells layers of it.
+PATINA_FN int slabMethod(int albedo) {
+    return select(ALBEDO_TABLE, albedo, albedo == ALBEDO_MIRROR || albedo == ALBEDO_KARIS);
+}
+
 // Of a lobe beneath a reflecting one all passes, for that has taken its share. A lobe of mode RT
-// keeps the light that it reflects.
+// keeps the light that it reflects: by a lobe of mode R, which a method of energy compensation may hold otherwise.
 PATINA_FN Slab dielectricSlab(PATINA_INOUT(DielectricLobe) l, vec3 wo, PATINA_INOUT(vec3) albedo,
                               bool twoFaces) {
-    float once = 0.0f;
-    if (!l.sharedInterface) once = dielectricEnergy(l, wo).r;
     bool reflects = l.mode == SCATTER_RT;
+    if (reflects) l.mode = SCATTER_R;
+    float once = 0.0f;
+    DielectricLobe known = l;
+    known.albedo = slabMethod(l.albedo);
+    if (!l.sharedInterface) once = dielectricEnergy(known, wo).r;
     if (reflects) {
-        l.mode = SCATTER_R;
+        l.kr = select(1.0f, l.kr, dielectricAdds(l, wo.z));
         albedo = l.tint * once;
     }
     return slabOf(vec3(once), l.tint, twoFaces, reflects);
 }
 PATINA_FN Slab schlickSlab(PATINA_INOUT(SchlickLobe) l, vec3 wo, PATINA_INOUT(vec3) albedo,
                            bool twoFaces) {
-    vec3 once = vec3(0.0f);
-    if (!l.sharedInterface) once = schlickEnergy(l, wo).r;
     bool reflects = l.mode == SCATTER_RT;
+    if (reflects) l.mode = SCATTER_R;
+    vec3 once = vec3(0.0f);
+    SchlickLobe known = l;
+    known.albedo = slabMethod(l.albedo);
+    if (!l.sharedInterface) once = schlickEnergy(known, wo).r;
     if (reflects) {
-        l.mode = SCATTER_R;
+        l.kr = select(vec3(1.0f), l.kr, schlickAdds(l, wo.z));
         albedo = once;
     }
     return slabOf(once, vec3(1.0f), twoFaces, reflects);

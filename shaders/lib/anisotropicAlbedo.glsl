@@ -5,7 +5,8 @@
 //
 // Errors (shaders/tests/testLobeAlbedo.cpp measures them): 1.5e-2 for a mirror, 1e-2 for interfaces
 // from outside, 2e-2 from inside. From inside at grazing angles, where one alpha is ten times the
-// other, up to 0.1. Ward's lobes have tables of the same layout (classicAlbedo.glsl): 2e-2.
+// other, up to 0.15; fifty times, up to 0.2: between two of the azimuths the reflectance is no line.
+// Ward's lobes have tables of the same layout (classicAlbedo.glsl): 2e-2.
 
 // The alpha of the isotropic lobe that stands in: what wo sees along its own azimuth, the root mean
 // square when it looks straight down.
@@ -39,6 +40,8 @@ struct MicrofacetPlace {
     float larger; // what follows is for anisotropic lobes: larger alpha, smaller over larger
     float ratio;
     float c; // cosine of the azimuth from the axis of the larger alpha
+    vec3 wo;
+    vec2 axes; // both alphas
     int turnedBase;
     vec4 turnedAt; // fractions of mu, azimuth, ratio, alpha
 };
@@ -73,6 +76,8 @@ PATINA_FN MicrofacetPlace microfacetPlace(vec3 wo, vec2 alpha, int ndf) {
     p.larger = p.alpha;
     p.ratio = 1.0f;
     p.c = 1.0f;
+    p.wo = wo;
+    p.axes = alpha;
     p.turnedBase = 0;
     p.turnedAt = vec4(0.0f);
     if (p.turned) p = turnedPlace(p, wo, alpha);
@@ -134,7 +139,8 @@ PATINA_FN_RARE vec2 turnedInterface(MicrofacetPlace p, float eta) {
                          tableCell(p.c, TURNED_AZIMUTH), tableCell(tm, TURNED_MU));
     vec4 at = vec4(tableFraction(tm, TURNED_MU), tableFraction(p.c, TURNED_AZIMUTH),
                    tableFraction(tr, TURNED_RATIO), tableFraction(ta, TURNED_ETA_ALPHA));
-    float fe = tableFraction(te, TURNED_ETA);
+    // Below the first node, from inside, the critical angle runs to the horizon: nothing is between these nodes.
+    float fe = select(1.0f, tableFraction(te, TURNED_ETA), !above && tableCell(te, TURNED_ETA) == 0);
     int stepE = 2 * turnedRow(TURNED_ETA_ALPHA, 0, 0, 0);
     int table = p.ndf * MICROFACET_SIZE + select(TURNED_ABOVE, TURNED_BELOW, above) +
                 tableCell(te, TURNED_ETA) * stepE;

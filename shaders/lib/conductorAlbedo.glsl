@@ -25,9 +25,10 @@ PATINA_FN vec3 curveMeanAdded(MicrofacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3
 }
 
 // A "metal" that refracts: close below a critical angle the reflectance jumps, which no sum of
-// smooth curves follows.
+// smooth curves follows. Where there is hardly an interface, it rises to 1 at the horizon alone.
 PATINA_FN bool conductorSteepChannel(float n, float k) {
-    return n < 1.0f && k < 0.5f && n * n - k * k > -0.1f;
+    bool refracts = n < 1.0f && k < 0.5f && n * n - k * k > -0.1f;
+    return refracts || (abs(n - 1.0f) < 0.01f && k < 0.01f);
 }
 
 PATINA_FN bool conductorSteepIor(vec3 n, vec3 k) {
@@ -61,9 +62,27 @@ PATINA_FN vec3 conductorMean(MicrofacetPlace p, vec3 n, vec3 k) {
                      fresnelConductor(CONDUCTOR_COS3, n, k), fresnelConductor(1.0f, n, k));
 }
 
-// The same of a conductor, or dielectric with k = 0, under a film. Within 2e-2: films of many
-// hundred nm wave between the cosines.
+// Facets that stand for all that wo sees of a film, or of a curve that no table has: within 2e-2.
+const int FACETS_SEEN = 24;
+
+// The mean of a film that waves between those six cosines, where their sum is up to 0.1 off.
+PATINA_FN_RARE vec3 filmSeenMean(MicrofacetPlace p, Film film, vec3 n, vec3 k) {
+    vec3 o = vec3(p.wo.x, p.wo.y, p.mu);
+    vec3 sum = vec3(0.0f);
+    float white = 0.0f;
+    for (int j = 0; j < FACETS_SEEN; ++j) {
+        vec3 m = visibleMicrofacet(o, p.axes, p.ndf, j, FACETS_SEEN);
+        float c = clamp(dot(o, m), 0.0f, 1.0f);
+        float share = facetShares(o, m, c, p.axes, 1.0f, p.ndf).x;
+        sum += filmReflectance(film, c, n, k) * share;
+        white += share;
+    }
+    return sum / max(white, ALBEDO_MIN);
+}
+
+// The same of a conductor under a film, within 2e-2.
 PATINA_FN vec3 filmMean(MicrofacetPlace p, Film film, vec3 n, vec3 k) {
+    if (filmWaves(film)) return filmSeenMean(p, film, n, k);
     vec3 f[6];
     for (int j = 1; j < 6; ++j)
         f[j] = filmReflectance(film, curveCos(j), n, k);

@@ -7,6 +7,9 @@
 // shows, and about the last width at which a float half vector still carries the density to 1e-3.
 const float ALPHA_MIRROR = 1e-3f;
 
+// Largest ratio of both alphas. The albedos of narrower facets are up to 0.2 off (anisotropicAlbedo.glsl).
+const float ALPHA_RATIO_MAX = 50.0f;
+
 // Relative ior: closer to 1 than this there is no interface (F = 0, light passes straight). F0
 // is 2.5e-9 at the border.
 const float IOR_MATCHED = 1e-4f;

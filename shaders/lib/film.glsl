@@ -31,6 +31,14 @@ PATINA_FN bool filmIsThere(Film f) {
     return PATINA_FILM(f.thickness > 0.0f);
 }
 
+// Path difference in nm by which grazing light and light along the normal may differ and still be followed by
+// few cosines: a quarter of a wave.
+const float FILM_SMOOTH_PATH = 140.0f;
+PATINA_FN bool filmWaves(Film f) {
+    float grazing = sqrt((f.ior - 1.0f) * (f.ior + 1.0f));
+    return PATINA_FILM(2.0f * f.thickness * (f.ior - grazing) > FILM_SMOOTH_PATH);
+}
+
 // One Gaussian. phase: 2 PI times the path difference in um.
 PATINA_FN vec2 filmTerm(float phase, float amplitude, float wavenumber, float width) {
     float w = width * phase;

@@ -11,11 +11,12 @@
 // Reflection and refraction use the same G2.
 
 // Clamps MaterialX roughness inputs to usable alphas; x and y are left below ALPHA_MIRROR only when
-// both are (a mirror).
+// both are (a mirror). Facets that are more than ALPHA_RATIO_MAX times as rough along one axis as along
+// the other would gain light, because the tables do not tell them apart.
 PATINA_FN vec2 ggxAlpha(vec2 roughness) {
     vec2 a = min(max(roughness, vec2(0.0f)), vec2(1.0f));
     bool mirror = max(a.x, a.y) < ALPHA_MIRROR;
-    return select(vec2(0.0f), max(a, vec2(ALPHA_MIRROR)), mirror);
+    return select(vec2(0.0f), max(a, vec2(max(ALPHA_MIRROR, max(a.x, a.y) / ALPHA_RATIO_MAX))), mirror);
 }
 
 PATINA_FN float ggxLength(vec3 w, vec2 alpha) {

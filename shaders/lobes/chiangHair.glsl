@@ -155,11 +155,11 @@ PATINA_FN HairOut hairOut(ChiangHairLobe l, vec3 wo) {
     return o;
 }
 
-// Chance of lobe p: its share of the attenuation.
+// Chance of lobe p: its share of the attenuation; none where the fibre absorbs all.
 PATINA_FN vec4 hairChances(HairOut o) {
     vec4 a = vec4(lobeMean(o.a0), lobeMean(o.a1), lobeMean(o.a2), lobeMean(o.a3));
     float sum = a.x + a.y + a.z + a.w;
-    float scale = 1.0f / max(sum, TINY);
+    float scale = select(1.0f / max(sum, TINY), 0.0f, sum > TINY);
     return vec4(a.x * scale, a.y * scale, a.z * scale, a.w * scale);
 }
 

@@ -74,8 +74,8 @@ PATINA_FN_RARE vec3 cookTorranceFacets(CookTorranceLobe l, vec3 wo) {
     float white = 0.0f;
     for (int j = 0; j < COOK_TORRANCE_FACETS; ++j) {
         float t = float(j) + 0.5f;
-        vec2 u = vec2(albedoFract(t * 0.8191725134f), albedoFract(t * 0.6710436067f));
-        vec3 m = vCavityChoose(wo, beckmannSample(l.alpha, u), albedoFract(t * 0.5497004779f));
+        vec2 u = vec2(facetFract(t * 0.8191725134f), facetFract(t * 0.6710436067f));
+        vec3 m = vCavityChoose(wo, beckmannSample(l.alpha, u), facetFract(t * 0.5497004779f));
         float c = clamp(dot(wo, m), 0.0f, 1.0f);
         float iz = m.z * (2.0f * c) - wo.z;
         float left = vCavityBoth(wo.z, iz, c, m.z) / vCavityVisible(wo.z, c, m.z);

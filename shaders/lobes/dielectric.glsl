@@ -62,12 +62,13 @@ PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, b
     return l;
 }
 
-// The lobe with other methods (ALBEDO_*, SAMPLING_VNDF and others, FRESNEL_*).
+// The lobe with other methods (ALBEDO_*, SAMPLING_VNDF and others, FRESNEL_*). Where there is no interface no
+// curve rises at grazing angles.
 PATINA_FN DielectricLobe dielectricMethods(DielectricLobe l, int albedo, int sampling,
                                            int fresnel) {
     l.albedo = albedo;
     l.sampling = sampling;
-    l.fresnel = fresnel;
+    l.fresnel = select(FRESNEL_EXACT, fresnel, l.matched);
     return l;
 }
 

@@ -50,6 +50,8 @@ PATINA_FN bool schlickOdd(SchlickLobe l) {
     return !PATINA_FILM(l.exact) && (dip > 0.0f || lobeMean(s.f90) < 1.0f || s.exponent != 5.0f);
 }
 
+const int ALBEDO_SEEN = 16;
+
 // The transmission of such a curve over that of a dielectric of its ior, over all facets seen: T
 // also meets those that R sends below the horizon, so that R's mean says little of it.
 PATINA_FN_RARE vec3 schlickTransmittanceRatio(SchlickLobe l, vec3 wo, float eta) {
@@ -57,7 +59,7 @@ PATINA_FN_RARE vec3 schlickTransmittanceRatio(SchlickLobe l, vec3 wo, float eta)
     vec3 curve = vec3(0.0f);
     float bare = 0.0f;
     for (int j = 0; j < ALBEDO_SEEN; ++j) {
-        float c = dot(o, visibleMicrofacet(o, l.alpha, l.ndf, j));
+        float c = dot(o, visibleMicrofacet(o, l.alpha, l.ndf, j, ALBEDO_SEEN));
         curve += vec3(1.0f) - schlickReflectance(l, clamp(c, 0.0f, 1.0f), eta);
         bare += 1.0f - fresnelDielectric(clamp(c, 0.0f, 1.0f), eta);
     }
@@ -71,6 +73,51 @@ PATINA_FN vec3 schlickTabledDense(SchlickLobe l, vec3 wo, float eta, float trans
         return vec3(1.0f) - min(schlickTransmittanceRatio(l, wo, eta) * transmittance, vec3(1.0f));
     float f0 = sqr((l.ior - 1.0f) / (l.ior + 1.0f));
     return mix(vec3(1.0f), schlickNormal(l), clamp(transmittance / (1.0f - f0), 0.0f, 1.0f));
+}
+
+// Whether the tables hold neither its mean nor its transmission: a film that waves between the cosines of
+// curveMeanAdded; what is added to a curve that the film lifts or lowers beyond [0, 1]; any film from the denser
+// side, where its reflectance does not rise as a bare dielectric's does; and the transmission of what is no
+// dielectric and has so high an ior that little of the dielectric's is left to compare with.
+const float SCHLICK_BLACK = 0.02f;
+const float SCHLICK_DENSE = 3.0f;
+PATINA_FN bool schlickUntabled(SchlickLobe l, bool thinner) {
+    bool odd = schlickOdd(l);
+    vec3 f0 = l.fresnel.f0;
+    bool curve = !PATINA_FILM(l.exact);
+    bool black = curve && min(f0.x, min(f0.y, f0.z)) < SCHLICK_BLACK;
+    bool dense = curve && l.mode != SCATTER_R && l.ior > SCHLICK_DENSE;
+    bool film = filmIsThere(l.film) && (!thinner || black || dense || filmWaves(l.film));
+    return film || (odd && (dense || filmIsThere(l.film)));
+}
+
+// Its mean reflectance over the facets seen, and what it transmits; single scattering. The sums are those of a few
+// facets, which a dielectric of the same ior has too: the tables know how much of it all of them send back or on.
+struct SchlickSeen {
+    vec3 mean;
+    vec3 t;
+};
+PATINA_FN_RARE SchlickSeen schlickSeen(SchlickLobe l, vec3 wo, float eta, float whole) {
+    vec3 o = vec3(wo.x, wo.y, min(abs(wo.z), 1.0f));
+    vec3 r = vec3(0.0f);
+    vec3 t = vec3(0.0f);
+    float white = 0.0f;
+    float bare = 0.0f;
+    for (int j = 0; j < FACETS_SEEN; ++j) {
+        vec3 m = visibleMicrofacet(o, l.alpha, l.ndf, j, FACETS_SEEN);
+        float c = clamp(dot(o, m), 0.0f, 1.0f);
+        vec2 share = facetShares(o, m, c, l.alpha, eta, l.ndf);
+        vec3 f = schlickReflectance(l, c, eta);
+        float f0 = fresnelDielectric(c, eta);
+        r += f * share.x;
+        t += (vec3(1.0f) - f) * share.y;
+        white += share.x;
+        bare += f0 * share.x + (1.0f - f0) * share.y;
+    }
+    SchlickSeen s;
+    s.mean = r / max(white, ALBEDO_MIN);
+    s.t = t * (whole / max(bare, ALBEDO_MIN));
+    return s;
 }
 
 PATINA_FN bool schlickAdds(SchlickLobe l, float z) {
@@ -115,6 +162,10 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     bool thinner = eta >= 1.0f;
     bool reflectsOnly = l.mode == SCATTER_R && thinner;
     int method = albedoMethod(l.albedo, l.alpha, l.ndf, eta);
+    bool untabled = schlickUntabled(l, thinner);
+    // Karis's curve knows one rise to 1 alone, which is not enough to share light between R and T.
+    bool rises = !schlickOdd(l) && !filmIsThere(l.film);
+    method = select(ALBEDO_TABLE, method, method == ALBEDO_KARIS && !rises && !reflectsOnly);
     bool tabled = method == ALBEDO_TABLE;
     vec4 chosen = vec4(0.0f, 0.0f, 0.0f, 1.0f);
     if (!tabled) chosen = schlickChosen(l, wo, eta, method);
@@ -122,13 +173,21 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     float white = ess;
     vec3 mean = vec3(chosen.x, chosen.y, chosen.z) / ess;
     vec2 a = vec2(0.0f, 1.0f);
+    SchlickSeen seen;
+    seen.mean = mean;
+    seen.t = vec3(0.0f);
     if (tabled || !reflectsOnly) {
         MicrofacetPlace p = microfacetPlace(wo, l.alpha, l.ndf);
         white = microfacetAlbedo0(p);
         ess = select(white, ess, tabled);
         if (!reflectsOnly) a = microfacetInterface(p, eta);
-        if (tabled && thinner) mean = schlickTabled(l, p, eta);
-        if (tabled && !thinner) mean = schlickTabledDense(l, wo, eta, 1.0f - a.x);
+        if (untabled)
+            seen = schlickSeen(l, wo, eta, white * (a.x + a.y));
+        else if (tabled && thinner)
+            seen.mean = schlickTabled(l, p, eta);
+        else if (tabled)
+            seen.mean = schlickTabledDense(l, wo, eta, 1.0f - a.x);
+        mean = select(mean, seen.mean, !tabled);
     }
     if (schlickAdds(l, z)) {
         e.r = mean * ess + multiLobe(l.favg, ess, l.alpha, l.ndf).color;
@@ -141,7 +200,10 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     if (reflectsOnly) return e;
     vec3 er = mean * ess;
     vec3 et = (vec3(1.0f) - mean) * min(white * a.y / max(1.0f - a.x, ALBEDO_MIN), 1.0f);
-    if (schlickOdd(l)) et = min(schlickTransmittanceRatio(l, wo, eta) * (white * a.y), vec3(1.0f));
+    if (untabled)
+        et = min(seen.t, vec3(1.0f));
+    else if (schlickOdd(l))
+        et = min(schlickTransmittanceRatio(l, wo, eta) * (white * a.y), vec3(1.0f));
     et = min(et, max(vec3(1.0f) - er, vec3(0.0f)));
     if (compensates) {
         vec3 both = vec3(1.0f) / max(er + et, vec3(ALBEDO_MIN));
@@ -179,9 +241,11 @@ PATINA_FN SchlickLobe schlickAt(SchlickLobe l, vec3 wo) {
     return l;
 }
 
-// Chance of choosing R at a facet, in RT.
+// Chance of choosing R at a facet, in RT. A steep curve may be so near 0 that no float divides by it.
 PATINA_FN float schlickChance(SchlickLobe l, vec3 f) {
-    return select(lobeMean(f), select(1.0f, 0.0f, l.mode == SCATTER_R), l.mode == SCATTER_RT);
+    float mean = lobeMean(f);
+    mean = select(mean, 0.0f, mean > TINY);
+    return select(mean, select(1.0f, 0.0f, l.mode == SCATTER_R), l.mode == SCATTER_RT);
 }
 
 PATINA_FN LobeEval schlickEval(SchlickLobe l, vec3 wo, vec3 wi) {

@@ -12,6 +12,9 @@ LAST = 1.0 - 2.0 ** -24
 BUDGET = 0.09
 DELTA = 4
 SAMPLES = 1024
+# The error of a reflectance, which is a float of at most 1. The steepest curve has a slope of 100, so that a cosine that is
+# off by its last digit, 2^-24, changes it by 100 of these; what is added up in it is off by a few more.
+REFLECTANCE = 2.0 ** -17
 NARROW = 3e3  # density above which float directions do not hold a lobe's value to a percent
 
 
@@ -122,10 +125,11 @@ def check_density(probe):
     return same_density(wo, u, s, *probe.eval(wo, s["wi"]))
 
 
-def same_density(wo, u, s, f, pdf):
+def same_density(wo, u, s, f, pdf, reflectance=REFLECTANCE):
     """:param s: samples that were drawn of wo with u
     :param f: value of eval() for their directions
     :param pdf: density of eval() for their directions
+    :param reflectance: the error that a reflectance may have
     :returns: list of what failed
     """
     failures = Failures()
@@ -135,7 +139,8 @@ def same_density(wo, u, s, f, pdf):
     failures.check(drawn & far, "pdf of a sample is not that of eval", places, np.column_stack([s["pdf"], pdf]))
     value = f * np.abs(s["wi"][:, 2:])
     expected = s["weight"] * s["pdf"][:, None]
-    far = rows(np.abs(value - expected) > 0.02 * value + 1e-5 * (1.0 + value.max(axis=1, keepdims=True)))
+    slack = 1e-5 * (1.0 + value.max(axis=1, keepdims=True)) + reflectance * pdf[:, None]
+    far = rows(np.abs(value - expected) > 0.02 * value + slack)
     failures.check(drawn & far, "weight of a sample is not f cos / pdf", places, np.column_stack([expected, value]))
     return failures
 
@@ -158,13 +163,16 @@ def check_furnace(probe, graph, budget=BUDGET):
         wo = directions((cosine,), (0.3,))
         mean, error = furnace(probe, cosine, 11)
         albedo = probe.albedo(wo)[0]
-        slack = 5.0 * error + budget * max(1.0, float(albedo.max()), graph.bound if np.isfinite(graph.bound) else 1.0)
         place = {"wo": wo}
-        met = mean * present(probe, graph.thin, wo)[0]
+        share = present(probe, graph.thin, wo)[0]
+        highest = max(1.0, float((albedo * share).max()), graph.bound if np.isfinite(graph.bound) else 1.0)
+        slack = 5.0 * error * share + budget * highest
+        met = mean * share
         failures.check([(met > graph.bound + slack).any()], f"sampled albedo above {graph.bound:g}", place, [mean])
         if graph.ward or not np.isfinite(graph.bound):  # a tint of 65504 makes much of the last digit
             continue
-        far = mean - albedo > slack if graph.loses else np.abs(mean - albedo) > slack
+        apart = (mean - albedo) * share
+        far = apart > slack if graph.loses else np.abs(apart) > slack
         failures.check([far.any()], "sampled albedo is not albedo()", place, [np.append(mean, albedo)])
     return failures
 

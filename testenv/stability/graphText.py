@@ -61,10 +61,26 @@ def number(value):
     return f"{value:.9g}"
 
 
+def may_pass_straight(node):
+    """:returns: whether light may go straight on through this: an interface that bends none, as clear glass of ior 1"""
+    category, _, _, inputs = node
+    transmits = category == "dielectric_btdf" or "T" in inputs.get("scatter_mode", ("", "", "R"))[2]
+    _, source, value = inputs.get("ior", ("", "", "1.5"))
+    return category in ("dielectric_bsdf", "dielectric_btdf") and transmits and (bool(source) or float(value) == 1.0)
+
+
+def over(top, base):
+    """:returns: bound of the albedo of a layer that takes the mean of the top's channels from each channel of the base. A
+    channel of the top that reflects x leaves 1 - x / 3 of the base where the others reflect nothing"""
+    return max(base, top + max(1.0 - top / 3.0, 0.0) * base)
+
+
 class Graph:
     """The text of one material, and what its albedo may be at most.
 
     bound: largest colour that any lobe may reach, added up where closures are added; infinite where colours are huge.
+    averages: the same of each closure, by the name of its node, where a layer takes the mean of its three channels from all
+        of them (the method layerTransmittance=average).
     loses: normals are mapped, so that light may be lost below the horizon.
     thin: light may pass straight through; then albedos are of what does not.
     layered: a closure lies over another one.
@@ -84,8 +100,10 @@ class Graph:
         self.kinds = []  # categories of closures in it
         self.count = 0
         self.loses = self.thin = self.layered = False
+        self.averages = {}
         surface = {}
         bsdf, self.bound = self.bsdf(self.random.randint(1, 4))
+        self.root = bsdf
         surface["bsdf"] = ("BSDF", bsdf, "")
         if self.random.random() < 0.25:
             surface["edf"] = ("EDF", self.edf(2), "")
@@ -94,6 +112,7 @@ class Graph:
         if self.random.random() < 0.2:
             surface["thin_walled"] = ("boolean", "", "true")
             self.thin = True
+        self.thin |= any(map(may_pass_straight, self.nodes))
         name = self.node("surface", "surfaceshader", surface)
         self.node("surfacematerial", "material", {"surfaceshader": ("surfaceshader", name, "")})
 
@@ -221,7 +240,20 @@ class Graph:
             bound = float("inf")  # Ward's exact form, as it was printed
         if category == "burley_diffuse_bsdf":
             bound *= BURLEY_GAIN
-        return self.node(category, kind, inputs), bound
+        name = self.node(category, kind, inputs)
+        self.averages[name] = bound
+        return name, bound
+
+    def expect(self, methods):
+        """Sets the bound that the albedo has with these methods."""
+        if methods.get("layerTransmittance") == "average":
+            self.bound = max(self.bound, self.averages[self.root])
+
+    def closure(self, category, inputs, bound, average):
+        """:returns: name of the node, and the bound of its albedo"""
+        name = self.node(category, "BSDF", inputs)
+        self.averages[name] = average
+        return name, bound
 
     def bsdf(self, depth):
         """:returns: name of the node, and the bound of its albedo"""
@@ -236,20 +268,23 @@ class Graph:
             else:
                 by, _ = self.color()
             values = [float(x) for x in by[2].split(",")] if by[2] else [float("inf")]
-            return self.node("multiply", "BSDF", {"in1": first, "in2": by}), bound * max(1.0, *values)
+            gain = max(1.0, *values)
+            return self.closure("multiply", {"in1": first, "in2": by}, bound * gain, self.averages[a] * gain)
         if chance < 0.38:
             self.layered = True
-            return self.node("layer", "BSDF", {"top": first, "base": ("VDF", self.vdf(2), "")}), bound
+            return self.closure("layer", {"top": first, "base": ("VDF", self.vdf(2), "")}, bound, self.averages[a])
         b, other = self.bsdf(depth - 1)
         second = ("BSDF", b, "")
+        top, base = self.averages[a], self.averages[b]
         if chance < 0.68:
             self.layered = True
             if self.more.random() < 0.1:
-                first = ("BSDF", self.filmed(first), "")
-            return self.node("layer", "BSDF", {"top": first, "base": second}), max(bound, other)
+                first, top = ("BSDF", self.filmed(first), ""), over(1.0, top)
+            return self.closure("layer", {"top": first, "base": second}, max(bound, other), over(top, base))
         if chance < 0.85:
-            return (self.node("mix", "BSDF", {"fg": first, "bg": second, "mix": self.value("float", 0, 1)}), max(bound, other))
-        return self.node("add", "BSDF", {"in1": first, "in2": second}), bound + other
+            return self.closure("mix", {"fg": first, "bg": second, "mix": self.value("float", 0, 1)}, max(bound, other),
+                                max(top, base))
+        return self.closure("add", {"in1": first, "in2": second}, bound + other, top + base)
 
     def filmed(self, base):
         """:returns: a thin film over a closure, as the older layered node has it"""

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Graphs that failed once, kept as documents: what may be expected of one stands in a comment, with what failed. The word
-`raster` there has both back ends compared."""
+`raster` there has both back ends compared; `seed` is that of the graph, which chooses the random places of a look."""
 import os
 import re
 import xml.etree.ElementTree as ElementTree
@@ -14,10 +14,11 @@ EXPECTED = re.compile(r"<!-- expected: (.*) -->")
 
 
 def write(path, text, graph, methods, lines):
-    """:param graph: with bound, loses, thin and ward, as graphText.Graph
+    """:param graph: with bound, seed, loses, thin and ward, as graphText.Graph
     :param lines: what failed
     """
-    words = [f"bound={graph.bound:g}", *(name for name in ("loses", "thin", "ward") if getattr(graph, name)),
+    words = [f"bound={graph.bound:g}", f"seed={graph.seed}",
+             *(name for name in ("loses", "thin", "ward") if getattr(graph, name)),
              *(f"{point}={name}" for point, name in sorted(methods.items()))]
     failed = "\n     ".join(line.replace("--", "- -") for line in lines)
     comments = f"<!-- expected: {' '.join(words)} -->\n<!-- {failed} -->"
@@ -41,6 +42,8 @@ def read(path):
         name, equals, value = word.partition("=")
         if name == "bound":
             expected.bound = float(value)
+        elif name == "seed":
+            expected.seed = int(value)
         elif equals:
             methods[name] = value
         else:

@@ -144,6 +144,7 @@ def of_processor(seed, count):
     found, looks = [], Counter()
     for graph, network in zip(graphs, networks(_patina, [node for graph in graphs for node in graph.nodes]), strict=True):
         methods = graphText.methods(graph.seed, points, SLOW)
+        graph.expect(methods)
         failed, number = look(_patina, network, graph, methods)
         looks[number] += 1
         if failed:
@@ -166,6 +167,7 @@ def of_both(seed, count):
         methods = {point: name for point, name in methods.items() if (point, name) not in WALKS}
         like = []
         for graph, network in zip(graphs, networks(_patina, [node for graph in graphs for node in graph.nodes]), strict=True):
+            graph.expect(methods)
             probe = _patina.MaterialProbe(network, methods)
             other = _patina.RasterProbe(network, methods, like)
             shaders["shared" if other.shares_shader else "compiled"] += 1

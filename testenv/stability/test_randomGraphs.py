@@ -38,7 +38,9 @@ def test_random_graphs(first):
     for seed in range(first, first + 20):
         graph = graphText.Graph(seed)
         network = randomGraphs.load(_patina, graph.text())
-        failed = randomGraphs.failures(_patina, network, graph, graphText.methods(seed, POINTS))
+        methods = graphText.methods(seed, POINTS)
+        graph.expect(methods)
+        failed = randomGraphs.failures(_patina, network, graph, methods)
         if failed:
             found[seed] = failed
     assert found == {}

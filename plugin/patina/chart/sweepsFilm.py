@@ -90,7 +90,8 @@ def _thin(count):
 
 
 def _rough(count):
-    """The mean over facets reads the reflectance at six cosines, between which thick films wave."""
+    """The mean over facets reads the reflectance of films below a quarter of a wave at six cosines, between which thicker
+    ones wave; those are read at facets."""
     x = list(np.linspace(0.0, 3000.0, count))
     wo = probes.towards(0.7)
     found, truth, smooth = [], [], []

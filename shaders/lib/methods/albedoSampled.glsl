@@ -6,18 +6,6 @@
 const int ALBEDO_QUADRATURE_ROWS = 48;
 const int ALBEDO_QUADRATURE_NORMALS = ALBEDO_QUADRATURE_ROWS * ALBEDO_QUADRATURE_ROWS;
 
-PATINA_FN float albedoFract(float x) {
-    return x - floor(x);
-}
-
-// Facet j of a fixed few that stand for all that wo sees.
-const int ALBEDO_SEEN = 16;
-PATINA_FN vec3 visibleMicrofacet(vec3 wo, vec2 alpha, int ndf, int j) {
-    float n = float(ALBEDO_SEEN);
-    vec2 u = vec2((float(j) + 0.5f) / n, albedoFract((float(j) + 0.5f) * 0.618033989f));
-    return microfacetSampleVisible(wo, alpha, u, ndf);
-}
-
 // Facet j of `count` (a square number, or ALBEDO_QUADRATURE_NORMALS): (cosine between view and
 // facet, its share of the reflected light).
 PATINA_FN vec2 sampledMicrofacet(vec3 wo, vec2 alpha, int ndf, int count, int j) {
@@ -26,9 +14,9 @@ PATINA_FN vec2 sampledMicrofacet(vec3 wo, vec2 alpha, int ndf, int count, int j)
     int row = j / n;
     int column = j - row * n;
     float seed = wo.z * 91.3458f + alpha.x * 47.9898f + alpha.y * 13.7f;
-    float x = albedoFract(sin(seed) * 437.585f);
-    float y = albedoFract(sin(seed + 1.7f) * 437.585f);
-    float turn = albedoFract((float(column) + 0.5f) * 0.618033989f);
+    float x = facetFract(sin(seed) * 437.585f);
+    float y = facetFract(sin(seed + 1.7f) * 437.585f);
+    float turn = facetFract((float(column) + 0.5f) * 0.618033989f);
     x = select(0.5f, x, lattice);
     y = select(turn, y, lattice);
     float v = (float(row) + y) / float(n);

@@ -111,7 +111,10 @@ private:
 /// Calls body(i) for every i in [begin, end), in no particular order, on TBB's threads. The first
 /// exception ends the loop early and is thrown to the caller.
 template <class Index, class Body> void parallelFor(Index begin, Index end, const Body& body) {
-    tbb::parallel_for(begin, end, body);
+    // Of inlined copies, one may have a * b + c in one instruction and another in two. Which copy
+    // an index meets depends on the threads, so there is a single one.
+    tbb::parallel_for(
+        begin, end, [&](Index i) __attribute__((noinline)) { body(i); });
 }
 
 /// Calls body(*it) for every iterator of the random-access range [begin, end).

@@ -166,8 +166,8 @@ def check_exactly(drawn):
 
 
 def check_density(drawn, nodes, bound):
-    """A colour is a factor on a reflectance and on its error. Brewster's angle and the critical one lie 5e-5 apart in the cosine at an ior of 10, and nearer at higher ones: no float
-    tells between them how much is reflected."""
+    """A colour is a factor on a reflectance and on its error. Brewster's angle and the critical one lie 5e-5 apart in the
+    cosine at an ior of 10, and nearer at higher ones: no float tells between them how much is reflected."""
     jumps = any(category in JUMPING and _steep(category, inputs) for category, _, _, inputs in nodes)
     reflectance = (1.0 if jumps else graphChecks.REFLECTANCE) * min(max(bound, 1.0), COLOR_MAX)
     return graphChecks.same_density(drawn.wo, drawn.u, drawn.samples, drawn.f, drawn.pdf, reflectance)

@@ -99,7 +99,8 @@ def test_viewport_leaves_out_what_does_not_run(monkeypatch, capsys):
     def host(stage, camera, renderer, options, edit="", image=""):
         asked.append((renderer, edit))
         return None if renderer == "Storm" else {
-            "peakMemory": 1e6, "device": "none", "seconds": {"open": 1.0, "first": len(asked), "moved": [2.0, 3.0], "edited": [4.0, 8.0]}}
+            "peakMemory": 1e6, "device": "none",
+            "seconds": {"open": 1.0, "first": len(asked), "moved": [2.0, 3.0], "edited": [4.0, 8.0]}}
 
     monkeypatch.setattr(viewportBench, "host", host)
     options = argparse.Namespace(runs=1, images=None)

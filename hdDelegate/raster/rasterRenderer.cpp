@@ -184,13 +184,13 @@ private:
                                                " is left empty: the rasterizer follows no light "
                                                "paths");
         _passes->clearSeconds();
-        _passes->drawAovs(*_raster, camera);
+        _passes->drawAovs(*_raster, camera, aovs);
         if (const vec3 origin = _passes->originOfSeen(*_raster); origin != _origin) {
             _origin = origin;
             camera = cameraFrom(cameraPrim);
             build(state, camera, early);
             if (stopped()) return;
-            _passes->drawAovs(*_raster, camera);
+            _passes->drawAovs(*_raster, camera, aovs);
         }
         while (early && _raster->standIns() > 0) {
             showEarly(camera, aovs, sampleOf(0, filter, border));
@@ -198,7 +198,7 @@ private:
             build(state, camera, true);
             if (stopped()) return;
             _passes->clearSeconds();
-            _passes->drawAovs(*_raster, camera);
+            _passes->drawAovs(*_raster, camera, aovs);
         }
         _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
         reportBuild();

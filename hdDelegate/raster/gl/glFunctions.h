@@ -11,6 +11,7 @@ namespace patina {
 #define PATINA_GL_FUNCTIONS(X)                                                                     \
     X(ActiveTexture, ACTIVETEXTURE)                                                                \
     X(AttachShader, ATTACHSHADER)                                                                  \
+    X(BindBuffer, BINDBUFFER)                                                                      \
     X(BindBufferBase, BINDBUFFERBASE)                                                              \
     X(BindBufferRange, BINDBUFFERRANGE)                                                            \
     X(BindFramebuffer, BINDFRAMEBUFFER)                                                            \
@@ -68,6 +69,7 @@ namespace patina {
     X(GetTextureImage, GETTEXTUREIMAGE)                                                            \
     X(GetUniformLocation, GETUNIFORMLOCATION)                                                      \
     X(LinkProgram, LINKPROGRAM)                                                                    \
+    X(MapNamedBufferRange, MAPNAMEDBUFFERRANGE)                                                    \
     X(MemoryBarrier, MEMORYBARRIER)                                                                \
     X(NamedBufferStorage, NAMEDBUFFERSTORAGE)                                                      \
     X(NamedBufferSubData, NAMEDBUFFERSUBDATA)                                                      \
@@ -99,6 +101,7 @@ namespace patina {
     X(Uniform4f, UNIFORM4F)                                                                        \
     X(Uniform4i, UNIFORM4I)                                                                        \
     X(UniformMatrix4fv, UNIFORMMATRIX4FV)                                                          \
+    X(UnmapNamedBuffer, UNMAPNAMEDBUFFER)                                                          \
     X(UseProgram, USEPROGRAM)                                                                      \
     X(VertexArrayAttribBinding, VERTEXARRAYATTRIBBINDING)                                          \
     X(VertexArrayAttribFormat, VERTEXARRAYATTRIBFORMAT)                                            \

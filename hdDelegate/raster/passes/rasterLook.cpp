@@ -47,10 +47,9 @@ void RasterLook::smooth() const {
     gl.Enable(GL_DEPTH_TEST);
 }
 
-void RasterLook::read(std::vector<glm::vec4>& pixels) const {
+void RasterLook::read(std::vector<glm::vec4>& pixels, GlDownload& download) const {
     pixels.resize(size_t(_difference.width()) * size_t(_difference.height()));
-    gl.GetTextureImage(_difference.id(), 0, GL_RGBA, GL_FLOAT,
-                       GLsizei(pixels.size() * sizeof(glm::vec4)), pixels.data());
+    download.read(_difference, GL_RGBA, GL_FLOAT, pixels.size() * sizeof(glm::vec4), pixels.data());
 }
 
 } // namespace patina

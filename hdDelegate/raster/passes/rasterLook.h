@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/raster/gl/glDownload.h"
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
 
@@ -37,7 +38,7 @@ public:
     /// Finds the difference that smoothing makes to what was drawn.
     void smooth() const;
     const GlFramebuffer& difference() const { return _differenceTarget; }
-    void read(std::vector<glm::vec4>& pixels) const;
+    void read(std::vector<glm::vec4>& pixels, GlDownload& download) const;
 
     /// The share of what smoothing does that a film of so many passes has.
     static float share(uint32_t passes) {

@@ -29,7 +29,15 @@ void RasterPasses::makeAovTarget(const RasterAovRequest& request) {
     _aovTarget = GlFramebuffer(targets, &_depth);
 }
 
-void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera) {
+/// Whether an AOV is made of normals, which take time to read back.
+static bool wantsNormals(const std::vector<AovSpec>& aovs) {
+    return std::any_of(aovs.begin(), aovs.end(), [](const AovSpec& aov) {
+        return aov.id == AovId::normal || aov.id == AovId::Neye || aov.id == AovId::denoisingNormal;
+    });
+}
+
+void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera,
+                            const std::vector<AovSpec>& aovs) {
     if (!(scene.aovs() == _aovRequest)) makeAovTarget(scene.aovs());
     if (!_aovTarget.complete()) throw DeviceError("the driver has no room for the AOVs");
     const RasterView view =
@@ -41,11 +49,10 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
     const size_t pixels = size_t(_width) * size_t(_height);
     const auto read = [&](const GlTexture& from, std::vector<vec4>& to) {
         to.resize(pixels);
-        gl.GetTextureImage(from.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels * sizeof(vec4)),
-                           to.data());
+        _download.read(from, GL_RGBA, GL_FLOAT, pixels * sizeof(vec4), to.data());
     };
     read(_position, _seen.positions);
-    read(_normal, _seen.normals);
+    if (wantsNormals(aovs)) read(_normal, _seen.normals);
     if (_albedo) read(_albedo, _seen.albedos);
     _seen.primvars.resize(_primvars.size());
     for (size_t i = 0; i < _primvars.size(); ++i)
@@ -55,10 +62,9 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
     measureReceivers(scene, camera, view);
 }
 
-void RasterPasses::readIds(std::vector<int>& ids) const {
+void RasterPasses::readIds(std::vector<int>& ids) {
     ids.resize(4 * size_t(_width) * size_t(_height));
-    gl.GetTextureImage(_ids.id(), 0, GL_RGBA_INTEGER, GL_INT, GLsizei(ids.size() * sizeof(int)),
-                       ids.data());
+    _download.read(_ids, GL_RGBA_INTEGER, GL_INT, ids.size() * sizeof(int), ids.data());
 }
 
 void RasterPasses::fillAovTarget(const RasterScene& scene, const RasterView& view,

@@ -264,7 +264,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
         if (first.taken > 0) {
             drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true,
                       pixels);
-            _look->read(smoothing);
+            _look->read(smoothing, _download);
             for (size_t i = 0; i < pixels.size(); ++i)
                 pixels[i] += vec4(vec3(smoothing[i]), 0.0f);
             beginFirst(pixels, sample, film);
@@ -276,7 +276,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
         showFirst(pixels, sample, film);
         return;
     }
-    if (look) _look->read(smoothing);
+    if (look) _look->read(smoothing, _download);
     addSplats(pixels, _width, _height, sample, _window, film);
     smooth(sample, look, smoothing, film);
 }
@@ -389,8 +389,7 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
 
     _timer.mark(ReadBack);
     pixels.resize(size_t(_color.width()) * size_t(_color.height()));
-    gl.GetTextureImage(_color.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels.size() * sizeof(vec4)),
-                       pixels.data());
+    _download.read(_color, GL_RGBA, GL_FLOAT, pixels.size() * sizeof(vec4), pixels.data());
     _timer.collect(_seconds);
 }
 

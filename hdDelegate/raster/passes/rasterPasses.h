@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hdDelegate/film/film.h"
+#include "hdDelegate/raster/gl/glDownload.h"
 #include "hdDelegate/raster/gl/glTimer.h"
 #include "hdDelegate/raster/lights/rasterLights.h"
 #include "hdDelegate/raster/lights/rasterManyLights.h"
@@ -37,8 +38,9 @@ public:
     }
     const int* window() const { return _window; } ///< xmin, ymin, xmax, ymax, inclusive
 
-    /// Ids, positions and normals through the pixels' centres.
-    void drawAovs(const RasterScene& scene, const RasterCamera& camera);
+    /// Ids and positions through the pixels' centres, and what else the AOVs need.
+    void drawAovs(const RasterScene& scene, const RasterCamera& camera,
+                  const std::vector<AovSpec>& aovs);
     /// Writes them to the film's AOVs.
     void writeAovs(const RasterScene& scene, const RasterCamera& camera,
                    const std::vector<AovSpec>& aovs, Film& film) const;
@@ -83,7 +85,7 @@ private:
     class Clipping;
     void makeAovTarget(const RasterAovRequest& request);
     void fillAovTarget(const RasterScene& scene, const RasterView& view, const PassBlock& b);
-    void readIds(std::vector<int>& ids) const;
+    void readIds(std::vector<int>& ids);
     PassBlock block(const RasterScene& scene, const RasterView& view) const;
     void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
     static int skyCells(const RasterScene& scene);
@@ -117,6 +119,7 @@ private:
     std::unique_ptr<RasterLook> _look;
     std::unique_ptr<RasterRefraction> _refraction; ///< made when something transmits
     GlBuffer _passBuffer, _albedoTable;
+    GlDownload _download;
     GLuint _vertexArray = 0;
     int _width = 0, _height = 0, _border = 0;
     int _window[4] = {0, 0, -1, -1};

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hdDelegate/raster/gl/glResources.h"
+
+namespace patina {
+
+/// Reads images of textures by way of a buffer that the driver shares with the program. Drivers of
+/// graphics processors copy into other memory at a tenth of the speed.
+class GlDownload {
+public:
+    GlDownload() = default;
+    ~GlDownload();
+    GlDownload(const GlDownload&) = delete;
+    GlDownload& operator=(const GlDownload&) = delete;
+
+    /// Reads the largest level. Waits until the texture is drawn.
+    /// @param bytes of `to`: what the image has in that format and type. `to` stays as it is where
+    ///        the driver gives no memory, which its errors tell.
+    void read(const GlTexture& from, GLenum format, GLenum type, size_t bytes, void* to);
+
+private:
+    GLuint _id = 0;
+    size_t _size = 0;
+};
+
+} // namespace patina

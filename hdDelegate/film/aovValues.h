@@ -7,6 +7,11 @@
 
 namespace patina {
 
+/// Whether aovValue() asks for the normal.
+inline bool aovIsOfNormal(AovId id) {
+    return id == AovId::normal || id == AovId::Neye || id == AovId::denoisingNormal;
+}
+
 /// The value of an AOV at a surface, in one place for all renderers.
 ///
 /// @tparam Point what the renderer knows of the place: inCamera(), its position in camera space,

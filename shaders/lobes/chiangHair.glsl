@@ -129,7 +129,8 @@ struct HairOut {
 PATINA_FN HairOut hairOut(ChiangHairLobe l, vec3 wo) {
     HairOut o;
     o.sinO = clamp(wo.x, -1.0f, 1.0f);
-    o.cosO = safeSqrt(1.0f - o.sinO * o.sinO);
+    // Not 1 - sin^2, of which nothing is left near the axis but how wo was rounded.
+    o.cosO = sqrt(wo.y * wo.y + wo.z * wo.z);
     o.phiO = hairAngle(wo.z, wo.y);
     // The normal is across the fibre from where wo would meet its axis: h = sin(phi of wo).
     float h = clamp(wo.y / max(o.cosO, 1e-4f), -HAIR_H_MAX, HAIR_H_MAX);
@@ -182,7 +183,7 @@ PATINA_FN float hairLobeDensity(vec2 tilted, float sinI, float cosI, float v, fl
 PATINA_FN LobeEval chiangHairEval(ChiangHairLobe l, vec3 wo, vec3 wi) {
     HairOut o = hairOut(l, wo);
     float sinI = clamp(wi.x, -1.0f, 1.0f);
-    float cosI = safeSqrt(1.0f - sinI * sinI);
+    float cosI = sqrt(wi.y * wi.y + wi.z * wi.z);
     float phi = hairAngle(wi.z, wi.y) - o.phiO;
     vec2 tilt0 = hairTilted(o, -2.0f * l.cuticle);
     vec2 tilt1 = hairTilted(o, l.cuticle);

@@ -5,6 +5,7 @@
 #include "hdDelegate/raster/passes/rasterAovs.h"
 #include "hdDelegate/raster/passes/rasterPassBlock.h"
 
+#include "hdDelegate/film/aovValues.h"
 #include "hdDelegate/parallel.h"
 
 #include <algorithm>
@@ -31,9 +32,8 @@ void RasterPasses::makeAovTarget(const RasterAovRequest& request) {
 
 /// Whether an AOV is made of normals, which take time to read back.
 static bool wantsNormals(const std::vector<AovSpec>& aovs) {
-    return std::any_of(aovs.begin(), aovs.end(), [](const AovSpec& aov) {
-        return aov.id == AovId::normal || aov.id == AovId::Neye || aov.id == AovId::denoisingNormal;
-    });
+    return std::any_of(aovs.begin(), aovs.end(),
+                       [](const AovSpec& aov) { return aovIsOfNormal(aov.id); });
 }
 
 void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera,

@@ -178,6 +178,16 @@ struct Tally {
     double share4() const { return double(above4) / points; }
 };
 
+/// What chance adds to a share. Rounding is another on the driver, so a point beside a bound may
+/// fall on either side. An albedo hangs on wo alone, so its points of one wo fall together, and
+/// there are few of such groups: three standard deviations of the difference of two counts of them.
+double chanceOf(double share, const Tally& tally, int part) {
+    if (part != PartAlbedo) return 0.0;
+    constexpr double pointsOfOneWo = 15.0; // see agreementPoints()
+    const double groups = tally.points / pointsOfOneWo;
+    return 3.0 * std::sqrt(2.0 * std::max(1.0, share * groups)) / groups;
+}
+
 std::vector<float> runOnDriver(const AgreementRow& row, const GlProgram& program) {
     const std::vector<AgreementPoint> points = agreementPoints();
     std::vector<float> parameters;
@@ -238,9 +248,10 @@ TEST_P(Agreement, OfLobeWithOracle) {
                     100.0 * d.share4(), 100.0 * f.share4(), d.worst, f.worst, d.set, d.point,
                     reason ? reason : "NO REASON");
         EXPECT_TRUE(reason) << name << ": a point is above 1e-4";
-        EXPECT_LE(d.share5(), std::max(allowedShare(row.name, part), 1.25 * f.share5() + 1e-3))
+        EXPECT_LE(d.share5(), std::max(allowedShare(row.name, part), 1.25 * f.share5() + 1e-3) +
+                                  chanceOf(f.share5(), f, part))
             << name;
-        EXPECT_LE(d.share4(), 1.25 * f.share4() + 5e-4) << name;
+        EXPECT_LE(d.share4(), 1.25 * f.share4() + 5e-4 + chanceOf(f.share4(), f, part)) << name;
         EXPECT_LE(d.worst, std::max(1e-4, 4.0 * f.worst)) << name;
     }
 }

@@ -7,6 +7,7 @@
 #include "hdDelegate/raster/tests/rasterFixture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 

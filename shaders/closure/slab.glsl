@@ -28,9 +28,8 @@ PATINA_FN Slab dielectricSlab(PATINA_INOUT(DielectricLobe) l, vec3 wo, PATINA_IN
     bool reflects = l.mode == SCATTER_RT;
     if (reflects) l.mode = SCATTER_R;
     float once = 0.0f;
-    DielectricLobe known = l;
-    known.albedo = slabMethod(l.albedo);
-    if (!l.sharedInterface) once = dielectricEnergy(known, wo).r;
+    l.albedo = slabMethod(l.albedo);
+    if (!l.sharedInterface) once = dielectricEnergy(l, wo).r;
     if (reflects) {
         l.kr = select(1.0f, l.kr, dielectricAdds(l, wo.z));
         albedo = l.tint * once;
@@ -42,9 +41,8 @@ PATINA_FN Slab schlickSlab(PATINA_INOUT(SchlickLobe) l, vec3 wo, PATINA_INOUT(ve
     bool reflects = l.mode == SCATTER_RT;
     if (reflects) l.mode = SCATTER_R;
     vec3 once = vec3(0.0f);
-    SchlickLobe known = l;
-    known.albedo = slabMethod(l.albedo);
-    if (!l.sharedInterface) once = schlickEnergy(known, wo).r;
+    l.albedo = slabMethod(l.albedo);
+    if (!l.sharedInterface) once = schlickEnergy(l, wo).r;
     if (reflects) {
         l.kr = select(vec3(1.0f), l.kr, schlickAdds(l, wo.z));
         albedo = once;

@@ -62,6 +62,24 @@ TEST(PixelFormats, IdsKeepTheirNumberInEveryFormat) {
     EXPECT_EQ(real, 300.0f);
 }
 
+TEST(PixelFormats, PixelsFollowEachOtherWithoutWhatTheFormatLacks) {
+    const float values[8] = {1, 2, 3, 4, 5, 6, 7, 8};
+    float reals[4] = {0, 0, 0, 0};
+    writePixels(values, 2, false, HdFormatFloat32Vec2, reals);
+    EXPECT_EQ(reals[1], 2.0f);
+    EXPECT_EQ(reals[2], 5.0f);
+    EXPECT_EQ(reals[3], 6.0f);
+    const float ids[8] = {bits(7), 9, 9, 9, bits(-1), 9, 9, 9};
+    int32_t whole[2] = {0, 0};
+    writePixels(ids, 2, true, HdFormatInt32, whole);
+    EXPECT_EQ(whole[0], 7);
+    EXPECT_EQ(whole[1], -1);
+    writePixels(ids, 2, true, HdFormatFloat32Vec2, reals);
+    EXPECT_EQ(reals[0], 7.0f);
+    EXPECT_EQ(reals[1], 0.0f);
+    EXPECT_EQ(reals[2], -1.0f);
+}
+
 TEST(PixelFormats, NothingIsWrittenBeyondThePixel) {
     for (int f = HdFormatUNorm8; f < HdFormatCount; ++f) {
         const HdFormat format = HdFormat(f);

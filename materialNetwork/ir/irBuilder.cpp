@@ -5,6 +5,7 @@
 #include "materialNetwork/network/value.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace patina {
 
@@ -69,6 +70,13 @@ Register IrBuilder::allocate(int count) {
     const int first = _ir.registerCount;
     _ir.registerCount += count;
     return Register(first);
+}
+
+bool IrBuilder::NanLast::operator()(const std::vector<float>& a,
+                                    const std::vector<float>& b) const {
+    return std::lexicographical_compare(
+        a.begin(), a.end(), b.begin(), b.end(),
+        [](float x, float y) { return x < y || (std::isnan(y) && !std::isnan(x)); });
 }
 
 /// Constants take the first registers, so all of them are made before the first instruction.

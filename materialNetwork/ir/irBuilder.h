@@ -52,7 +52,11 @@ private:
     std::vector<bool> _prepared;     ///< per graph node
     std::vector<bool> _readsTexture; ///< per graph node
     std::vector<int> _register;      ///< of the first output, per graph node; -1 when none
-    std::map<std::vector<float>, Register> _constants;
+    /// A NaN is neither less nor more than a number, and would pass for any of them.
+    struct NanLast {
+        bool operator()(const std::vector<float>& a, const std::vector<float>& b) const;
+    };
+    std::map<std::vector<float>, Register, NanLast> _constants;
     bool _overflow = false;
 };
 

@@ -34,7 +34,7 @@ constexpr int momentPoints = 64;
 constexpr int abovePoints = 20;
 // Total reflection has a kink; Beckmann facets have no tail and need fewer.
 constexpr int belowPoints[] = {28, 20};
-constexpr int turnedPoints[] = {24, 16};
+constexpr int turnedPoints[] = {24, 20};
 
 // The entry for mu = 0 is taken at this fraction of the first cell: exactly at 0 the albedos jump.
 constexpr double firstNode = 0.1;
@@ -86,20 +86,24 @@ struct TurnedNode {
     vec2 alpha;
 };
 
-// mu: from the coordinate on its axis and the alpha along the azimuth.
-template <typename Mu> TurnedNode turnedNode(int row, int alphas, const Mu& mu) {
+// view: mu and the cosine of the azimuth, from their coordinates, the larger alpha and the ratio.
+template <typename View> TurnedNode turnedNode(int row, int alphas, const View& view) {
     const int m = row % TURNED_MU;
     const int c = row / TURNED_MU % TURNED_AZIMUTH;
     const int r = row / (TURNED_MU * TURNED_AZIMUTH) % TURNED_RATIO;
     const int a = row / (TURNED_MU * TURNED_AZIMUTH * TURNED_RATIO);
     const double larger = tableAlphaAt(double(a) / (alphas - 1));
     const double ratio = turnedRatioAt(double(r) / (TURNED_RATIO - 1));
-    const double x = double(c) / (TURNED_AZIMUTH - 1);
     const double t = std::max(double(m), firstNode) / (TURNED_MU - 1);
-    const double z = mu(t, turnedAlpha(larger, ratio, x));
-    const double s = std::sqrt(std::max(0.0, 1.0 - z * z));
-    return {vec3(s * x, s * std::sqrt(1.0 - x * x), z),
+    const vec2 at = view(t, double(c) / (TURNED_AZIMUTH - 1), larger, ratio);
+    const double s = std::sqrt(std::max(0.0, 1.0 - at.x * at.x));
+    return {vec3(s * at.y, s * std::sqrt(1.0 - at.y * at.y), at.x),
             vec2(larger, std::max(larger * ratio, double(ALPHA_MIRROR)))};
+}
+
+vec2 viewAbove(double mu, double azimuth, double larger, double ratio) {
+    const double c = turnedAzimuthAt(ratio, azimuth);
+    return vec2(tableMuAt(mu, turnedAlpha(larger, ratio, c)), c);
 }
 
 void bakeTurnedMoments(int ndf, float* out) {
@@ -108,8 +112,7 @@ void bakeTurnedMoments(int ndf, float* out) {
     for (int k = 0; k < MOMENT_COUNT; ++k)
         exponents[k] = momentExponent(k);
     for (int row = 0; row < turnedRow(TURNED_ALPHA, 0, 0, 0); ++row, out += MOMENT_COUNT) {
-        const TurnedNode node = turnedNode(
-            row, TURNED_ALPHA, [](double t, double alpha) { return tableMuAt(t, alpha); });
+        const TurnedNode node = turnedNode(row, TURNED_ALPHA, viewAbove);
         if (node.alpha.x == node.alpha.y) continue; // nothing to add
         double e[MOMENT_COUNT];
         quadrature.setView(node.wo, node.alpha);
@@ -130,10 +133,13 @@ void bakeTurnedInterface(int ndf, bool above, float* out) {
         for (int i = 0; i < TURNED_ETA; ++i) {
             const double ior = tableEtaAt(double(i) / (TURNED_ETA - 1));
             const double eta = above ? ior : 1.0 / ior;
-            const auto mu = [&](double t, double alpha) {
-                return above ? tableMuAt(t, alpha) : tableMuBelowAt(t, tableMuCritical(eta), alpha);
+            const auto below = [&](double mu, double azimuth, double larger, double ratio) {
+                const double width = turnedAlpha(larger, ratio, turnedBeyond(azimuth));
+                const double z = tableMuBelowAt(mu, tableMuCritical(eta), width);
+                return vec2(z, turnedBelowAt(z, eta, azimuth));
             };
-            const TurnedNode node = turnedNode(row, TURNED_ETA_ALPHA, mu);
+            const TurnedNode node = above ? turnedNode(row, TURNED_ETA_ALPHA, viewAbove)
+                                          : turnedNode(row, TURNED_ETA_ALPHA, below);
             if (node.alpha.x == node.alpha.y) continue; // nothing to add
             if (!above || i == 0) quadrature.setView(node.wo, node.alpha);
             const MicrofacetPlace place = microfacetPlace(node.wo, node.alpha, ndf);
@@ -212,8 +218,7 @@ void bakeClassic(int plane) {
 void bakeTurnedWard(int plane) {
     const int form = plane == CLASSIC_WARD_EXACT ? WARD_EXACT : WARD_BOUNDED;
     for (int row = 0; row < WARD_SIZE; ++row) {
-        const TurnedNode node = turnedNode(
-            row, TURNED_ALPHA, [](double t, double alpha) { return tableMuAt(t, alpha); });
+        const TurnedNode node = turnedNode(row, TURNED_ALPHA, viewAbove);
         if (node.alpha.x == node.alpha.y) { // nothing to add
             push(0.0);
             continue;

@@ -71,6 +71,7 @@ PATINA_FN vec3 bendNormal(vec3 n, vec3 v, vec3 g) {
 // The least sine between a tangent and the normal. What is left of a tangent when its part along the normal is
 // taken away is off by 2^-23 of its length, so that below this it is not square to the normal within 1e-3.
 const float TANGENT_MIN = 1e-4f;
+const float TANGENT_SLANTED = 0.5f;
 
 // Of a lobe. normal, tangent: as the material gives them, of any length; where they are unusable (0,
 // not finite, parallel) those of the point stand in. flips: turn the frame to the viewer instead of
@@ -86,6 +87,8 @@ PATINA_FN Frame shadingFrame(vec3 view, vec3 geometricNormal, vec3 pointNormal, 
     t = t - f.normal * dot(f.normal, t);
     float l = length(t);
     f.tangent = t / l;
+    // What is left of a slanted tangent holds few digits: once more, it is square to the normal.
+    if (l < TANGENT_SLANTED * whole) f.tangent = unitOr(f.tangent - f.normal * dot(f.normal, f.tangent), f.tangent);
     if (!(l > TANGENT_MIN * whole && l < 1e30f)) f.tangent = anyTangent(f.normal);
     f.bitangent = cross(f.normal, f.tangent);
     f.wo = toLocal(f, view);

@@ -26,10 +26,11 @@ const int INTERFACE_BELOW = MOMENT_SIZE + INTERFACE_SIZE;
 
 // The share that anisotropy adds (anisotropicAlbedo.glsl).
 const int TURNED_MU = 16;
-const int TURNED_AZIMUTH = 5;
-const int TURNED_RATIO = 7;
-const int TURNED_ALPHA = 12;
-const int TURNED_ETA_ALPHA = 10;
+const int TURNED_AZIMUTH = 9;
+const float TURNED_TOTAL = 3.0f / 8.0f; // an azimuth's coordinate, of a node (turnedBelowCoord)
+const int TURNED_RATIO = 5;
+const int TURNED_ALPHA = 9;
+const int TURNED_ETA_ALPHA = 8;
 const int TURNED_ETA = 10;
 const int TURNED_MOMENT_SIZE =
     MOMENT_COUNT * TURNED_MU * TURNED_AZIMUTH * TURNED_RATIO * TURNED_ALPHA;

@@ -3,7 +3,7 @@
 // cosines, is written as a sum of (1 - c)^p, p = 0, 1.7, 2.5, 5, 10, 20, whose albedos the moment
 // table has. The matrix is the inverse of that basis at those cosines, printed by
 // shaders/bake/conductorBasis.py. The sum meets the exact curve within 3e-3 for metals (mean 3e-4);
-// below ior 1 with little k it does not (conductorSteepIor).
+// below ior 1 with little k, and above that of metals, it does not (conductorSteepIor).
 
 const vec3 CONDUCTOR_COS = vec3(0.0894427191f, 0.252982213f, 0.464758002f);
 const float CONDUCTOR_COS3 = 0.715541753f;
@@ -25,10 +25,12 @@ PATINA_FN vec3 curveMeanAdded(MicrofacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3
 }
 
 // A "metal" that refracts: close below a critical angle the reflectance jumps, which no sum of
-// smooth curves follows. Where there is hardly an interface, it rises to 1 at the horizon alone.
+// smooth curves follows. Where there is hardly an interface, it rises to 1 at the horizon alone, and the
+// dip of an index far above that of metals lies beside the horizon too.
+const float CONDUCTOR_DIPS = 10.0f;
 PATINA_FN bool conductorSteepChannel(float n, float k) {
     bool refracts = n < 1.0f && k < 0.5f && n * n - k * k > -0.1f;
-    return refracts || (abs(n - 1.0f) < 0.01f && k < 0.01f);
+    return refracts || (abs(n - 1.0f) < 0.01f && k < 0.01f) || max(n, k) > CONDUCTOR_DIPS;
 }
 
 PATINA_FN bool conductorSteepIor(vec3 n, vec3 k) {

@@ -230,19 +230,23 @@ PATINA_FN LobeSample chiangHairSample(ChiangHairLobe l, vec3 wo, vec3 u) {
     float x = max(u.x, 1e-6f);
     float c = 1.0f + v * 0.693147181f * log2(x + (1.0f - x) * hairExp(-2.0f / v));
     c = clamp(c, -1.0f, 1.0f);
-    float sinI = -c * to.x + safeSqrt(1.0f - c * c) * cos(TWO_PI * u.y) * to.y;
-    sinI = clamp(sinI, -1.0f, 1.0f);
-    float cosI = safeSqrt(1.0f - sinI * sinI);
+    float r = safeSqrt(1.0f - c * c);
+    float rx = r * cos(TWO_PI * u.y);
+    float ry = r * sin(TWO_PI * u.y);
+    float sinI = clamp(rx * to.y - c * to.x, -1.0f, 1.0f);
+    // Not 1 - sin^2: all directions within 2e-4 of the axis would round to it.
+    float across = rx * to.x + c * to.y;
+    float cosI = sqrt(across * across + ry * ry);
     float phi = select(hairPhi(p, o) + hairLogisticSample(w, s), TWO_PI * w, p < 3.0f) + o.phiO;
-    LobeSample r = lobeSampleNone();
-    r.wi = vec3(sinI, cosI * sin(phi), cosI * cos(phi));
-    LobeEval e = chiangHairEval(l, wo, r.wi);
+    LobeSample d = lobeSampleNone();
+    d.wi = vec3(sinI, cosI * sin(phi), cosI * cos(phi));
+    LobeEval e = chiangHairEval(l, wo, d.wi);
     bool found = e.pdf > 0.0f;
-    r.weight = e.value / max(e.pdf, TINY);
-    r.pdf = e.pdf;
-    bool same = r.wi.z * select(1.0f, -1.0f, wo.z >= 0.0f) > 0.0f;
-    r.event = select(select(LOBE_REFLECT, LOBE_TRANSMIT, same), 0, found);
-    return r;
+    d.weight = e.value / max(e.pdf, TINY);
+    d.pdf = e.pdf;
+    bool same = d.wi.z * select(1.0f, -1.0f, wo.z >= 0.0f) > 0.0f;
+    d.event = select(select(LOBE_REFLECT, LOBE_TRANSMIT, same), 0, found);
+    return d;
 }
 
 // Exact: every lobe integrates to its attenuation.

@@ -104,6 +104,22 @@ PATINA_FN vec2 dielectricChosen(DielectricLobe l, vec3 wo, float eta, int method
     return vec2(e.x, min(e.x, e.y));
 }
 
+const int CURVE_FACETS = 16;
+
+// What a Fresnel curve in place of the exact equations lets through, over what those do: of all facets seen.
+PATINA_FN_RARE float dielectricPasses(DielectricLobe l, vec3 wo, float eta) {
+    vec3 o = vec3(wo.x, wo.y, min(abs(wo.z), 1.0f));
+    float curve = 0.0f;
+    float exact = 0.0f;
+    for (int j = 0; j < CURVE_FACETS; ++j) {
+        vec3 m = visibleMicrofacet(o, l.alpha, l.ndf, j, CURVE_FACETS);
+        float c = clamp(dot(o, m), 0.0f, 1.0f);
+        curve += 1.0f - fresnelModelled(l.fresnel, c, eta);
+        exact += 1.0f - fresnelDielectric(c, eta);
+    }
+    return curve / max(exact, ALBEDO_MIN * float(CURVE_FACETS));
+}
+
 struct DielectricEnergy {
     float kr; // factor on R
     float kt; // factor on T
@@ -123,6 +139,8 @@ PATINA_FN DielectricEnergy dielectricRough(DielectricLobe l, vec3 wo) {
     e.t = (1.0f - f) * e.kt;
     if (l.alpha.x == 0.0f || l.matched) return e;
     int method = albedoMethod(l.albedo, l.alpha, l.ndf, eta);
+    // Karis's curve is not exact enough to share light between R and T.
+    method = select(ALBEDO_TABLE, method, method == ALBEDO_KARIS && l.mode != SCATTER_R);
     vec2 chosen = vec2(0.0f);
     if (method != ALBEDO_TABLE) chosen = dielectricChosen(l, wo, eta, method);
     float ess = chosen.x;
@@ -133,10 +151,14 @@ PATINA_FN DielectricEnergy dielectricRough(DielectricLobe l, vec3 wo) {
         MicrofacetPlace p = microfacetPlace(wo, l.alpha, l.ndf);
         vec2 a = microfacetInterface(p, eta);
         float white = microfacetAlbedo0(p);
+        if (PATINA_FRESNEL(l.fresnel) != FRESNEL_EXACT && !l.full) {
+            float passes = dielectricPasses(l, wo, eta);
+            a.y *= passes;
+            a.x = max(1.0f - (1.0f - a.x) * passes, 0.0f);
+            if (eta >= 1.0f) a.x = schlickMean(p, fresnelDielectricCurve(l.fresnel, eta)).x;
+        }
         et = white * select(0.0f, a.y, l.full);
         ess = select(white, ess, method == ALBEDO_TABLE);
-        if (l.fresnel != FRESNEL_EXACT && eta >= 1.0f)
-            a.x = schlickMean(p, fresnelDielectricCurve(l.fresnel, eta)).x;
         er = select(white * select(1.0f, a.x, l.full), er, method == ALBEDO_TABLE);
     }
     if (dielectricAdds(l, z)) {

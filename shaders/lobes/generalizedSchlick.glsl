@@ -163,9 +163,8 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     bool reflectsOnly = l.mode == SCATTER_R && thinner;
     int method = albedoMethod(l.albedo, l.alpha, l.ndf, eta);
     bool untabled = schlickUntabled(l, thinner);
-    // Karis's curve knows one rise to 1 alone, which is not enough to share light between R and T.
-    bool rises = !schlickOdd(l) && !filmIsThere(l.film);
-    method = select(ALBEDO_TABLE, method, method == ALBEDO_KARIS && !rises && !reflectsOnly);
+    // Karis's curve is not exact enough to share light between R and T.
+    method = select(ALBEDO_TABLE, method, method == ALBEDO_KARIS && !reflectsOnly);
     bool tabled = method == ALBEDO_TABLE;
     vec4 chosen = vec4(0.0f, 0.0f, 0.0f, 1.0f);
     if (!tabled) chosen = schlickChosen(l, wo, eta, method);

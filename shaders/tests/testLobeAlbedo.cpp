@@ -102,8 +102,8 @@ TEST(AlbedoTable, AnisotropyIsWithinItsError) {
         double ratio, mirror, outside, inside, furnace;
     };
     for (const Budget& b :
-         {Budget{0.5, 1.5e-2, 6e-3, 1.5e-2, 2e-2}, Budget{0.2, 1.5e-2, 1e-2, 2e-2, 3e-2},
-          Budget{0.02, 2e-2, 2e-2, 3e-2, 5e-2}})
+         {Budget{0.5, 1e-2, 7e-3, 1e-2, 1.5e-2}, Budget{0.2, 1.2e-2, 1.1e-2, 2e-2, 2.2e-2},
+          Budget{0.02, 1e-2, 1.5e-2, 2e-2, 2.2e-2}})
         for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN}) {
             bake::InterfaceQuadrature quadrature(64, ndf);
             Error mirror, outside, inside, furnace;
@@ -332,6 +332,46 @@ TEST(LobeAlbedo, AnisotropicGlassKeepsItsBudget) {
                     EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, phi), 5000).x, 1.0, 2.5e-2)
                         << alpha.x << " " << alpha.y << " " << z << " " << phi << " " << ndf;
                 }
+}
+
+// From inside at grazing angles. Facets that lean along one axis reflect all light beyond an
+// azimuth that no table of azimuths alone knows; between two of them glass gained 0.24.
+TEST(LobeAlbedo, GroovesReflectAllBeyondAnAzimuth) {
+    struct View {
+        double z, phi, larger, ratio, ior;
+    };
+    for (const View& v :
+         {View{0.047, 1.188, 0.854, 0.036, 1.099}, View{0.065, 0.917, 0.878, 0.031, 1.273},
+          View{0.038, 1.399, 0.746, 0.095, 1.031}, View{0.038, 0.825, 0.893, 0.156, 1.401}})
+        for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN}) {
+            const vec2 alpha(v.larger, v.larger * v.ratio);
+            const vec3 wo = direction(v.z, v.phi);
+            bake::InterfaceQuadrature quadrature(96, ndf);
+            quadrature.setView(wo, alpha);
+            const vec2 exact = quadrature.dielectric(1.0 / v.ior);
+            const auto place = sh64::microfacetPlace(wo, alpha, ndf);
+            const vec2 table =
+                sh64::microfacetInterface(place, 1.0 / v.ior) * sh64::microfacetAlbedo0(place);
+            EXPECT_NEAR((exact.x + exact.y) / (table.x + table.y), 1.0, 0.06)
+                << v.z << " " << v.ratio << " " << ndf;
+        }
+}
+
+// A Fresnel curve in place of the exact equations lets another share of the light through, from
+// both sides.
+TEST(LobeAlbedo, CurvesInPlaceOfTheExactEquationsAreCounted) {
+    for (int model : {sh64::FRESNEL_SCHLICK, sh64::FRESNEL_F82})
+        for (int mode : {sh64::SCATTER_R, sh64::SCATTER_T, sh64::SCATTER_RT})
+            for (double ior : {1.33, 1.5, 2.6})
+                for (double alpha : {0.1, 0.4})
+                    for (double z : {0.9, 0.2, -0.3, -0.6, -0.95}) {
+                        const LobeCase c = PATINA_LOBE_CASE_WITH(
+                            "curve", dielectric, dielectric, l.fresnel = model, vec3(1.0), ior,
+                            vec2(alpha), false, mode, false, 1);
+                        const vec3 wo = direction(z, 0.3);
+                        EXPECT_NEAR(c.f64.albedo(wo).x, sampledAlbedo(c.f64, wo, 5000).x, 0.035)
+                            << model << " " << mode << " " << ior << " " << alpha << " " << z;
+                    }
 }
 
 // From outside. Facets a thousand times as rough along one axis gained 0.15.

@@ -36,7 +36,8 @@ BUDGETS = {"dielectric_bsdf": 0.035, "dielectric_btdf": 0.035, "conductor_bsdf":
 FACETS = {"dielectric_bsdf", "dielectric_btdf", "conductor_bsdf"}
 BECKMANN, FILM = 0.02, 0.04
 # Of the tables of anisotropy (anisotropicAlbedo.glsl): from inside, at grazing angles, an interface is further off.
-ANISOTROPIC = {"dielectric_bsdf": 0.2, "dielectric_btdf": 0.2, "generalized_schlick_bsdf": 0.2, "conductor_bsdf": 0.05}
+ANISOTROPIC = {"dielectric_bsdf": 0.08, "dielectric_btdf": 0.08, "generalized_schlick_bsdf": graphChecks.BUDGET,
+               "conductor_bsdf": 0.03}
 COLOR_MAX = 65504.0  # of a factor (shaders/lib/degenerate.glsl)
 JUMPING = {"dielectric_bsdf", "dielectric_btdf"}
 TABLED = (0.1, 10.0)  # iors of dielectrics that the tables hold well
@@ -165,12 +166,12 @@ def check_exactly(drawn):
     return failures
 
 
-def check_density(drawn, nodes, bound):
+def check_density(probe, drawn, nodes, bound):
     """A colour is a factor on a reflectance and on its error. Brewster's angle and the critical one lie 5e-5 apart in the
     cosine at an ior of 10, and nearer at higher ones: no float tells between them how much is reflected."""
     jumps = any(category in JUMPING and _steep(category, inputs) for category, _, _, inputs in nodes)
     reflectance = (1.0 if jumps else graphChecks.REFLECTANCE) * min(max(bound, 1.0), COLOR_MAX)
-    return graphChecks.same_density(drawn.wo, drawn.u, drawn.samples, drawn.f, drawn.pdf, reflectance)
+    return graphChecks.same_density(probe, drawn.wo, drawn.u, drawn.samples, drawn.f, drawn.pdf, reflectance)
 
 
 def check_means(probe, graph, drawn, number, allowed, furnace=True, densities=True):
@@ -232,7 +233,7 @@ def look(probe, graph, seed, number, methods, furnace=True, densities=True):
     drawn = Drawn(probe, seed, number)
     found = check_exactly(drawn)
     if densities:
-        found += check_density(drawn, graph.nodes, graph.bound)
+        found += check_density(probe, drawn, graph.nodes, graph.bound)
     if number == 0 and densities and reciprocal(graph, methods):
         found += check_reciprocity(probe, seed)
     if found:

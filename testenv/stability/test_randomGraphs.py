@@ -157,6 +157,44 @@ class Jumps(Broken):
         return np.where((wi == self.on).all(axis=1)[:, None] & (wo[:, 2:] >= 0), 7.0, f), pdf
 
 
+class Rounds(Broken):
+    """Samples of a lobe that is dark from some z on."""
+
+    def __init__(self, border):
+        super().__init__("")
+        self.border = border
+
+    def eval(self, wo, wi):
+        f, pdf = super().eval(wo, wi)
+        return np.where(wi[:, 2:] > self.border, f, 0.0), pdf
+
+    def sample(self, wo, u):
+        s = super().sample(wo, u)
+        s["wi"][:, 2] = self.border + 3e-8
+        s["pdf"] = np.full(len(wo), self.border / np.pi)
+        s["weight"] = np.where(wo[:, 2:] >= 0, 0.5, 0.0) * np.ones((1, 3))
+        return {**s, "wi": s["wi"].astype(np.float32)}
+
+
+def test_values_may_jump_where_directions_round():
+    assert graphChecks.check_density(Rounds(0.5)) == []
+    wo, u = np.repeat(graphChecks.directions((0.9,), (0.7,)), 8, axis=0), np.full((8, 4), 0.4, np.float32)
+    s = Rounds(0.5).sample(wo, u)
+    s["wi"][:, 2] += 1e-5
+    found = graphChecks.same_density(Rounds(0.6), wo, u, s, *Rounds(0.6).eval(wo, s["wi"]))
+    assert "weight of a sample is not f cos / pdf" in found[0]
+
+
+def test_a_constant_that_is_no_number_passes_for_no_other():
+    """A tangent of NaN is that of the point, as none is, and not the normal."""
+    text = kept.read(os.path.join(kept.CORPUS, "constantNotANumber.mtlx"))[0]
+    bare = text.replace('<input name="tangent" type="vector3" nodename="n1"/>', "")
+    assert bare != text
+    wo, u = graphChecks.draws()
+    samples = [_patina.MaterialProbe(randomGraphs.load(_patina, document)).sample(wo, u) for document in (text, bare)]
+    assert np.array_equal(samples[0]["wi"], samples[1]["wi"])
+
+
 def test_back_ends_that_differ_are_found_but_at_a_jump():
     assert graphChecks.compare(Broken(""), Broken("")) == []
     assert any("pdf differs" in line for line in graphChecks.compare(Broken(""), Broken("density")))

@@ -23,7 +23,8 @@ std::string knownOf(const AgreementRow& row) {
     if (row.setup.find("ilm") == std::string::npos) text += "#define PATINA_FILM(present) false\n";
     if (row.hasEnergy()) text += "#define PATINA_ENERGY_KNOWN(known) true\n";
     if (row.name.compare(0, 7, "methods") != 0)
-        text += "#define PATINA_ALBEDO_METHOD(method) 0\n#define PATINA_FILM_METHOD(method) 0\n";
+        text += "#define PATINA_ALBEDO_METHOD(method) 0\n#define PATINA_FRESNEL(model) 0\n"
+                "#define PATINA_FILM_METHOD(method) 0\n";
     return text;
 }
 

@@ -107,8 +107,9 @@ INSTANTIATE_TEST_SUITE_P(Materials, GlslText,
                          ::testing::Values("coatedPlastic", "texturedBumps", "flakesUnderGlass"));
 
 TEST(GlslDefinitions, SayWhatAllLobesHaveInCommon) {
-    const std::string none =
-        "#define PATINA_ALBEDO_METHOD(method) 0\n#define PATINA_FILM(present) false\n";
+    const std::string exact =
+        "#define PATINA_ALBEDO_METHOD(method) 0\n#define PATINA_FRESNEL(model) 0\n";
+    const std::string none = exact + "#define PATINA_FILM(present) false\n";
     const auto definitions = [](float thickness, const MethodChoices& methods) {
         const Network network = bsdfNetwork(
             {makeNode("bsdf", "ND_conductor_bsdf", {{"thinfilm_thickness", number(thickness)}})});
@@ -121,9 +122,8 @@ TEST(GlslDefinitions, SayWhatAllLobesHaveInCommon) {
     EXPECT_EQ(definitions(0.0f, {}), "#define PATINA_COMPENSATE(compensate) 1\n" + none);
     EXPECT_EQ(definitions(0.0f, {{"energyCompensation", "kullaConty"}}),
               "#define PATINA_COMPENSATE(compensate) 2\n" + none);
-    EXPECT_EQ(definitions(400.0f, {}),
-              "#define PATINA_COMPENSATE(compensate) 1\n#define PATINA_ALBEDO_METHOD(method) 0\n"
-              "#define PATINA_FILM_METHOD(method) 0\n");
+    EXPECT_EQ(definitions(400.0f, {}), "#define PATINA_COMPENSATE(compensate) 1\n" + exact +
+                                           "#define PATINA_FILM_METHOD(method) 0\n");
     const std::string karis = definitions(0.0f, {{"directionalAlbedo", "karis"}});
     EXPECT_NE(karis.find("PATINA_ALBEDO_METHOD(method) 2\n"), std::string::npos) << karis;
 }

@@ -43,7 +43,7 @@ VtDictionary renderStats(const HdPatinaDelegateState& state) {
     stats["percentDone"] = VtValue(100.0 * slowest.fraction);
     stats["fractionDone"] = VtValue(slowest.fraction);
     stats["numCompletedSamples"] = VtValue(slowest.samplesDone);
-    stats["patina:imagesShown"] = VtValue(shown);
+    stats["patina:imagesShown"] = VtValue(double(shown));
     stats["totalClockTime"] = VtValue(slowest.secondsRendering);
     stats["timeRemaining"] = VtValue(slowest.secondsLeft);
     stats["renderProgressAnnotation"] = VtValue(annotation(state, slowest));

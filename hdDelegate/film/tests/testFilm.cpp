@@ -141,10 +141,11 @@ TEST(Film, PixelsWithoutSamplesShowTheirBlock) {
     add(4, 1, 9.0f);
     const float far = 1e10f;
     // (3, 2), (5, 0) and (5, 2) have no samples: blocks to the left or above stand in.
-    EXPECT_EQ(film.resolve("depth"), (std::vector<float>{far, 1,   1,   2,   2,   2,   far, //
-                                                         far, 1,   1,   2,   9,   2,   far, //
-                                                         far, 3,   3,   3,   3,   far, far, //
-                                                         far, far, far, far, far, far, far}));
+    const std::vector<float> expected = {far, 1,   1,   2,   2,   2,   far, //
+                                         far, 1,   1,   2,   9,   2,   far, //
+                                         far, 3,   3,   3,   3,   2,   far, //
+                                         far, far, far, far, far, far, far};
+    EXPECT_EQ(film.resolve("depth"), expected);
     std::vector<float> alpha = film.resolve("alpha"), counts = film.resolve("sampleCount");
     EXPECT_EQ(std::accumulate(alpha.begin(), alpha.end(), 0.0f), 15.0f);
     EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0.0f), 4.0f) << "none is claimed";

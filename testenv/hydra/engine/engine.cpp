@@ -48,7 +48,7 @@ namespace {
 
 bool showsImage(const VtDictionary& statistics) {
     const auto found = statistics.find("patina:imagesShown");
-    return found != statistics.end() && found->second.GetWithDefault(0) > 0;
+    return found != statistics.end() && found->second.GetWithDefault(0.0) > 0.0;
 }
 
 } // namespace

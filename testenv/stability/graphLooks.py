@@ -82,6 +82,16 @@ def _hardly_transmits(category, inputs):
     return transmits and _steep(category, inputs)
 
 
+def flat_curve(nodes):
+    """:returns: whether light passes by Schlick's curve of a small exponent p. The share 1 - x^p, about -p ln x, then hangs on
+    the last digits of x = 1 - cos: where cos rounds to the float below 1, ln x is off by ln 2 of 16.6"""
+    for category, _, _, inputs in nodes:
+        exponent = _numbers(inputs, "exponent", "5") if category == "generalized_schlick_bsdf" else [5.0]
+        if exponent is None or exponent[0] < 0.1:
+            return True
+    return False
+
+
 def budget(nodes):
     """:param nodes: of a graph
     :returns: the error that albedo() may have

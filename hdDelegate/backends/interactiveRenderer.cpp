@@ -31,6 +31,7 @@ void InteractiveRenderer::start(std::shared_ptr<Scene> scene, const std::string&
     const std::lock_guard<std::mutex> control(_control);
     _scene = std::move(scene);
     _settings = settings;
+    _settings.firstBlockSize = 1; // the rasterizer's image comes first
     _film = std::move(film);
     _fromQuick = Source();
     _fromSlow = Source();

@@ -62,6 +62,11 @@ float AmbientOcclusion::sample(const CameraRay& ray, Sampler& sampler,
                 x * across.x + y * across.y + normal * std::sqrt(std::max(0.0f, 1.0f - u));
             around = vec2(around.x * turnX - around.y * turnY, around.x * turnY + around.y * turnX);
         }
+        if (hit.instanced) { // rays into different instances share no part of a packet's way
+            for (int i = 0; i < count; ++i)
+                seen += !scene.occluded(origin, directions[i], 0.0f, INFINITY, ray.time, RayShadow);
+            continue;
+        }
         const unsigned blocked = scene.occludedRays(origin, directions, count, ray.time, RayShadow);
         for (int i = 0; i < count; ++i)
             seen += (blocked >> i & 1u) == 0;

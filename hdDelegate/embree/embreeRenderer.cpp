@@ -50,6 +50,48 @@ void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& sche
         _spent[item.first] += item.second;
 }
 
+void EmbreeRenderer::showBlocks(const Integrator& integrator, const TileSchedule& schedule,
+                                Arena& arena) {
+    constexpr double quick = 0.1; // seconds: a pass that hosts need not wait for
+    const std::vector<Tile>& tiles = schedule.tiles();
+    const bool isWhole = _settings.sampleBegin == 0 && _settings.tileParts == 1;
+    if (!_settings.interactive || !_listener || !isWhole || tiles.empty() ||
+        schedule.samplesDone() > 0)
+        return;
+    const glm::ivec4 window(tiles.front().x0, tiles.front().y0, tiles.back().x1, tiles.back().y1);
+    int size = 1;
+    while (2 * size <= _settings.firstBlockSize)
+        size *= 2;
+    double seconds = 0.0;
+    for (double share = 1.0 / (size * size); size > 1; size /= 2, share *= 4.0) {
+        const auto started = Clock::now();
+        const auto isOfBlock = [&](int x, int y) {
+            return (x - window.x) % size == 0 && (y - window.y) % size == 0;
+        };
+        arena.execute([&] {
+            parallelFor(size_t(0), tiles.size(), [&](size_t i) {
+                const Tile& t = tiles[i];
+                TraceCounters counters;
+                for (int y = t.y0; y < t.y1 && !interrupted(); ++y)
+                    for (int x = t.x0; x < t.x1; ++x) {
+                        // The last pixel's count is the tile's.
+                        const bool isLast = x == t.x1 - 1 && y == t.y1 - 1;
+                        if (isOfBlock(x, y) && !isLast && _film->nextSample(x, y) == 0)
+                            integrator.sample(*_film, x, y, 0, counters);
+                    }
+                _rays += counters.rays;
+                _shadowRays += counters.shadowRays;
+                _paths += counters.paths;
+            });
+        });
+        if (interrupted()) return;
+        seconds += secondsSince(started);
+        if (seconds * (1.0 / share - 1.0) < quick) return;
+        _film->showBlocks(size, window);
+        notify();
+    }
+}
+
 std::unique_ptr<CausticCasters> EmbreeRenderer::casters(const RenderSettings& settings,
                                                         const Camera& camera,
                                                         const std::vector<AovSpec>& aovs) const {
@@ -225,6 +267,8 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     TileSchedule schedule(*_film, sampled);
     beginSampling();
     bool haveImage = schedule.samplesDone() > 0; // the time limit never leaves holes
+    if (!glass) showBlocks(integrator, schedule, arena);
+    if (!waitWhilePaused()) return;
     while (!stopped()) {
         const std::vector<int> tiles = schedule.pending();
         if (tiles.empty()) break;
@@ -240,6 +284,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
             take(INT_MAX);
         else
             takeBlocks(integrator, *glass, schedule, tiles, arena, take);
+        if (schedule.samplesDone() > 0) _film->showBlocks(1, {});
         publish(schedule);
         maybeCheckpoint();
         haveImage = haveImage || schedule.samplesDone() > 0;

@@ -26,6 +26,10 @@ private:
     void render(const SceneState& state, const Camera& camera) override;
     /// @param end of the samples that are taken now, even where the schedule wants more
     void renderTile(const Integrator& integrator, TileSchedule& schedule, int tile, int end);
+    /// Where a host waits for a first image, and a pass takes long: shows some of its pixels as
+    /// blocks, then more of them in smaller blocks. The pass that follows takes the others. Which
+    /// pixels come first changes no sample.
+    void showBlocks(const Integrator& integrator, const TileSchedule& schedule, Arena& arena);
     /// The casters of the scene, where photons are asked for and show all that paths would.
     std::unique_ptr<CausticCasters> casters(const RenderSettings& settings, const Camera& camera,
                                             const std::vector<AovSpec>& aovs) const;

@@ -88,6 +88,7 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
     bool same = width == _width && height == _height &&
                 std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);
     _denoised.clear();
+    _blockSize = 1;
     if (keep && same) return;
     _firstSample = 0;
     _allowsNegative = false;
@@ -247,6 +248,8 @@ void Film::copyFrom(const Film& other) {
     _denoised = other._denoised;
     _firstSample = other._firstSample;
     _allowsNegative = other._allowsNegative;
+    _blockSize = other._blockSize;
+    _blockWindow = other._blockWindow;
     _dropped.store(other._dropped.load(std::memory_order_relaxed), std::memory_order_relaxed);
     resumeToken = other.resumeToken;
 }
@@ -289,15 +292,31 @@ float Film::deviationOfMean(const Pixel& p) {
     return float(std::sqrt(0.5 * (latest + earlier)));
 }
 
+glm::ivec2 Film::shownAt(int x, int y) const {
+    const glm::ivec4& w = _blockWindow;
+    if (_blockSize < 2 || x < w.x || y < w.y || x >= w.z || y >= w.w || pixel(x, y).count)
+        return {x, y};
+    const int left = x - (x - w.x) % _blockSize, top = y - (y - w.y) % _blockSize;
+    for (int up = 0; up < 2; ++up)
+        for (int back = 0; back < 2; ++back) {
+            const int i = left - back * _blockSize, k = top - up * _blockSize;
+            if (i >= w.x && k >= w.y && pixel(i, k).count) return {i, k};
+        }
+    return {x, y};
+}
+
 std::vector<float> Film::resolve(const std::string& name) const {
     AovSpec spec;
     if (!findSpec(name, spec)) return {};
     size_t n = size_t(spec.components);
     std::vector<float> out(_pixels.size() * n);
+    const bool ofSamples = name == "sampleCount" || name == "variance";
     auto eachPixel = [&](auto value) {
         parallelFor(0, _height, [&](int y) {
-            for (int x = 0; x < _width; ++x)
-                value(x, y, &out[index(x, y) * n]);
+            for (int x = 0; x < _width; ++x) {
+                const glm::ivec2 shown = ofSamples ? glm::ivec2(x, y) : shownAt(x, y);
+                value(shown.x, shown.y, &out[index(x, y) * n]);
+            }
         });
     };
     if (name == "color" && denoised()) return _denoised;

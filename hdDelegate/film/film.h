@@ -95,6 +95,16 @@ public:
     void setDenoised(std::vector<float> color);
     bool denoised() const { return !_denoised.empty(); }
 
+    /// Until reset() is called or size is 1, pixels without samples show that of a neighbour: the
+    /// first pixel of their block, or of the block to the left or above. Sample counts and
+    /// variances stay their own.
+    /// @param size of a block's side in pixels
+    /// @param window x0, y0, x1, y1, without the last column and row: where the blocks are
+    void showBlocks(int size, const glm::ivec4& window) {
+        _blockSize = size;
+        _blockWindow = window;
+    }
+
     /// Becomes equal to another film, with all of its accumulators.
     void copyFrom(const Film& other);
 
@@ -160,6 +170,8 @@ private:
 
     size_t index(int x, int y) const { return size_t(y) * size_t(_width) + size_t(x); }
     const Pixel& pixel(int x, int y) const { return _pixels[index(x, y)]; }
+    /// The pixel that shows at another: see showBlocks().
+    glm::ivec2 shownAt(int x, int y) const;
     static float deviationOfMean(const Pixel& pixel);
     static void recordMean(Pixel& pixel);
     void closeSpan(size_t index);
@@ -174,6 +186,8 @@ private:
     std::atomic<uint64_t> _dropped{0};
     uint32_t _firstSample = 0;
     bool _allowsNegative = false;
+    int _blockSize = 1;
+    glm::ivec4 _blockWindow{0};
 };
 
 } // namespace patina

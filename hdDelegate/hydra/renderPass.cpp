@@ -190,6 +190,7 @@ void HdPatinaRenderPass::show(const HdPatinaFrame& frame) {
         });
     }
     if (!written) return; // mapped: the next Execute tries again
+    _session->countShown();
     if (frame.last) finish(frame);
     _pending.reset();
 }

@@ -29,16 +29,21 @@ std::string annotation(const HdPatinaDelegateState& state, const RenderProgress&
 VtDictionary renderStats(const HdPatinaDelegateState& state) {
     RenderProgress slowest;
     bool found = false;
+    int shown = 0;
     for (const auto& session : state.sessions()) {
         const RenderProgress p = session->progress();
         const bool started = session->isRunning() || p.converged || p.failed || p.samplesDone > 0;
-        if (started && (!found || p.fraction < slowest.fraction)) slowest = p;
+        if (started && (!found || p.fraction < slowest.fraction)) {
+            slowest = p;
+            shown = session->imagesShown();
+        }
         found |= started;
     }
     VtDictionary stats;
     stats["percentDone"] = VtValue(100.0 * slowest.fraction);
     stats["fractionDone"] = VtValue(slowest.fraction);
     stats["numCompletedSamples"] = VtValue(slowest.samplesDone);
+    stats["patina:imagesShown"] = VtValue(double(shown));
     stats["totalClockTime"] = VtValue(slowest.secondsRendering);
     stats["timeRemaining"] = VtValue(slowest.secondsLeft);
     stats["renderProgressAnnotation"] = VtValue(annotation(state, slowest));

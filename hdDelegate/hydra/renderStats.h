@@ -9,8 +9,9 @@ namespace patina {
 
 /// Statistics that hosts show while a render runs, under the names that they look for: percentDone
 /// (0..100), fractionDone, numCompletedSamples, totalClockTime and timeRemaining (seconds),
-/// renderProgressAnnotation (a line), peakMemory (bytes of the process), warnings; and everything
-/// in RenderProgress::statistics as patina:NAME. Of several passes the one that is furthest behind
+/// renderProgressAnnotation (a line), peakMemory (bytes of the process), warnings; everything in
+/// RenderProgress::statistics as patina:NAME; and patina:imagesShown, how often the host's buffers
+/// have been given an image since the last edit. Of several passes the one that is furthest behind
 /// counts.
 VtDictionary renderStats(const HdPatinaDelegateState& state);
 

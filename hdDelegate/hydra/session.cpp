@@ -56,6 +56,7 @@ void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& s
         std::lock_guard<std::mutex> lock(_mutex);
         serial = ++_serial;
         _frame.reset();
+        _shown = 0;
         _camera = camera;
         _settings = settings;
         _aovs = aovs;
@@ -100,7 +101,8 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
         if (_settings.denoise && !frame->last && (count & (count - 1)) != 0)
             return; // a noisy image between clean ones would flicker
         Film clean;
-        const bool denoised = _settings.denoise && denoiseCopy(film, clean);
+        // Blocks of a first pass stay as they are: no filter mends them.
+        const bool denoised = _settings.denoise && count > 0 && denoiseCopy(film, clean);
         frame->width = film.width();
         frame->height = film.height();
         for (const std::string& name : _aovs)

@@ -4,6 +4,7 @@
 #include "hdDelegate/hydra/settings.h"
 #include "hdDelegate/renderer/renderer.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <map>
 #include <memory>
@@ -44,6 +45,9 @@ public:
     bool isStopped() const { return _stopped; }
     bool isRunning() const;
     RenderProgress progress() const;
+    /// Called when a host's buffers have been given an image, and how often that was since start().
+    void countShown() { ++_shown; }
+    int imagesShown() const { return _shown; }
 
     /// Blocks until the last frame of the render that was started; for renders without a host that
     /// polls. @returns the frame
@@ -68,6 +72,7 @@ private:
     std::condition_variable _arrived, _taken;
     uint64_t _serial = 0; ///< frames of older renders are dropped
     std::shared_ptr<const HdPatinaFrame> _frame;
+    std::atomic<int> _shown{0};
     bool _paused = false, _stopped = false, _stopping = false;
 };
 

@@ -2,7 +2,8 @@
 """Frames in Hydra beside hdEmbree and Storm, each renderer in a process of its own, in the same host.
 
 Seconds until the first image of one sample (Hydra's population and the building of acceleration structures
-are in it), until the image after a camera move, peak memory; and rays per second of an ambient occlusion frame:
+are in it), until the image after a camera move, for both until there is something to see (Patina shows blocks of pixels
+before a slow pass ends), peak memory; and rays per second of an ambient occlusion frame:
 one camera ray and 16 cosine-distributed occlusion rays per hit, from the time of many samples less that of
 half as many. hdEmbree casts the same rays. Storm draws the stage in UsdImagingGLEngine: its times are for
 orientation.
@@ -48,10 +49,11 @@ def hits_of(stage, size):
 
 def measure(stage, renderer, size, samples, hits):
     first = run_host(stage, renderer, 1, size, moves=MOVES)
-    moved = statistics.median(first["seconds"][f"moved{i}"] for i in range(MOVES))
+    moved, moved_seen = (statistics.median(first["seconds"][f"{name}{i}"] for i in range(MOVES)) for name in ("moved", "movedSeen"))
     few, many = (run_host(stage, renderer, count, size)["seconds"]["render"] for count in (samples // 2, samples))
     rays = size[0] * size[1] * (samples - samples // 2) * (1.0 + (RAYS_PER_HIT - 1) * hits)
-    return {"first": first["seconds"]["render"], "moved": moved, "memory": first["peakMemory"],
+    return {"first": first["seconds"]["render"], "first seen": first["seconds"]["seen"], "moved": moved, "moved seen": moved_seen,
+            "memory": first["peakMemory"],
             "rays": rays / max(many - few, 1e-9)}
 
 
@@ -75,7 +77,8 @@ def _cell(value, unit):
 
 def show(results):
     """Prints a table; a ratio below 1 means that Patina needs less, above 1 for rays that it is faster."""
-    rows = [("first", "first image", "s"), ("moved", "after a camera move", "s"), ("memory", "peak memory", "MB"),
+    rows = [("first", "first image", "s"), ("first seen", "something to see", "s"), ("moved", "after a camera move", "s"),
+            ("moved seen", "something to see", "s"), ("memory", "peak memory", "MB"),
             ("rays", "rays per second", "M/s")]
     for stage, found in results.items():
         print(stage)

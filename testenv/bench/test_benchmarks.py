@@ -100,7 +100,8 @@ def test_viewport_leaves_out_what_does_not_run(monkeypatch, capsys):
         asked.append((renderer, edit))
         return None if renderer == "Storm" else {
             "peakMemory": 1e6, "device": "none",
-            "seconds": {"open": 1.0, "first": len(asked), "moved": [2.0, 3.0], "edited": [4.0, 8.0]}}
+            "seconds": {"open": 1.0, "first": len(asked), "moved": [2.0, 3.0], "edited": [4.0, 8.0]},
+            "seen": {"first": 0.5, "moved": [0.1, 0.2], "edited": [0.2, 0.4]}}
 
     monkeypatch.setattr(viewportBench, "host", host)
     options = argparse.Namespace(runs=1, images=None)
@@ -108,5 +109,6 @@ def test_viewport_leaves_out_what_does_not_run(monkeypatch, capsys):
     assert [edit for renderer, edit in asked if renderer == "hdEmbree"] == ["m"] and "Storm" not in found
     assert "material" not in found["hdEmbree"] and found["rasterizer"]["material"] == 6.0
     assert found["rasterizer"]["first"] == 1.0 + 1.5  # of two processes, the median
+    assert found["rasterizer"]["first seen"] == 1.5 and found["rasterizer"]["material seen"] == pytest.approx(0.3)
     viewportBench.show("a", found)
     assert "hdEmbree" not in capsys.readouterr().out.split("edit of a material")[1].split("\n")[0]

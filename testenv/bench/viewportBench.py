@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """First images, and images after edits, in the host that usdview and usdrecord have: UsdImagingGLEngine with OpenGL.
 
+The path tracer shows blocks of pixels before a slow first pass ends, so its rows say also when there was something to see.
 Patina's two back ends beside Storm and hdEmbree, each in a process of its own, of one sample or pass. A first image begins with
 the stage's file: opening it is in the time. Where Blender is installed, Cycles draws the made stage, too. Debian's Blender
 reads no USD, so its scene stands ready in memory and only its first image counts. hdEmbree shows neither materials nor lights.
@@ -36,8 +37,9 @@ STAGES = {
     "texturedMesh": ("/World/camera", "/World/materials/checker/surface.roughness=0.4", ""),
     "manyLights": ("/World/camera", "", "/World/light0.intensity=200"),
 }
-ROWS = {"first": "first image", "material": "after an edit of a material", "light": "after an edit of a light",
-        "moved": "after a camera move"}
+ROWS = {"first": "first image", "first seen": "something to see", "material": "after an edit of a material",
+        "material seen": "something to see", "light": "after an edit of a light", "light seen": "something to see",
+        "moved": "after a camera move", "moved seen": "something to see"}
 
 
 def settings_of(options):
@@ -90,11 +92,15 @@ def measure(name, stage, camera, edits, options):
                 seconds, found = report["seconds"], runs[renderer]
                 if run == 0 and kind == next(iter(edits)):
                     print(f"{name}, {renderer}: OpenGL draws on {report['device']}", file=sys.stderr)
+                seen = report["seen"]
                 found.setdefault("first", []).append(seconds["open"] + seconds["first"])
+                found.setdefault("first seen", []).append(seconds["open"] + seen["first"])
                 found.setdefault("memory", []).append(report["peakMemory"])
                 found.setdefault("moved", []).extend(seconds["moved"])
+                found.setdefault("moved seen", []).extend(seen["moved"])
                 if edit and renderer != "hdEmbree":
                     found.setdefault(kind, []).extend(seconds["edited"])
+                    found.setdefault(kind + " seen", []).extend(seen["edited"])
     return {renderer: {key: statistics.median(values) for key, values in found.items()} for renderer, found in runs.items()}
 
 

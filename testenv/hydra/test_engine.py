@@ -26,6 +26,17 @@ def test_it_draws_and_times_moves_and_edits(tmp_path):
     assert drawn.shape == (18, 32, 3) and np.isfinite(drawn).all() and drawn.mean() > 0.0
 
 
+@pytest.mark.parametrize("size, images", [(8, range(2, 5)), (1, range(1, 2))])
+def test_a_slow_pass_shows_blocks_before_it_ends(size, images):
+    process = hydraBuild.run_engine(inProcess.scene("diffuseBox"), "--camera", "/World/camera", "--size", "64x64",
+                                    "--set", "backend=embree", "--set", "samples=1", "--set", "integrator=ambientOcclusion",
+                                    "--set", "ambientOcclusionSamples=8192", "--set", f"firstBlockSize={size}")
+    assert process.returncode == 0, process.stderr
+    report = json.loads(process.stdout[process.stdout.index("{"):])
+    assert report["statistics"]["patina:imagesShown"] in images
+    assert 0.0 < report["seen"]["first"] <= report["seconds"]["first"]
+
+
 @pytest.mark.parametrize("flags, word", [(("--repeats", "few"), "'few' is no number"),
                                          (("--edit", "/World/none.color=1"), "there is no input /World/none.color"),
                                          (("--renderer", "NoSuchPlugin"), "NoSuchPlugin")])

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <thread>
 
 using namespace patina;
@@ -88,6 +89,42 @@ TEST(EmbreeRenderer, PauseStopsTheSamplesAndResumeGoesOn) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     renderer->stop();
     EXPECT_FALSE(renderer->isRunning());
+}
+
+TEST(EmbreeRenderer, ASlowFirstPassShowsBlocksAndEndsWithTheSameBits) {
+    RenderSettings settings = smallImage(1);
+    settings.width = 65; // so that blocks are cut off at the edges
+    settings.height = 41;
+    settings.integrator = "ambientOcclusion";
+    settings.ambientOcclusionSamples = 1 << 12; // a pass of a second and more
+    settings.interactive = true;
+    settings.seed = 7;
+    std::vector<float> images[2];
+    int coarse[2] = {0, 0};
+    for (const bool blocks : {false, true}) {
+        settings.firstBlockSize = blocks ? 8 : 1;
+        auto renderer = makeRenderer("embree");
+        auto film = std::make_shared<Film>();
+        renderer->setListener([&](const Film& shown, const RenderProgress& progress) {
+            if (progress.converged) return;
+            ++coarse[blocks];
+            EXPECT_EQ(progress.samplesDone, 0);
+            const std::vector<float> alpha = shown.resolve("alpha");
+            const std::vector<float> counts = shown.resolve("sampleCount");
+            // The middle of the ball fills its block, and few pixels have a sample.
+            for (int y = 16; y < 24; ++y)
+                for (int x = 28; x < 36; ++x)
+                    EXPECT_EQ(alpha[size_t(y * 65 + x)], 1.0f) << x << " " << y;
+            EXPECT_LE(std::accumulate(counts.begin(), counts.end(), 0.0f), 33 * 21);
+        });
+        renderer->start(furnaceScene(), "/camera", settings, film);
+        renderer->wait();
+        EXPECT_EQ(film->resolve("sampleCount"), std::vector<float>(65 * 41, 1.0f));
+        images[blocks] = film->resolve("color");
+    }
+    EXPECT_EQ(coarse[0], 0);
+    EXPECT_GE(coarse[1], 1);
+    EXPECT_EQ(images[0], images[1]);
 }
 
 TEST(EmbreeRenderer, PausedStoppedAndResumedGivesTheSameBits) {

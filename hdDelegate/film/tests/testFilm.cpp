@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -124,6 +125,33 @@ TEST(Film, FirstKeepsTheSampleNearestTheCentre) {
     std::vector<float> p = film.resolve("position");
     EXPECT_EQ(p, (std::vector<float>{0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0}));
     EXPECT_EQ(film.resolve("depth"), std::vector<float>(4, 1e10f)) << "clear value";
+}
+
+TEST(Film, PixelsWithoutSamplesShowTheirBlock) {
+    Film film;
+    film.reset(7, 4, {standardAov("depth"), standardAov("primId")});
+    film.showBlocks(2, {1, 0, 6, 3}); // block corners at x 1, 3, 5 and y 0, 2
+    const auto add = [&](int x, int y, float value) {
+        film.addColor(x, y, glm::vec3(value), 1.0f);
+        film.addAov(0, x, y, &value, 0.0f);
+    };
+    add(1, 0, 1.0f);
+    add(3, 0, 2.0f);
+    add(1, 2, 3.0f);
+    add(4, 1, 9.0f);
+    const float far = 1e10f;
+    // (3, 2), (5, 0) and (5, 2) have no samples: blocks to the left or above stand in.
+    const std::vector<float> expected = {far, 1,   1,   2,   2,   2,   far, //
+                                         far, 1,   1,   2,   9,   2,   far, //
+                                         far, 3,   3,   3,   3,   2,   far, //
+                                         far, far, far, far, far, far, far};
+    EXPECT_EQ(film.resolve("depth"), expected);
+    std::vector<float> alpha = film.resolve("alpha"), counts = film.resolve("sampleCount");
+    EXPECT_EQ(std::accumulate(alpha.begin(), alpha.end(), 0.0f), 15.0f);
+    EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0.0f), 4.0f) << "none is claimed";
+    film.showBlocks(1, {});
+    alpha = film.resolve("alpha");
+    EXPECT_EQ(std::accumulate(alpha.begin(), alpha.end(), 0.0f), 4.0f);
 }
 
 TEST(Film, MeanAovsAverageWhatWasAdded) {

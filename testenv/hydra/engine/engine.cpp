@@ -44,7 +44,16 @@ Engine::~Engine() {
     _engine.reset(); // while its context is current
 }
 
-void Engine::render() {
+namespace {
+
+bool showsImage(const VtDictionary& statistics) {
+    const auto found = statistics.find("patina:imagesShown");
+    return found != statistics.end() && found->second.GetWithDefault(0.0) > 0.0;
+}
+
+} // namespace
+
+double Engine::render() {
     UsdImagingGLRenderParams params;
     params.frame = UsdTimeCode::Default();
     params.colorCorrectionMode = HdxColorCorrectionTokens->disabled;
@@ -54,15 +63,21 @@ void Engine::render() {
     const Clock::duration least = std::chrono::milliseconds(1),
                           most = std::chrono::milliseconds(16);
     const auto start = Clock::now();
+    Clock::duration seen(0);
     for (_engine->Render(_stage->GetPseudoRoot(), params); !_engine->IsConverged();
-         _engine->Render(_stage->GetPseudoRoot(), params))
+         _engine->Render(_stage->GetPseudoRoot(), params)) {
+        if (seen == Clock::duration(0) && showsImage(_engine->GetRenderStats()))
+            seen = Clock::now() - start;
         // Each look takes time from the renderer, so that only quick images are looked at often.
         std::this_thread::sleep_for(std::clamp((Clock::now() - start) / 32, least, most));
+    }
     HdRenderBuffer* buffer = _engine->GetAovRenderBuffer(HdAovTokens->color);
     if (!buffer) throw std::runtime_error("there is no colour buffer");
     buffer->Resolve();
     if (!buffer->Map()) throw std::runtime_error("the colour buffer cannot be read");
     buffer->Unmap();
+    const Clock::duration whole = Clock::now() - start;
+    return std::chrono::duration<double>(seen == Clock::duration(0) ? whole : seen).count();
 }
 
 VtDictionary Engine::statistics() const {

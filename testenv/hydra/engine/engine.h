@@ -34,7 +34,9 @@ public:
     ~Engine();
 
     /// Draws until the image has converged, and waits until it can be read.
-    void render();
+    /// @returns seconds until the host's buffer held a first image, which may be coarse: of Patina
+    /// less than the whole takes, of others the same
+    double render();
     /// @throws std::runtime_error when the file is not written
     void write(const std::string& file);
 

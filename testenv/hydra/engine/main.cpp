@@ -28,6 +28,8 @@ const char* const usage =
     "the stage,\n"
     "\"first\" image (the renderer's start in it), \"moved\" after each move of the camera, "
     "\"edited\" after each edit;\n"
+    "\"seen\" are the seconds until a buffer held the first of the images that led to each, "
+    "which may be coarse;\n"
     "\"statistics\" are numbers of the renderer's own, \"device\" is what OpenGL draws on.\n"
     "  --renderer ID             plugin (HdPatinaRendererPlugin)\n"
     "  --camera PATH             camera prim\n"
@@ -128,30 +130,34 @@ void run(const CommandLine& line) {
     seconds["open"] = JsValue(clock.lap());
 
     Engine engine(stage, line.engine);
-    engine.render();
+    const double firstSeen = engine.render();
     seconds["first"] = JsValue(clock.lap());
-    JsArray moved, edited;
+    JsArray moved, edited, movedSeen, editedSeen;
     std::unique_ptr<InputEdit> edit;
     if (!line.edit.empty()) edit = std::make_unique<InputEdit>(stage, line.edit);
     for (int i = 1; i <= line.repeats; ++i) {
         clock.lap();
         move.Set(GfVec3d(0.01 * i, 0.0, 0.0));
-        engine.render();
+        movedSeen.push_back(JsValue(engine.render()));
         moved.push_back(JsValue(clock.lap()));
         if (!edit) continue;
         edit->apply(0.5 + 0.5 * i / line.repeats);
-        engine.render();
+        editedSeen.push_back(JsValue(engine.render()));
         edited.push_back(JsValue(clock.lap()));
     }
     if (!line.image.empty()) engine.write(line.image);
     seconds["moved"] = JsValue(moved);
     seconds["edited"] = JsValue(edited);
+    const JsObject seen = {{"first", JsValue(firstSeen)},
+                           {"moved", JsValue(movedSeen)},
+                           {"edited", JsValue(editedSeen)}};
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
     JsObject statistics; // of the last image
     for (const auto& [name, value] : engine.statistics())
         if (value.IsHolding<double>()) statistics[name] = JsValue(value.UncheckedGet<double>());
     const JsObject report = {{"seconds", JsValue(seconds)},
+                             {"seen", JsValue(seen)},
                              {"statistics", JsValue(statistics)},
                              {"device", JsValue(engine.device())},
                              {"peakMemory", JsValue(double(used.ru_maxrss) * 1024.0)}};

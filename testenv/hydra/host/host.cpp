@@ -23,6 +23,11 @@ TfTokenVector tagsOf(const std::vector<std::string>& purposes) {
     return tags;
 }
 
+bool showsImage(const VtDictionary& statistics) {
+    const auto found = statistics.find("patina:imagesShown");
+    return found != statistics.end() && found->second.GetWithDefault(0.0) > 0.0;
+}
+
 } // namespace
 
 Host::Host(const UsdStageRefPtr& stage, const HostOptions& options, const Host* shared)
@@ -92,11 +97,21 @@ void Host::execute() {
 
 bool Host::render(double limit) {
     using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::duration<double>(limit);
+    const auto start = Clock::now();
+    const auto end = start + std::chrono::duration<double>(limit);
+    const auto elapsed = [&] {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    bool seen = false;
     for (execute(); !isConverged(); execute()) {
         if (Clock::now() > end) return false;
+        if (!seen && showsImage(_delegate->GetRenderStats())) {
+            _secondsUntilSeen = elapsed();
+            seen = true;
+        }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+    if (!seen) _secondsUntilSeen = elapsed();
     return true;
 }
 

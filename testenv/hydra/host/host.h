@@ -57,6 +57,9 @@ public:
     bool isConverged() const { return _task && _task->isConverged(); }
     /// Executes until converged. @returns false when it takes longer than the limit, in seconds
     bool render(double limit = 600.0);
+    /// Seconds from the start of the last render() until buffers held an image, which may be
+    /// coarse. Of renderers that do not say when: until the last one.
+    double secondsUntilSeen() const { return _secondsUntilSeen; }
 
     void setCamera(const SdfPath& camera);
     void setSize(int width, int height);
@@ -92,6 +95,7 @@ private:
     HostOptions _options;
     UsdStageRefPtr _stage;
     bool _isLost = false;
+    double _secondsUntilSeen = 0.0;
     HdPluginRenderDelegateUniqueHandle _delegate;
     std::unique_ptr<HdRenderIndex> _index;
     std::unique_ptr<HostBuffers> _buffers;

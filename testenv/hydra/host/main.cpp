@@ -36,14 +36,18 @@ void run(const CommandLine& line) {
     if (!stage->GetPrimAtPath(line.host.camera).IsA<UsdGeomCamera>())
         throw std::runtime_error("there is no camera '" + line.host.camera.GetString() + "'");
     times.emplace_back("open", clock.lap());
+    Clock sinceOpened;
     Host host(stage, line.host);
     if (!line.edits.empty()) runEditScript(host, stage, line.edits);
+    const double made = sinceOpened.lap();
     if (!host.render(line.limit)) throw std::runtime_error("the image does not converge");
     times.emplace_back("render", clock.lap());
+    times.emplace_back("seen", made + host.secondsUntilSeen());
     for (int i = 0; i < line.repeats; ++i) {
         moveCamera(stage, host.options().camera, i);
         if (!host.render(line.limit)) throw std::runtime_error("the image does not converge");
         times.emplace_back("moved" + std::to_string(i), clock.lap());
+        times.emplace_back("movedSeen" + std::to_string(i), host.secondsUntilSeen());
     }
     if (!line.image.empty()) writeExr(line.image, host.readAll());
     if (!line.dump.empty() && !host.dumpScene(line.dump))

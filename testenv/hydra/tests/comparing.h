@@ -32,7 +32,7 @@ constexpr const char* hidden = "  hidden\n";
 
 /// Of a prim that no ray meets only the name and that: Hydra does not sync what it holds.
 inline std::string drawnText(const std::string& prim) {
-    for (const char* ray : {"camera", "indirect", "shadow"})
+    for (const char* ray : {"camera", "diffuse", "shadow", "specular", "transmission", "volume"})
         if (prim.find(std::string("  visibility ") + ray + " = false\n") == std::string::npos)
             return prim;
     return prim.substr(0, prim.find('\n') + 1) + hidden;

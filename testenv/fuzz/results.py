@@ -21,8 +21,8 @@ OTHERS = {
                                           "half of them by the delegate, half by scene indices",
                                           f"testenv/hydra/sanitize.sh {kind} 50000 build-{kind} --results")
        for kind, name in (("address", "AddressSanitizer"), ("thread", "ThreadSanitizer"))},
-    **{f"viewport{kind.capitalize()}": (f"a viewport's session in Hydra, drawn by the {name}: edits of every kind, which are taken "
-                                        "back again and again",
+    **{f"viewport{kind.capitalize()}": (f"a viewport's session in Hydra, drawn by the {name}: edits of every kind, which are "
+                                        "taken back again and again",
                                         f"./patina python testenv/hydra/viewportSession.py --seconds 3600 --backend {kind} "
                                         "--results")
        for kind, name in (("embree", "path tracer"), ("raster", "rasterizer"))},
@@ -151,12 +151,13 @@ def _sessions(by_machine):
     if not rows:
         return []
     return ["## Memory of sessions", "",
-            "The last run of each session. A cycle makes every kind of edit and takes all of them back; then memory is counted:",
-            "bytes that are in use on the heap, and resident memory of no file. The first third of the time is left out, in",
-            "which caches fill. Growth is a slope after Theil and Sen with limits of 99 % on either side. Memory is *flat* where",
-            "the upper limit is below the bound, and *grows* where the lower one is above. The bounds are 32 bytes of the heap for",
-            "each edit, malloc's smallest chunk, and one page of resident memory for each cycle.", "",
-            *_table(("session", "cycles", "memory", "MB at the end", "bytes per edit", "limits", "bound", "memory is"), rows), ""]
+            "The last run of each session. A cycle makes every kind of edit and takes all of them back; then memory is",
+            "counted: bytes that are in use on the heap, and resident memory of no file. The first third of the time is left",
+            "out, in which caches fill. Growth is a slope after Theil and Sen with limits of 99 % on either side. Memory is",
+            "*flat* where the upper limit is below the bound, and *grows* where the lower one is above. The bounds are 32",
+            "bytes of the heap for each edit, malloc's smallest chunk, and one page of resident memory for each cycle.", "",
+            *_table(("session", "cycles", "memory", "MB at the end", "bytes per edit", "limits", "bound", "memory is"), rows),
+            ""]
 
 
 def _table(head, rows):

@@ -3,7 +3,7 @@
 """Memory of viewport sessions: edits a stage in Hydra for a time, and tells whether memory stays flat.
 
 Usage: viewportSession.py [--seconds 3600] [--backend embree|raster|interactive] [--seed 1] [--sceneIndex] [--log FILE]
-[--samples FILE] [--results]
+[--samples FILE] [--judge FILE] [--results]
 
 The program viewportSession makes every kind of edit once, in random order, and takes all of them back: a cycle. Then the scene
 is what it was, and memory is counted: bytes on the heap that malloc has handed out, and resident bytes of no file, after
@@ -53,8 +53,13 @@ def run(*arguments, seconds, log=None, kept=None):
                                      timeout=3 * seconds + 900)
         if process.returncode != 0:
             raise AssertionError(f"{' '.join(command)} ends with {process.returncode}")
-        with open(kept, encoding="utf-8") as samples:
-            return [json.loads(line) for line in samples]
+        return read(kept)
+
+
+def read(kept):
+    """:returns: the samples of a file; the last line may be cut off, where a run was ended"""
+    with open(kept, encoding="utf-8") as file:
+        return [json.loads(line) for line in file if line.endswith("}\n")]
 
 
 def settled(samples):
@@ -111,11 +116,12 @@ def main():
     parser.add_argument("--sceneIndex", action="store_true", help="UsdImaging's scene indices as input")
     parser.add_argument("--log", help="file for what renderer and OpenUSD say")
     parser.add_argument("--samples", help="file for the samples, as they come")
+    parser.add_argument("--judge", metavar="FILE", help="file that --samples of an earlier run wrote: nothing is run")
     parser.add_argument("--results", action="store_true")
     line = parser.parse_args()
     flags = ["--sceneIndex"] if line.sceneIndex else []
-    samples = run("--set", "backend=" + line.backend, "--seed", line.seed, *flags, seconds=line.seconds, log=line.log,
-                  kept=line.samples)
+    samples = read(line.judge) if line.judge else run(
+        "--set", "backend=" + line.backend, "--seed", line.seed, *flags, seconds=line.seconds, log=line.log, kept=line.samples)
     found = report(samples)
     print(json.dumps({"backend": line.backend, "seed": line.seed, **found, "samples": samples}))
     if line.results:

@@ -221,7 +221,11 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     _rays = _shadowRays = _paths = 0;
     _spent.clear();
     constexpr int maxThreads = 4096;
-    Arena arena(std::min(_settings.threads, maxThreads));
+    const int threads = std::min(_settings.threads, maxThreads);
+    // Kept from render to render: what TBB allocates for another one does not all come back.
+    if (!_arena || threads != _arenaThreads) _arena = std::make_unique<Arena>(threads);
+    _arenaThreads = threads;
+    Arena& arena = *_arena;
     try {
         arena.execute([&] { updateScene(state, camera); });
     } catch (...) { // for want of memory, say: what is half made is made anew by the next render

@@ -62,6 +62,8 @@ private:
     std::atomic<uint64_t> _rays{0}, _shadowRays{0}, _paths{0};
     std::mutex _spentMutex;
     std::map<const MaterialProgram*, uint64_t> _spent; ///< nanoseconds; guarded by _spentMutex
+    std::unique_ptr<Arena> _arena;                     ///< null before the first render
+    int _arenaThreads = 0;
 };
 
 } // namespace patina

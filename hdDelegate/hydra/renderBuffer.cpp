@@ -8,9 +8,26 @@
 #include <pxr/base/gf/vec3i.h>
 #include <pxr/base/tf/diagnostic.h>
 
+#include <new>
+#include <unordered_map>
+
 namespace patina {
 
 namespace {
+
+constexpr uint64_t maxPixels = uint64_t(1) << 32; // as of a film
+
+/// All buffers that there are, by the pointer that hosts have. Never destroyed: some hosts free
+/// their buffers when the process ends.
+struct Registry {
+    std::mutex mutex;
+    std::unordered_map<const HdRenderBuffer*, HdPatinaRenderBuffer*> buffers;
+};
+
+Registry& registry() {
+    static Registry& all = *new Registry;
+    return all;
+}
 
 unsigned int nextAllocation() {
     static std::atomic<unsigned int> last{0};
@@ -19,9 +36,21 @@ unsigned int nextAllocation() {
 
 } // namespace
 
-HdPatinaRenderBuffer::HdPatinaRenderBuffer(const SdfPath& id) : HdRenderBuffer(id) {}
+HdPatinaRenderBuffer::HdPatinaRenderBuffer(const SdfPath& id) : HdRenderBuffer(id) {
+    const std::lock_guard<std::mutex> lock(registry().mutex);
+    registry().buffers.emplace(this, this);
+}
 
-HdPatinaRenderBuffer::~HdPatinaRenderBuffer() = default;
+HdPatinaRenderBuffer::~HdPatinaRenderBuffer() {
+    const std::lock_guard<std::mutex> lock(registry().mutex);
+    registry().buffers.erase(this);
+}
+
+HdPatinaRenderBuffer* HdPatinaRenderBuffer::known(const HdRenderBuffer* buffer) {
+    const std::lock_guard<std::mutex> lock(registry().mutex);
+    const auto found = registry().buffers.find(buffer);
+    return found == registry().buffers.end() ? nullptr : found->second;
+}
 
 bool HdPatinaRenderBuffer::Allocate(const GfVec3i& dimensions, HdFormat format, bool) {
     _Deallocate();
@@ -31,7 +60,8 @@ bool HdPatinaRenderBuffer::Allocate(const GfVec3i& dimensions, HdFormat format, 
                 dimensions[2]);
         return false;
     }
-    if (dimensions[0] < 0 || dimensions[1] < 0) {
+    if (dimensions[0] < 0 || dimensions[1] < 0 ||
+        uint64_t(dimensions[0]) * uint64_t(dimensions[1]) > maxPixels) {
         TF_WARN("render buffer %s: a size of %d x %d is not possible; it stays empty", name,
                 dimensions[0], dimensions[1]);
         return false;
@@ -42,17 +72,25 @@ bool HdPatinaRenderBuffer::Allocate(const GfVec3i& dimensions, HdFormat format, 
         return false;
     }
     std::lock_guard<std::mutex> lock(_mutex);
+    try {
+        _bytes.assign(size_t(dimensions[0]) * size_t(dimensions[1]) * HdDataSizeOfFormat(format),
+                      0);
+    } catch (const std::bad_alloc&) {
+        TF_WARN("render buffer %s: there is no memory for %d x %d pixels; it stays empty", name,
+                dimensions[0], dimensions[1]);
+        return false;
+    }
     _width = unsigned(dimensions[0]);
     _height = unsigned(dimensions[1]);
     _format = format;
-    _bytes.assign(size_t(_width) * _height * HdDataSizeOfFormat(format), 0);
     return true;
 }
 
 void HdPatinaRenderBuffer::_Deallocate() {
     std::lock_guard<std::mutex> lock(_mutex);
     if (_mappers > 0) TF_WARN("render buffer %s is freed while it is mapped", GetId().GetText());
-    _width = _height = 0;
+    _width = 0;
+    _height = 0;
     _format = HdFormatInvalid;
     std::vector<uint8_t>().swap(_bytes);
     _mappers = 0;
@@ -71,20 +109,21 @@ void HdPatinaRenderBuffer::Unmap() {
     if (_mappers > 0) --_mappers;
 }
 
-bool HdPatinaRenderBuffer::write(bool isInteger, const std::function<void(int, float*)>& row) {
+bool HdPatinaRenderBuffer::write(bool isInteger, const Row& row) {
     std::lock_guard<std::mutex> lock(_mutex);
     if (_mappers > 0) return false;
     const size_t size = _bytes.empty() ? 0 : HdDataSizeOfFormat(_format);
     if (size == 0) return true;
     // Isolated: work of others that wants this buffer would wait for the lock that is held here.
     runIsolated([&] {
-        parallelFor(0u, _height, [&](unsigned y) {
-            std::vector<float> pixels(4 * size_t(_width), 0.0f);
+        const unsigned width = _width;
+        parallelFor(0u, unsigned(_height), [&](unsigned y) {
+            std::vector<float> pixels(4 * size_t(width), 0.0f);
             for (size_t i = 3; i < pixels.size(); i += 4)
                 pixels[i] = 1.0f;
-            row(int(y), pixels.data());
-            writePixels(pixels.data(), _width, isInteger, _format,
-                        &_bytes[size_t(y) * _width * size]);
+            row(int(y), width, pixels.data());
+            writePixels(pixels.data(), width, isInteger, _format,
+                        &_bytes[size_t(y) * width * size]);
         });
     });
     return true;
@@ -92,8 +131,8 @@ bool HdPatinaRenderBuffer::write(bool isInteger, const std::function<void(int, f
 
 void HdPatinaRenderBuffer::clear(const VtValue& value) {
     const ClearValue clear = clearValueOf(value);
-    write(clear.isInteger, [&](int, float* pixels) {
-        for (size_t i = 0; i < 4 * size_t(_width); ++i)
+    write(clear.isInteger, [&](int, unsigned width, float* pixels) {
+        for (size_t i = 0; i < 4 * size_t(width); ++i)
             pixels[i] = clear.values[i % 4];
     });
 }

@@ -19,8 +19,13 @@ public:
     explicit HdPatinaRenderBuffer(const SdfPath& id);
     ~HdPatinaRenderBuffer() override;
 
-    /// Zero sizes are allowed. @returns false, with a warning, for depths other than 1 and for
-    /// formats that cannot be written; the buffer is empty then.
+    /// The buffer that a host names; null where it is of another renderer or was destroyed.
+    /// Bindings may be older than the buffers that they point to.
+    static HdPatinaRenderBuffer* known(const HdRenderBuffer* buffer);
+
+    /// Zero sizes are allowed. @returns false, with a warning, for depths other than 1, for sizes
+    /// that no film has or that there is no memory for, and for formats that cannot be written; the
+    /// buffer is empty then.
     bool Allocate(const GfVec3i& dimensions, HdFormat format, bool multiSampled) override;
 
     unsigned int GetWidth() const override { return _width; }
@@ -36,10 +41,12 @@ public:
     bool IsConverged() const override { return _converged; }
     void setConverged(bool converged) { _converged = converged; }
 
-    /// Fills every pixel, rows on all threads. @param row gives the pixels of a row, four floats
-    /// each, row 0 at the bottom; there are (0, 0, 0, 1) before
+    /// Gives the pixels of a row, four floats each, row 0 at the bottom; there are (0, 0, 0, 1)
+    /// before. The width is passed, since hosts may allocate on another thread.
+    using Row = std::function<void(int y, unsigned int width, float* pixels)>;
+    /// Fills every pixel, rows on all threads.
     /// @returns false, and does nothing, while a host has the pixels mapped
-    bool write(bool isInteger, const std::function<void(int y, float* pixels)>& row);
+    bool write(bool isInteger, const Row& row);
     /// Fills every pixel with an AOV's clear value.
     void clear(const VtValue& value);
 
@@ -50,7 +57,7 @@ public:
 private:
     void _Deallocate() override;
 
-    unsigned int _width = 0, _height = 0;
+    std::atomic<unsigned int> _width{0}, _height{0};
     HdFormat _format = HdFormatInvalid;
     std::vector<uint8_t> _bytes;
     mutable std::mutex _mutex;

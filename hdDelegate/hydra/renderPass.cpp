@@ -43,14 +43,19 @@ std::vector<HdPatinaRenderPass::Target>
 HdPatinaRenderPass::targetsOf(const HdRenderPassAovBindingVector& bindings) const {
     std::vector<Target> targets;
     for (const HdRenderPassAovBinding& binding : bindings) {
-        HdRenderBuffer* buffer = binding.renderBuffer;
-        if (!buffer && !binding.renderBufferId.IsEmpty())
-            buffer = static_cast<HdRenderBuffer*>(
-                GetRenderIndex()->GetBprim(HdPrimTypeTokens->renderBuffer, binding.renderBufferId));
-        auto* own = dynamic_cast<HdPatinaRenderBuffer*>(buffer);
+        HdPatinaRenderBuffer* own = HdPatinaRenderBuffer::known(binding.renderBuffer);
+        if (!own && !binding.renderBufferId.IsEmpty())
+            own =
+                HdPatinaRenderBuffer::known(static_cast<HdRenderBuffer*>(GetRenderIndex()->GetBprim(
+                    HdPrimTypeTokens->renderBuffer, binding.renderBufferId)));
         if (!own) continue;
-        targets.push_back({binding.aovName, filmAovOf(binding.aovName), own, own->allocation(),
-                           binding.clearValue});
+        // What is wrong with a name is said once, not with each repaint.
+        const auto before = std::find_if(_targets.begin(), _targets.end(), [&](const Target& t) {
+            return t.aovName == binding.aovName;
+        });
+        targets.push_back({binding.aovName,
+                           before == _targets.end() ? filmAovOf(binding.aovName) : before->filmAov,
+                           own, own->allocation(), binding.clearValue});
     }
     return targets;
 }
@@ -124,6 +129,8 @@ void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
         const HdPatinaSettings settings = settingsFor(view, renderTags);
         if (settings.width < 1 || settings.height < 1) {
             _session->stop();
+            for (const Target& target : _targets)
+                target.buffer->clear(target.clearValue);
             finish(HdPatinaFrame());
         } else {
             std::vector<std::string> aovs = settings.aovs;
@@ -166,11 +173,11 @@ void HdPatinaRenderPass::show(const HdPatinaFrame& frame) {
         const std::vector<float>& pixels = found->second;
         const bool replaced =
             !isColor && !clear.empty && clear.isInteger == spec.isInteger && spec.components == 1;
-        const size_t columns = std::min(target.buffer->GetWidth(), unsigned(frame.width));
-        written &= target.buffer->write(spec.isInteger, [&](int y, float* out) {
+        written &= target.buffer->write(spec.isInteger, [&](int y, unsigned width, float* out) {
             if (y >= frame.height) return;
             size_t i = size_t(frame.height - 1 - y) * size_t(frame.width);
-            for (const size_t end = i + columns; i < end; ++i, out += 4) {
+            const size_t end = i + std::min(width, unsigned(frame.width));
+            for (; i < end; ++i, out += 4) {
                 std::copy_n(&pixels[i * size_t(spec.components)], spec.components, out);
                 if (isColor) {
                     out[3] = alpha->second[i];

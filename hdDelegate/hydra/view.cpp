@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace patina {
 
@@ -71,6 +72,15 @@ void fitToBuffer(Camera& camera, const CameraUtilFraming& framing,
     camera.verticalAperture = float(aperture[1] * height / displayHeight);
 }
 
+/// Pixels up to a coordinate: hosts give windows that reach to the end of integers.
+int sizeTo(int last) {
+    return last < std::numeric_limits<int>::max() ? last + 1 : last;
+}
+
+int sizeOf(float viewport) {
+    return viewport >= 1.0f ? int(std::min(viewport, 1e9f)) : 0;
+}
+
 bool coversBuffer(const CameraUtilFraming& framing, int width, int height) {
     const GfRange2f& display = framing.displayWindow;
     return display.GetMin() == GfVec2f(0.0f) &&
@@ -103,11 +113,11 @@ HdPatinaView viewOf(const HdRenderPassState& state, const PrimMap<Camera>& camer
     const bool framed = framing.IsValid();
     const GfVec4f viewport = state.GetViewport();
     view.width = bufferWidth > 0 ? bufferWidth
-                 : framed        ? framing.dataWindow.GetMaxX() + 1
-                                 : int(viewport[2]);
+                 : framed        ? sizeTo(framing.dataWindow.GetMaxX())
+                                 : sizeOf(viewport[2]);
     view.height = bufferHeight > 0 ? bufferHeight
-                  : framed         ? framing.dataWindow.GetMaxY() + 1
-                                   : int(viewport[3]);
+                  : framed         ? sizeTo(framing.dataWindow.GetMaxY())
+                                   : sizeOf(viewport[3]);
     view.policy = conformPolicyOf(state.GetWindowPolicy());
     if (framed) {
         view.pixelAspectRatio = framing.pixelAspectRatio;
@@ -147,6 +157,11 @@ HdPatinaView viewOf(const HdRenderPassState& state, const PrimMap<Camera>& camer
         view.cameraPath = ownPath;
         view.camera.path = ownPath;
     }
+    // A window beside the buffer: an empty one would mean all of the buffer.
+    if (framed &&
+        (framing.dataWindow.GetMaxX() < 0 || framing.dataWindow.GetMaxY() < 0 ||
+         framing.dataWindow.GetMinX() >= view.width || framing.dataWindow.GetMinY() >= view.height))
+        view.width = view.height = 0;
     return view;
 }
 

@@ -13,10 +13,10 @@ namespace patina {
 
 /// The view of a render pass: which camera, and how its picture lies in the buffers.
 struct HdPatinaView {
-    bool ownCamera = false; ///< `camera` is not a prim of the scene and has to be set
-    std::string cameraPath; ///< of the scene's camera to look through
-    Camera camera;          ///< with ownCamera
-    int width = 0, height = 0;
+    bool ownCamera = false;             ///< `camera` is not a prim of the scene and has to be set
+    std::string cameraPath;             ///< of the scene's camera to look through
+    Camera camera;                      ///< with ownCamera
+    int width = 0, height = 0;          ///< 0: nothing is to be drawn
     int dataWindow[4] = {0, 0, -1, -1}; ///< as in RenderSettings
     double pixelAspectRatio = 1.0;
     std::string policy;

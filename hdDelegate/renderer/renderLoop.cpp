@@ -13,25 +13,38 @@ RenderLoop::RenderLoop(std::string backend) {
     _progress.backend = std::move(backend);
 }
 
+RenderLoop::~RenderLoop() {
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        _quit = true;
+    }
+    _changed.notify_all();
+    if (_thread.joinable()) _thread.join();
+}
+
 void RenderLoop::start(std::shared_ptr<Scene> scene, const std::string& camera,
                        const RenderSettings& settings, std::shared_ptr<Film> film) {
     stop();
     const std::lock_guard<std::mutex> control(_control);
+    if (!_thread.joinable()) _thread = std::thread(&RenderLoop::work, this);
     _scene = std::move(scene);
     _film = std::move(film);
     _settings = settings;
     _stop = _interrupt = _pause = false;
     _deviceFailed = _notified = false;
+    Job job{_scene->snapshot(), camera};
+    _running = true;
+    _started = _sampling = _lastCheckpoint = Clock::now();
     {
         const std::lock_guard<std::mutex> lock(_mutex);
         RenderProgress fresh;
         fresh.backend = _progress.backend;
         _progress = fresh;
         _idle = false;
+        _working = true;
+        _job = std::move(job);
     }
-    _running = true;
-    _started = _sampling = _lastCheckpoint = Clock::now();
-    _thread = std::thread(&RenderLoop::run, this, _scene->snapshot(), camera);
+    _changed.notify_all();
 }
 
 void RenderLoop::stop() {
@@ -43,7 +56,8 @@ void RenderLoop::stop() {
         _pause = false;
     }
     _changed.notify_all();
-    if (_thread.joinable()) _thread.join();
+    std::unique_lock<std::mutex> lock(_mutex);
+    _changed.wait(lock, [&] { return !_working; });
 }
 
 void RenderLoop::pause() {
@@ -70,11 +84,27 @@ RenderProgress RenderLoop::progress() const {
     return _progress;
 }
 
-void RenderLoop::run(std::shared_ptr<const SceneState> state, std::string camera) {
+void RenderLoop::work() {
+    std::unique_lock<std::mutex> lock(_mutex);
+    for (;;) {
+        _changed.wait(lock, [&] { return _quit || _job; });
+        if (!_job) return;
+        std::optional<Job> job;
+        job.swap(_job);
+        lock.unlock();
+        run(*job);
+        job.reset(); // nobody else may hold the state
+        lock.lock();
+        _working = false;
+        _changed.notify_all();
+    }
+}
+
+void RenderLoop::run(const Job& job) {
     std::string failure;
     bool temporary = false;
     try {
-        prepareAndRender(*state, camera);
+        prepareAndRender(*job.state, job.camera);
     } catch (const std::bad_alloc&) {
         failure = "out of memory";
         temporary = true;

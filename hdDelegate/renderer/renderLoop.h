@@ -7,6 +7,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace patina {
@@ -15,8 +16,12 @@ namespace patina {
 /// is stopped, paused and asked for its progress by others; a listener; checkpoints; a time limit.
 ///
 /// A back end overrides render(), and calls stop() first in its destructor.
+///
+/// One thread renders all states, one after another: libraries keep a record of every thread that
+/// has called them, and a viewport's session starts a render with each edit.
 class RenderLoop : public Renderer {
 public:
+    ~RenderLoop() override;
     void start(std::shared_ptr<Scene> scene, const std::string& camera,
                const RenderSettings& settings, std::shared_ptr<Film> film) final;
     void stop() final;
@@ -78,16 +83,24 @@ protected:
     FilmListener _listener;
 
 private:
-    void run(std::shared_ptr<const SceneState> state, std::string camera);
+    struct Job {
+        std::shared_ptr<const SceneState> state;
+        std::string camera;
+    };
+
+    void work(); ///< all that the thread does
+    void run(const Job& job);
     void finish(const std::string& failure, bool temporary);
 
-    std::thread _thread;
+    std::thread _thread; ///< from the first start on
     std::mutex _control; ///< start, stop and wait exclude each other
     mutable std::mutex _mutex;
     std::condition_variable _changed;
     RenderProgress _progress; ///< guarded by _mutex
     std::atomic<bool> _running{false}, _stop{false}, _interrupt{false}, _pause{false};
-    bool _idle = true; ///< no thread touches the film; guarded by _mutex
+    std::optional<Job> _job;              ///< that the thread has not begun; guarded by _mutex
+    bool _working = false, _quit = false; ///< the thread has a job; shall end; guarded by _mutex
+    bool _idle = true;                    ///< no thread touches the film; guarded by _mutex
     bool _deviceFailed = false;
     bool _notified = false; ///< the listener knows of this render
     Clock::time_point _started, _sampling, _lastCheckpoint, _lastNotified;

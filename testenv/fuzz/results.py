@@ -21,12 +21,18 @@ OTHERS = {
                                           "half of them by the delegate, half by scene indices",
                                           f"testenv/hydra/sanitize.sh {kind} 50000 build-{kind} --results")
        for kind, name in (("address", "AddressSanitizer"), ("thread", "ThreadSanitizer"))},
+    **{f"viewport{kind.capitalize()}": (f"a viewport's session in Hydra, drawn by the {name}: edits of every kind, which are "
+                                        "taken back again and again",
+                                        f"./patina python testenv/hydra/viewportSession.py --seconds 3600 --backend {kind} "
+                                        "--results")
+       for kind, name in (("embree", "path tracer"), ("raster", "rasterizer"))},
 }
 
 
 # Kinds of findings, as outcomes.py has them, in words.
 KINDS = {
     "crash": "*crash*: the process died of a signal.",
+    "growth": "*growth*: memory of the heap, or resident memory, that grows with each edit.",
     "hang": "*hang*: the process did not end within its time limit.",
     "library": "*library*: another library failed, and fails without Patina too; or it died in the very call that failed.",
     "memory": "*memory*: the process ran out of memory.",
@@ -46,6 +52,7 @@ def row(machine, seed, found):
     """:param found: numbers of a run, as generated.run() and native.run() have them"""
     return {"machine": machine, "seed": seed, "inputs": found["inputs"], "seconds": round(found["seconds"], 1),
             "counts": found["counts"], **({"sums": found["sums"]} if found.get("sums") else {}),
+            **({"memory": found["memory"]} if found.get("memory") else {}),
             "lines": list(found["lines"]) if found.get("lines") else None,
             "findings": [signature.replace(ROOT, "") for _, signature, *_ in found["findings"]]}
 
@@ -61,14 +68,16 @@ def append(rows, path=FILE):
 
 
 def sums(table):
-    """:returns: dict of machine -> inputs, seconds, counts by kind, lines of the last run that has them, and findings"""
+    """:returns: dict of machine -> inputs, seconds, counts by kind, lines and memory of the last run that has them, and
+    findings"""
     found = {}
     for run in table["runs"]:
         of = found.setdefault(run["machine"], {"inputs": 0, "seconds": 0.0, "counts": {}, "sums": {}, "lines": None,
-                                               "findings": []})
+                                               "memory": None, "findings": []})
         of["inputs"] += run["inputs"]
         of["seconds"] += run["seconds"]
         of["lines"] = run["lines"] or of["lines"]
+        of["memory"] = run.get("memory") or of["memory"]
         for key in ("counts", "sums"):
             for kind, number in run.get(key, {}).items():
                 of[key][kind] = of[key].get(kind, 0) + number
@@ -117,6 +126,7 @@ def page():
             *(f"- {KINDS[kind]}" for kind in kinds), "",
             *_table(head, rows), "",
             "The next two tables say what the numbers above 0 were.", "",
+            *_sessions(by_machine),
             "## Defects that were mended", "",
             *_table(("what was wrong", "found by", "test"), mended), "",
             "## Mistakes of the fuzzers", "",
@@ -127,6 +137,27 @@ def page():
             "functions). Generated inputs reach the rest through the command line, which is not counted.", "",
             *_table(("sources", "fuzzer", "reached"), parsers), "",
             "## Gaps", "", *(f"- {text}" for text in table["known"])]
+
+
+def _sessions(by_machine):
+    """:returns: lines about the memory of sessions, of the last run of each"""
+    rows = []
+    for name, of in by_machine.items():
+        for kind in ("heap", "resident") if of["memory"] else ():
+            found = of["memory"][kind]
+            limits = "not known" if found["limits"] is None else "{:,} to {:,}".format(*found["limits"])
+            rows.append((f"`{name}`", f"{of['memory']['cycles']:,}", kind, f"{found['megabytes']:,}", f"{found['perEdit']:,}",
+                         limits, f"{found['bound']:,}", found["verdict"]))
+    if not rows:
+        return []
+    return ["## Memory of sessions", "",
+            "The last run of each session. A cycle makes every kind of edit and takes all of them back; then memory is",
+            "counted: bytes that are in use on the heap, and resident memory of no file. The first third of the time is left",
+            "out, in which caches fill. Growth is a slope after Theil and Sen with limits of 99 % on either side. Memory is",
+            "*flat* where the upper limit is below the bound, and *grows* where the lower one is above. The bounds are 32",
+            "bytes of the heap for each edit, malloc's smallest chunk, and one page of resident memory for each cycle.", "",
+            *_table(("session", "cycles", "memory", "MB at the end", "bytes per edit", "limits", "bound", "memory is"), rows),
+            ""]
 
 
 def _table(head, rows):

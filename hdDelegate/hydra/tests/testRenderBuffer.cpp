@@ -26,7 +26,7 @@ TEST(RenderBuffer, CountsItsMappers) {
     buffer.Map();
     buffer.Unmap();
     EXPECT_TRUE(buffer.IsMapped());
-    const auto one = [](int, float* pixels) {
+    const auto one = [](int, unsigned, float* pixels) {
         for (int x = 0; x < 3; ++x)
             pixels[4 * x] = 1.0f;
     };
@@ -43,7 +43,7 @@ TEST(RenderBuffer, CountsItsMappers) {
 TEST(RenderBuffer, RowsGoUpwards) {
     HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
     ASSERT_TRUE(buffer.Allocate(GfVec3i(2, 3, 1), HdFormatFloat32Vec2, false));
-    buffer.write(false, [](int y, float* pixels) {
+    buffer.write(false, [](int y, unsigned, float* pixels) {
         for (int x = 0; x < 2; ++x) {
             pixels[4 * x] = float(x);
             pixels[4 * x + 1] = float(y);

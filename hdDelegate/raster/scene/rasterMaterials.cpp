@@ -40,8 +40,26 @@ RasterMaterials::RasterMaterials(CompiledScene& compiled, ProgramCompiler* compi
     : _compiler(compiler), _diagnostics(compiled.scene()->diagnostics()),
       _compiledMaterials(compiled.materials()), _uploaded(compiled.textures(), _diagnostics) {}
 
+void RasterMaterials::forgetUnused() {
+    ++_turn;
+    using Place = decltype(_programs)::iterator;
+    std::vector<Place> unused;
+    for (Place it = _programs.begin(); it != _programs.end(); ++it)
+        if (it->second.used())
+            it->second.lastUse = _turn;
+        else
+            unused.push_back(it);
+    if (unused.size() <= _unused) return;
+    const auto kept = unused.end() - std::ptrdiff_t(_unused);
+    std::nth_element(unused.begin(), kept - 1, unused.end(),
+                     [](Place a, Place b) { return a->second.lastUse < b->second.lastUse; });
+    for (auto it = unused.begin(); it != kept; ++it)
+        _programs.erase(*it);
+}
+
 void RasterMaterials::update(const SceneState& state, const RenderSettings& settings,
                              const RasterLightPlan& lights) {
+    forgetUnused();
     _lights = lights;
     if (const RasterAovRequest aovs(settings.aovs); !(aovs == _aovs)) {
         _aovs = aovs;
@@ -299,8 +317,9 @@ std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial
                              glsl.definitions;
     const std::string aovs = _aovs.text();
     const std::string lights = _lights.text();
-    auto& shared =
-        _programs[lights + head + lighting + aovs + glsl.text + (faulty ? "faulty" : "")];
+    Kept& kept = _programs[lights + head + lighting + aovs + glsl.text + (faulty ? "faulty" : "")];
+    kept.lastUse = ++_turn;
+    std::shared_ptr<PendingPrograms>& shared = kept.programs;
     if (shared) return shared;
     ++_built;
     const std::string surface = head +

@@ -47,8 +47,8 @@ struct RasterMaterial {
     std::vector<std::string> primvars; ///< that its surfaces carry, in the shaders' order
 };
 
-/// The materials of a scene. Equal texts share a program, for as long as this lives; an edit of a
-/// parameter writes a buffer.
+/// The materials of a scene. Equal texts share a program, which stays for a while after its last
+/// use; an edit of a parameter writes a buffer.
 class RasterMaterials {
 public:
     /// How far the programs are that a scene asks for.
@@ -76,7 +76,8 @@ public:
     /// @param user who is told about in messages
     const RasterMaterial& get(const std::string& path, const std::string& user,
                               const SceneState& state, const RenderSettings& settings);
-    /// Forgets materials whose prim has changed; programs and textures stay.
+    /// Forgets materials whose prim has changed, and programs that nobody has used for long;
+    /// textures stay.
     /// @param lights that materials are lit by, for how they are
     void update(const SceneState& state, const RenderSettings& settings,
                 const RasterLightPlan& lights);
@@ -98,6 +99,9 @@ public:
     static constexpr int standardEnvironmentSamples = 16;
 
     size_t programsBuilt() const { return _built; }
+    size_t programsKept() const { return _programs.size(); }
+    /// How many programs stay beside those in use, for networks to come back to: 32 if not set.
+    void keepUnused(size_t count) { _unused = count; }
 
     /// Expected cost of the methods of the materials in use.
     ScenePlan plan() const;
@@ -119,6 +123,18 @@ private:
         RasterMaterial standIn; ///< until it is taken
     };
 
+    /// The programs of one text, and when they were last seen in use.
+    struct Kept {
+        std::shared_ptr<PendingPrograms> programs;
+        uint64_t lastUse = 0;
+        bool used() const { ///< by others than this
+            return !programs->done || programs.use_count() > 1 ||
+                   programs->programs.use_count() > 1;
+        }
+    };
+
+    /// Keeps the memory of a session in which networks change from growing.
+    void forgetUnused();
     Cached& compiled(const std::string& path, const std::string& user, const SceneState& state,
                      const RenderSettings& settings);
     Cached& asked(const std::string& path, const std::string& user, const SceneState& state,
@@ -141,7 +157,9 @@ private:
     Diagnostics& _diagnostics;
     CompiledMaterials& _compiledMaterials;
     std::map<std::string, Cached> _materials;
-    std::map<std::string, std::shared_ptr<PendingPrograms>> _programs; ///< by text
+    std::map<std::string, Kept> _programs; ///< by text
+    uint64_t _turn = 0;                    ///< grows with each use of a program
+    size_t _unused = 32;
     bool _showStandIns = false;
     size_t _standIns = 0;
     RasterTextures _uploaded;

@@ -49,11 +49,12 @@ def hits_of(stage, size):
 
 def measure(stage, renderer, size, samples, hits):
     first = run_host(stage, renderer, 1, size, moves=MOVES)
-    moved, moved_seen = (statistics.median(first["seconds"][f"{name}{i}"] for i in range(MOVES)) for name in ("moved", "movedSeen"))
+    moved, moved_seen = (statistics.median(first["seconds"][f"{name}{i}"] for i in range(MOVES))
+                         for name in ("moved", "movedSeen"))
     few, many = (run_host(stage, renderer, count, size)["seconds"]["render"] for count in (samples // 2, samples))
     rays = size[0] * size[1] * (samples - samples // 2) * (1.0 + (RAYS_PER_HIT - 1) * hits)
-    return {"first": first["seconds"]["render"], "first seen": first["seconds"]["seen"], "moved": moved, "moved seen": moved_seen,
-            "memory": first["peakMemory"],
+    return {"first": first["seconds"]["render"], "first seen": first["seconds"]["seen"], "moved": moved,
+            "moved seen": moved_seen, "memory": first["peakMemory"],
             "rays": rays / max(many - few, 1e-9)}
 
 

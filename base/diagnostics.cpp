@@ -3,19 +3,28 @@
 
 #include "base/utf8.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace patina {
 
 void Diagnostics::warn(const std::string& primBytes, const std::string& inputBytes,
                        const std::string& messageBytes) {
     const std::string prim = validUtf8(primBytes), input = validUtf8(inputBytes),
                       message = validUtf8(messageBytes);
+    std::string key = prim;
+    for (const std::string* part : {&input, &message}) {
+        key += '\0';
+        key += *part;
+    }
     const std::lock_guard<std::mutex> lock(_mutex);
-    for (Diagnostic& d : _list)
-        if (d.prim == prim && d.input == input && d.message == message) {
-            ++d.count;
-            return;
-        }
-    _list.push_back({prim, input, message});
+    const auto place = _places.find(key);
+    if (place != _places.end()) {
+        ++_list[place->second].count;
+        return;
+    }
+    _list.push_back({prim, input, message}); // first: memory may end in between
+    _places.emplace(std::move(key), _list.size() - 1);
 }
 
 std::vector<Diagnostic> Diagnostics::all() const {
@@ -23,14 +32,30 @@ std::vector<Diagnostic> Diagnostics::all() const {
     return _list;
 }
 
+std::vector<Diagnostic> Diagnostics::news(size_t& read, size_t most) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    std::vector<Diagnostic> found(_list.begin() + ptrdiff_t(std::min(read, _list.size())),
+                                  _list.end());
+    read = _list.size();
+    if (read > most) {
+        _forgotten += read;
+        _list.clear();
+        _places.clear();
+        read = 0;
+    }
+    return found;
+}
+
 int Diagnostics::count() const {
     const std::lock_guard<std::mutex> lock(_mutex);
-    return int(_list.size());
+    return int(_forgotten + _list.size());
 }
 
 void Diagnostics::clear() {
     const std::lock_guard<std::mutex> lock(_mutex);
     _list.clear();
+    _places.clear();
+    _forgotten = 0;
 }
 
 } // namespace patina

@@ -3,6 +3,7 @@
 
 #include <mutex>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace patina {
@@ -20,12 +21,18 @@ class Diagnostics {
 public:
     void warn(const std::string& prim, const std::string& input, const std::string& message);
     std::vector<Diagnostic> all() const;
-    int count() const; ///< number of different warnings
+    /// The warnings that are new to one reader, for long sessions: as soon as it has read more than
+    /// `most`, all are forgotten, and one that comes again is new again.
+    /// @param read of earlier calls; 0 at first
+    std::vector<Diagnostic> news(size_t& read, size_t most);
+    int count() const; ///< number of different warnings, with those that are forgotten
     void clear();
 
 private:
     mutable std::mutex _mutex;
     std::vector<Diagnostic> _list;
+    std::unordered_map<std::string, size_t> _places; ///< in _list, by all texts
+    size_t _forgotten = 0;
 };
 
 } // namespace patina

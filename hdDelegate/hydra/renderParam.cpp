@@ -78,12 +78,10 @@ void HdPatinaRenderParam::warn(const SdfPath& prim, const std::string& input,
 }
 
 void HdPatinaRenderParam::reportWarnings() {
-    const std::vector<Diagnostic> all = _scene->diagnostics().all();
-    for (; _reported < all.size(); ++_reported) {
-        const Diagnostic& d = all[_reported];
+    constexpr size_t most = 256; // of a session that goes on for days, with other values each time
+    for (const Diagnostic& d : _scene->diagnostics().news(_reported, most))
         TF_WARN("%s%s%s: %s", d.prim.c_str(), d.input.empty() ? "" : ".", d.input.c_str(),
                 d.message.c_str());
-    }
 }
 
 bool HdPatinaRenderParam::commit() {

@@ -100,7 +100,7 @@ public:
 
     size_t programsBuilt() const { return _built; }
     size_t programsKept() const { return _programs.size(); }
-    /// How many programs stay beside those in use, for networks to come back to: 32 if not set.
+    /// How many programs stay beside those in use, for networks to come back to: 8 if not set.
     void keepUnused(size_t count) { _unused = count; }
 
     /// Expected cost of the methods of the materials in use.
@@ -159,7 +159,7 @@ private:
     std::map<std::string, Cached> _materials;
     std::map<std::string, Kept> _programs; ///< by text
     uint64_t _turn = 0;                    ///< grows with each use of a program
-    size_t _unused = 32;
+    size_t _unused = 8; // 40 MB each where a driver in software compiles them
     bool _showStandIns = false;
     size_t _standIns = 0;
     RasterTextures _uploaded;

@@ -64,10 +64,9 @@ protected:
     void open(int samples) {
         pass.reset();
         index.reset();
-        HdRenderSettingsMap settings;
-        settings[TfToken("samples")] = VtValue(samples);
-        settings[TfToken("backend")] = VtValue(std::string("embree"));
-        delegate = std::make_unique<HdPatinaRenderDelegate>(settings);
+        delegate = std::make_unique<HdPatinaRenderDelegate>(HdRenderSettingsMap());
+        delegate->SetRenderSetting(TfToken("samples"), VtValue(samples));
+        delegate->SetRenderSetting(TfToken("backend"), VtValue(std::string("embree")));
         index.reset(HdRenderIndex::New(delegate.get(), {}));
         setSky(1.0f);
         const HdRprimCollection all(HdTokens->geometry, HdReprSelector(HdReprTokens->smoothHull));

@@ -87,6 +87,23 @@ bool coversBuffer(const CameraUtilFraming& framing, int width, int height) {
            display.GetMax() == GfVec2f(float(width), float(height));
 }
 
+/// Whether everything that a host's numbers were put into is a number. A view that is none would
+/// differ from itself, and each repaint would start the image anew.
+bool isFinite(const HdPatinaView& view) {
+    double sum = view.pixelAspectRatio;
+    if (view.ownCamera) {
+        const Camera& c = view.camera;
+        sum += double(c.horizontalAperture) + double(c.verticalAperture) +
+               double(c.horizontalApertureOffset) + double(c.verticalApertureOffset) +
+               double(c.focalLength);
+        for (const dmat4& transform : c.transform.values)
+            for (int column = 0; column < 4; ++column)
+                for (int row = 0; row < 4; ++row)
+                    sum += transform[column][row];
+    }
+    return std::isfinite(sum);
+}
+
 } // namespace
 
 bool HdPatinaView::operator==(const HdPatinaView& other) const {
@@ -162,6 +179,10 @@ HdPatinaView viewOf(const HdRenderPassState& state, const PrimMap<Camera>& camer
         (framing.dataWindow.GetMaxX() < 0 || framing.dataWindow.GetMaxY() < 0 ||
          framing.dataWindow.GetMinX() >= view.width || framing.dataWindow.GetMinY() >= view.height))
         view.width = view.height = 0;
+    if (!isFinite(view)) {
+        view = HdPatinaView();
+        view.problem = "has values that are not finite; nothing is drawn";
+    }
     return view;
 }
 

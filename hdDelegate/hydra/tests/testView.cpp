@@ -6,6 +6,8 @@
 #include <pxr/base/gf/frustum.h>
 #include <pxr/imaging/hd/camera.h>
 
+#include <limits>
+
 using namespace patina;
 
 namespace {
@@ -115,4 +117,26 @@ TEST(View, PlacesADisplayWindowInALargerBuffer) {
     EXPECT_FLOAT_EQ(view.camera.verticalAperture, 20.0f);
     EXPECT_FLOAT_EQ(view.camera.horizontalApertureOffset, 10.0f);
     EXPECT_FLOAT_EQ(view.camera.verticalApertureOffset, -5.0f);
+}
+
+TEST(View, ValuesThatAreNotFiniteDrawNothingAndStayEqual) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    MatrixState state{GfFrustum()};
+    const GfRange2f whole(GfVec2f(0.0f), GfVec2f(8.0f));
+    const auto viewFramed = [&](const CameraUtilFraming& framing) {
+        state.SetFraming(framing);
+        return viewOf(state, {}, 8, 8, "/own");
+    };
+    const GfRect2i data(GfVec2i(0), 8, 8);
+    EXPECT_EQ(viewFramed(CameraUtilFraming(whole, data, 1.0f)).width, 8);
+    const CameraUtilFraming broken(whole, data, nan);
+    const HdPatinaView view = viewFramed(broken);
+    EXPECT_EQ(view.width, 0);
+    EXPECT_NE(view.problem, "");
+    EXPECT_TRUE(view == viewFramed(broken)) << "or each repaint starts over";
+
+    GfFrustum frustum;
+    frustum.SetPosition(GfVec3d(std::numeric_limits<double>::quiet_NaN()));
+    const MatrixState matrices(frustum);
+    EXPECT_TRUE(viewOf(matrices, {}, 8, 8, "/own") == viewOf(matrices, {}, 8, 8, "/own"));
 }

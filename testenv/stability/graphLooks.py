@@ -29,10 +29,14 @@ LOOKS = (Look(16, 4.073, 1e-3), Look(128, 4.073, 1e-3), Look(1024, 5.239, 1e-4))
 COMPARED = VIEWS * (3 + 3 + 1)  # weights with albedo() and with the bound, by channel, and densities
 EVEN = 1.0 / (4.0 * math.pi)
 # The largest error of albedo(), as a share of a white lobe's (testLobeAlbedo): no sample is needed to explain it.
+# The model's own (Oren and Nayar 1994, eq. 30): A + B / 2 at grazing angles, at most 1.0152 of a white surface, at a roughness
+# of 0.2.
+OREN_NAYAR = 0.0153
 BUDGETS = {"dielectric_bsdf": 0.035, "dielectric_btdf": 0.035, "conductor_bsdf": 0.004,
            "generalized_schlick_bsdf": graphChecks.BUDGET, "sheen_bsdf": 0.005, "chiang_hair_bsdf": 0.005,
            "patina_phong_bsdf": 0.005, "patina_blinn_phong_bsdf": 0.005, "patina_ward_bsdf": 0.02,
-           "patina_cook_torrance_bsdf": 3.0 / 64.0, "thin_film_bsdf": 0.05}
+           "patina_cook_torrance_bsdf": 3.0 / 64.0, "thin_film_bsdf": 0.05,
+           "oren_nayar_diffuse_bsdf": OREN_NAYAR}
 FACETS = {"dielectric_bsdf", "dielectric_btdf", "conductor_bsdf"}
 BECKMANN, FILM = 0.02, 0.04
 # Of the tables of anisotropy (anisotropicAlbedo.glsl): from inside, at grazing angles, an interface is further off.

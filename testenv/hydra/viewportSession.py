@@ -23,10 +23,16 @@ import subprocess
 import sys
 import tempfile
 
-import numpy as np
-from scipy import stats
-
 HERE = os.path.dirname(os.path.abspath(__file__))
+if __name__ == "__main__":
+    sys.path[:0] = [HERE, os.path.join(HERE, "..")]
+    import checkout
+
+    checkout.enter()
+
+import numpy as np  # noqa: E402
+from scipy import stats  # noqa: E402
+
 sys.path[1:1] = [HERE, os.path.join(HERE, "..", "fuzz")]
 
 import hydraBuild  # noqa: E402

@@ -30,7 +30,8 @@ def test_it_draws_and_times_moves_and_edits(tmp_path):
 def test_a_slow_pass_shows_blocks_before_it_ends(size, images):
     process = hydraBuild.run_engine(inProcess.scene("diffuseBox"), "--camera", "/World/camera", "--size", "64x64",
                                     "--set", "backend=embree", "--set", "samples=1", "--set", "integrator=ambientOcclusion",
-                                    "--set", "ambientOcclusionSamples=8192", "--set", f"firstBlockSize={size}")
+                                    "--set", "ambientOcclusionSamples=8192", "--set", "threads=1",
+                                    "--set", f"firstBlockSize={size}")
     assert process.returncode == 0, process.stderr
     report = json.loads(process.stdout[process.stdout.index("{"):])
     assert report["statistics"]["patina:imagesShown"] in images

@@ -206,7 +206,7 @@ def check_furnace(probe, graph, budget=BUDGET):
 
 
 # Of a jump in a direction; and of one in the cosine of a facet that glass of ior 6 was passed by, which floats tell apart
-# from 1 where the facet is 2.4e-4 from its normal: a direction moves five times as far, and then some.
+# from 1 where the facet is 2.4e-4 from its normal: a direction moves five times as far. This is more than twice that.
 BESIDE = (1e-6, 3e-3)
 
 

@@ -192,9 +192,11 @@ private:
             if (stopped()) return;
             _passes->drawAovs(*_raster, camera, aovs);
         }
+        bool cached = true; // so programs may be there before an image of stand-ins would be
         while (early && _raster->standIns() > 0) {
-            showEarly(camera, aovs, sampleOf(0, filter, border));
-            if (!waitForPrograms() || !waitWhilePaused()) return;
+            if (!cached) showEarly(camera, aovs, sampleOf(0, filter, border));
+            if (!waitForPrograms(cached ? cacheSeconds : 1e9) || !waitWhilePaused()) return;
+            cached = false;
             build(state, camera, true);
             if (stopped()) return;
             _passes->clearSeconds();
@@ -261,16 +263,18 @@ private:
         });
     }
 
-    /// Until an image with more of them is worth its time. @returns false when the render is
-    /// stopped
-    bool waitForPrograms() {
+    /// Until an image with more of them is worth its time.
+    /// @param maximum seconds
+    /// @returns false when the render is stopped
+    bool waitForPrograms(double maximum) {
         const auto began = Clock::now();
         const size_t before = _raster->programsReady().ready;
         while (!stopped()) {
             const RasterMaterials::Ready now = _raster->programsReady();
             notifyCompiling(now);
-            if (now.ready == now.wanted ||
-                (now.ready > before && secondsSince(began) > earlySeconds))
+            const double seconds = secondsSince(began);
+            if (now.ready == now.wanted || seconds > maximum ||
+                (now.ready > before && seconds > earlySeconds))
                 break;
             _raster->waitForPrograms(std::chrono::milliseconds(50));
         }
@@ -359,6 +363,7 @@ private:
     vec3 _origin{0.0f};                         ///< see RasterScene::update()
     std::string _deviceFailure;                 ///< what was made with the context is gone
     static constexpr double earlySeconds = 0.5; ///< between early images
+    static constexpr double cacheSeconds = 0.3; ///< for programs that the driver's cache holds
     bool _compiling = false;                    ///< notifyCompiling() was called in this render
     size_t _readyAtStart = 0;                   ///< programs
     Clock::time_point _compileStarted;

@@ -106,7 +106,8 @@ PATINA_FN vec2 dielectricChosen(DielectricLobe l, vec3 wo, float eta, int method
 
 const int CURVE_FACETS = 16;
 
-// What a Fresnel curve in place of the exact equations lets through, over what those do: of all facets seen.
+// What a Fresnel curve in place of the exact equations lets through, over what those do: of all facets seen. 1 where
+// these few facets all reflect, for rarer ones let light through.
 PATINA_FN_RARE float dielectricPasses(DielectricLobe l, vec3 wo, float eta) {
     vec3 o = vec3(wo.x, wo.y, min(abs(wo.z), 1.0f));
     float curve = 0.0f;
@@ -117,7 +118,8 @@ PATINA_FN_RARE float dielectricPasses(DielectricLobe l, vec3 wo, float eta) {
         curve += 1.0f - fresnelModelled(l.fresnel, c, eta);
         exact += 1.0f - fresnelDielectric(c, eta);
     }
-    return curve / max(exact, ALBEDO_MIN * float(CURVE_FACETS));
+    bool passes = exact > ALBEDO_MIN * float(CURVE_FACETS);
+    return select(curve / max(exact, ALBEDO_MIN), 1.0f, passes);
 }
 
 struct DielectricEnergy {

@@ -53,7 +53,8 @@ PATINA_FN bool schlickOdd(SchlickLobe l) {
 const int ALBEDO_SEEN = 16;
 
 // The transmission of such a curve over that of a dielectric of its ior, over all facets seen: T
-// also meets those that R sends below the horizon, so that R's mean says little of it.
+// also meets those that R sends below the horizon, so that R's mean says little of it. 1 where these few facets all
+// reflect, as in dielectricPasses.
 PATINA_FN_RARE vec3 schlickTransmittanceRatio(SchlickLobe l, vec3 wo, float eta) {
     vec3 o = vec3(wo.x, wo.y, min(abs(wo.z), 1.0f));
     vec3 curve = vec3(0.0f);
@@ -63,7 +64,8 @@ PATINA_FN_RARE vec3 schlickTransmittanceRatio(SchlickLobe l, vec3 wo, float eta)
         curve += vec3(1.0f) - schlickReflectance(l, clamp(c, 0.0f, 1.0f), eta);
         bare += 1.0f - fresnelDielectric(clamp(c, 0.0f, 1.0f), eta);
     }
-    return curve / max(bare, ALBEDO_MIN * float(ALBEDO_SEEN));
+    bool passes = bare > ALBEDO_MIN * float(ALBEDO_SEEN);
+    return select(curve / max(bare, ALBEDO_MIN), vec3(1.0f), passes);
 }
 
 // The same from the denser side, where a dielectric of that ior lets `transmittance` through: the
@@ -221,6 +223,9 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     SchlickEnergy e = schlickRough(l, wo);
     if (l.albedo != ALBEDO_MIRROR) return e;
     vec3 f = schlickReflectance(l, min(abs(wo.z), 1.0f), schlickEta(l, wo.z));
+    // A curve that falls sends more back from rough facets, which light meets less slanted: at most f0.
+    bool plain = l.alpha.x > 0.0f && !PATINA_FILM(l.exact) && !filmIsThere(l.film);
+    f = select(max(f, l.fresnel.f0), f, plain);
     vec3 scale = schlickSharedInterfaceScale(f, l.sharedInterface);
     e.kt *= scale / schlickSharedInterfaceScale(e.r, l.sharedInterface);
     e.r = f;

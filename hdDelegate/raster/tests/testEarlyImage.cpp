@@ -114,7 +114,7 @@ float brightest(const std::vector<float>& image) {
 
 TEST(EarlyImages, ShowWhatIsReadyAndLeaveNothingInTheLast) {
     PATINA_NEED_CONTEXT();
-    const SlowPrograms slow("300");
+    const SlowPrograms slow("600"); // longer than cached ones are waited for
     std::string error;
     const Shown batch = render(false, 1, error);
     ASSERT_EQ(error, "");

@@ -274,11 +274,12 @@ PATINA_FN LobeSample dielectricSample(DielectricLobe l, vec3 wo, vec3 u) {
     float share = select(f, 1.0f - f, reflects);
     float density = 1.0f;
     if (!mirror) density = microfacetDensity(o, l.alpha, m.z, c, l.ndf, sampling);
-    if (!b.valid || share <= 0.0f || (sampling == SAMPLING_FULL_NDF && c <= 0.0f))
+    bool both = l.mode == SCATTER_RT;
+    bool never = both && share <= 0.0f; // R or T alone is drawn with its whole density, where it is 0 too
+    if (!b.valid || never || (sampling == SAMPLING_FULL_NDF && c <= 0.0f))
         return lobeSampleNone();
     if (!PATINA_ENERGY_KNOWN(l.known)) l = dielectricAt(l, wo);
     bool isDelta = mirror || (!reflects && l.deltaT);
-    bool both = l.mode == SCATTER_RT;
     float ratio = select(1.0f, b.ratio / density, l.matched);
     float turn = select(l.retro, 1.0f, reflects);
     LobeSample s;

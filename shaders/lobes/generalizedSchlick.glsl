@@ -222,10 +222,14 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
 PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     SchlickEnergy e = schlickRough(l, wo);
     if (l.albedo != ALBEDO_MIRROR) return e;
-    vec3 f = schlickReflectance(l, min(abs(wo.z), 1.0f), schlickEta(l, wo.z));
-    // A curve that falls sends more back from rough facets, which light meets less slanted: at most f0.
+    float eta = schlickEta(l, wo.z);
+    float mu = min(abs(wo.z), 1.0f);
+    vec3 f = schlickReflectance(l, mu, eta);
+    // A curve that falls, or dips, sends more back from rough facets, which light meets less slanted.
+    SchlickLobe rises = l;
+    rises.fresnel.dip = vec3(0.0f);
     bool plain = l.alpha.x > 0.0f && !PATINA_FILM(l.exact) && !filmIsThere(l.film);
-    f = select(max(f, l.fresnel.f0), f, plain);
+    f = select(max(schlickReflectance(rises, mu, eta), l.fresnel.f0), f, plain);
     vec3 scale = schlickSharedInterfaceScale(f, l.sharedInterface);
     e.kt *= scale / schlickSharedInterfaceScale(e.r, l.sharedInterface);
     e.r = f;

@@ -19,6 +19,7 @@ EXTENSION = ".usda"
 LINES = False  # a stage of fewer prims is another picture
 CPU_SECONDS = 200  # a driver in software compiles for half a minute before it draws
 WIDTH, HEIGHT, TILE = 48, 36, 12
+ALIKE = 8  # seeds in a row have the same kinds of materials and lights, and so their programs
 RENDERS, PASSES, SAMPLES = 12, 16, 32  # of each back end; of few passes outlines are off by percents, with any seed
 SIGNIFICANCE = 1e-6  # for a stage: of a thousand that are right, all are called so with probability 0.999
 HEAD = '''#usda 1.0
@@ -62,10 +63,10 @@ def _numbers(r, low, high, count=3):
     return "(" + ", ".join(f"{r.uniform(low, high):.4f}" for _ in range(count)) + ")"
 
 
-def _look(r, name):
+def _look(r, kinds, name):
     """A material of a structure that there are few of, so that few programs are compiled: only its values are random."""
     color, rough = _numbers(r, 0.05, 0.9), f"{r.uniform(0.3, 1):.4f}"
-    node, values = r.choice((
+    node, values = kinds.choice((
         ("UsdPreviewSurface", {"color3f diffuseColor": color, "float roughness": rough, "float metallic": "0"}),
         ("UsdPreviewSurface", {"color3f diffuseColor": color, "float roughness": rough, "float metallic": "1"}),
         ("ND_standard_surface_surfaceshader", {"color3f base_color": color, "float specular_roughness": rough}),
@@ -85,11 +86,11 @@ def _look(r, name):
 
 def make(seed):
     """:returns: the bytes of an input"""
-    r = randoms.Random(seed)
-    looks = r.randint(1, 3)
+    r, kinds = randoms.Random(seed), randoms.Random(f"materials and lights of {seed // ALIKE}")
+    looks = kinds.randint(1, 3)
     lines = HEAD.splitlines()
     for k in range(looks):
-        lines += _look(r, f"look{k}")
+        lines += _look(r, kinds, f"look{k}")
     for k in range(r.randint(1, 4)):
         kind = r.choice(sorted(SHAPES))
         lines += [f'def {kind.strip()} "shape{k}" (', '    prepend apiSchemas = ["MaterialBindingAPI"]', ")", "{",
@@ -100,8 +101,8 @@ def make(seed):
         lines += [f"    double3 xformOp:translate = {place}",
                   f"    float3 xformOp:rotateXYZ = {_numbers(r, -90, 90)}", f"    float3 xformOp:scale = {scale}",
                   '    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ", "xformOp:scale"]', "}"]
-    for k in range(r.randint(1, 3)):
-        kind = r.choice(sorted(LIGHTS))
+    for k in range(kinds.randint(1, 3)):
+        kind = kinds.choice(sorted(LIGHTS))
         lines += [f'def {kind} "light{k}"', "{", f"    color3f inputs:color = {_numbers(r, 0.2, 1)}",
                   f"    float inputs:intensity = {r.uniform(*POWER.get(kind, (5, 40))):.4f}"]
         lines += [f"    float inputs:{name} = {r.uniform(low, high):.4f}" for name, low, high in LIGHTS[kind]]

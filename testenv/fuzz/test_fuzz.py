@@ -141,7 +141,7 @@ def test_back_ends_that_differ_are_told(hand):
 
     if backEndPairs.inProcess.without_opengl():
         pytest.skip(backEndPairs.inProcess.without_opengl())
-    data = backEndPairs.make(104)
+    data = backEndPairs.make(113)
     stretched = data.replace(b"scale = (0.6, 0.6, 0.6)", b"scale = (3, 0.3, 0.3)")
     assert stretched != data
     kind, _, answer = generated.outcome(hand, backEndPairs, stretched, ".usda")

@@ -67,6 +67,7 @@ if(TARGET hdPatina)
     set_property(TARGET hdPatina APPEND PROPERTY INSTALL_RPATH "$ORIGIN/${fromPlugin}")
 endif()
 install(TARGETS patina EXPORT patinaTargets LIBRARY DESTINATION ${libraryFolder} OPTIONAL)
+install(TARGETS patinaTryImage RUNTIME DESTINATION ${libraryFolder}/patina)
 if(TARGET patinaReadField) # beside the library that starts it, of whatever level
     install(TARGETS patinaReadField RUNTIME DESTINATION ${libraryFolder}/patina)
 endif()

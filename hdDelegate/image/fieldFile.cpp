@@ -3,23 +3,19 @@
 #include "hdDelegate/image/fieldGrid.h"
 
 #include "hdDelegate/image/fieldReader/fieldStream.h"
+#include "base/childProgram.h"
 #include "base/regularFile.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
-#include <dlfcn.h>
 #include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
-
-extern char** environ;
 
 namespace patina {
 
@@ -29,70 +25,30 @@ namespace {
 
 static_assert(FieldGrid::edge == fieldStreamEdge, "bricks are passed on as they are");
 
-/// The program that knows OpenVDB: beside the library that this is part of, or where it was built.
-std::string readerProgram() {
-    Dl_info here;
-    if (::dladdr(reinterpret_cast<const void*>(&readFieldGrid), &here) && here.dli_fname) {
-        const std::string library = here.dli_fname;
-        const size_t slash = library.rfind('/');
-        if (slash != std::string::npos) {
-            const std::string folder = library.substr(0, slash + 1);
-            // Beside it; or in the folder of an installed library, which the loader may have taken
-            // from glibc-hwcaps/LEVEL.
-            for (const char* place : {"", "patina/", "../../patina/"}) {
-                const std::string program = folder + place + "patinaReadField";
-                if (::access(program.c_str(), X_OK) == 0) return program;
-            }
-        }
-    }
-    return PATINA_FIELD_READER;
-}
-
-/// A running program whose output is read. It is started by posix_spawn, which is safe where other
-/// threads run, and inherits nothing but that output.
+/// The program that knows OpenVDB, whose output is read.
 class Program {
 public:
     Program(const std::string& file, const std::string& field) {
         int ends[2];
         if (::pipe2(ends, O_CLOEXEC) != 0) fail(errno);
-        const std::string program = readerProgram();
-        char* const arguments[] = {const_cast<char*>(program.c_str()),
-                                   const_cast<char*>(file.c_str()),
-                                   const_cast<char*>(field.c_str()), nullptr};
-        posix_spawn_file_actions_t files;
-        posix_spawn_file_actions_init(&files);
-        posix_spawn_file_actions_adddup2(&files, ends[1], 1);
-        posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_addopen(&files, 2, "/dev/null", O_WRONLY, 0);
-#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
-        posix_spawn_file_actions_addclosefrom_np(&files, 3);
-#endif
-        // Whatever the host does about signals, the program ends by them.
-        posix_spawnattr_t attributes;
-        sigset_t none, all;
-        sigemptyset(&none);
-        sigfillset(&all);
-        posix_spawnattr_init(&attributes);
-        posix_spawnattr_setsigmask(&attributes, &none);
-        posix_spawnattr_setsigdefault(&attributes, &all);
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-        const int error =
-            ::posix_spawn(&_process, program.c_str(), &files, &attributes, arguments, environ);
-        posix_spawn_file_actions_destroy(&files);
-        posix_spawnattr_destroy(&attributes);
-        ::close(ends[1]);
-        _output = error ? nullptr : ::fdopen(ends[0], "rb");
-        if (!_output) {
+        try {
+            _process = startProgram(programPath("patinaReadField", PATINA_FIELD_READER),
+                                    {file, field}, -1, ends[1]);
+        } catch (...) {
             ::close(ends[0]);
-            _process = error ? -1 : _process;
+            ::close(ends[1]);
+            throw;
+        }
+        ::close(ends[1]);
+        _output = ::fdopen(ends[0], "rb");
+        if (!_output) {
+            const int error = errno;
+            ::close(ends[0]);
             end();
-            throw std::runtime_error("the program that reads it, " + program +
-                                     ", cannot be run: " + std::strerror(error ? error : errno));
+            fail(error);
         }
     }
-    ~Program() {
-        end();
-    }
+    ~Program() { end(); }
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
 
@@ -112,15 +68,7 @@ private:
     std::string end() {
         if (_output) std::fclose(_output);
         _output = nullptr;
-        if (_process <= 0) return {};
-        ::kill(_process, SIGKILL); // of one that has ended already nothing is changed
-        int status = 0;
-        pid_t waited;
-        while ((waited = ::waitpid(_process, &status, 0)) < 0 && errno == EINTR) {
-        }
-        _process = -1;
-        if (waited < 0 || !WIFSIGNALED(status) || WTERMSIG(status) == SIGKILL) return {};
-        return std::string(" (") + ::strsignal(WTERMSIG(status)) + ")";
+        return endProgram(std::exchange(_process, -1));
     }
 
     pid_t _process = -1;

@@ -3,7 +3,7 @@
 import os
 
 from patina import inputs
-from patina.cli import interrupts
+from patina.cli import interrupts, tryStage
 from patina.cli.errors import CommandError
 
 _LAYERS = (".usd", ".usda", ".usdc", ".usdz")
@@ -25,6 +25,9 @@ def open_stage(path, mask=None, session_layer=None, layers=()):
     except UnicodeEncodeError:
         raise CommandError(f"{path.encode(errors='replace').decode()}: USD opens no file whose name is not UTF-8") from None
     inputs.check_regular(path)
+    problem = tryStage.why_trial_fails(path)
+    if problem:
+        raise StageError(f"{path} {problem}: the file is damaged")
     with compat.QuietDiagnostics() as quiet:
         try:
             stage = _open(path, mask, session_layer, layers, Sdf, Usd)

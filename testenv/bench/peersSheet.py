@@ -2,7 +2,7 @@
 """A sheet of what a benchmark compared: a row for each scene, a column for each renderer.
 
     ./patina bench path --images FOLDER
-    ./patina python testenv/bench/contactSheet.py FOLDER sheet.png
+    ./patina python testenv/bench/peersSheet.py FOLDER sheet.png
 
 The images are those that `--images` of `patina bench path` and `viewport` wrote: SCENE-RENDERER.exr. Needs Pillow.
 """

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/trialRead.h"
+
+#include "base/childProgram.h"
+#include "base/limits.h"
+
+#include <cerrno>
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace patina {
+
+namespace {
+
+/// The program that tries images, one after another. A new one is started after each that died.
+class Trials {
+public:
+    static Trials& get() {
+        static Trials trials;
+        return trials;
+    }
+
+    std::string of(const std::string& path, const struct stat& found) {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        const Key key{path, found.st_size, found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
+        const auto known = _answers.find(key);
+        if (known != _answers.end()) return known->second;
+        std::string answer;
+        try {
+            answer = ask(path, 10 + (found.st_size >> 20));
+        } catch (const std::exception& e) {
+            answer = std::string("cannot be tried: ") + e.what();
+        }
+        _answers[key] = answer;
+        return answer;
+    }
+
+private:
+    using Key = std::tuple<std::string, off_t, time_t, long>;
+
+    ~Trials() { end(); }
+
+    std::string ask(const std::string& path, long seconds) {
+        if (_process <= 0) start();
+        if (!send(path)) { // it has ended since: of that no file can be blamed
+            end();
+            start();
+            if (!send(path)) return "cannot be tried: the program that does so ends" + end();
+        }
+        using Clock = std::chrono::steady_clock;
+        const auto last = Clock::now() + std::chrono::seconds(seconds);
+        for (;;) {
+            const auto left =
+                std::chrono::duration_cast<std::chrono::milliseconds>(last - Clock::now()).count();
+            pollfd wanted{_socket, POLLIN, 0};
+            const int ready = left > 0 ? ::poll(&wanted, 1, int(left)) : 0;
+            if (ready < 0 && errno == EINTR) continue;
+            if (ready <= 0) {
+                end();
+                return "is not read by OpenImageIO within " + std::to_string(seconds) + " s";
+            }
+            char answer;
+            const ssize_t got = ::recv(_socket, &answer, 1, 0);
+            if (got < 0 && errno == EINTR) continue;
+            if (got == 1) return {};
+            return "makes OpenImageIO fail" + end();
+        }
+    }
+
+    bool send(const std::string& path) const {
+        const char* p = path.c_str();
+        for (size_t left = path.size() + 1; left > 0;) { // its zero ends it
+            const ssize_t sent = ::send(_socket, p, left, MSG_NOSIGNAL);
+            if (sent < 0 && errno == EINTR) continue;
+            if (sent <= 0) return false;
+            p += sent;
+            left -= size_t(sent);
+        }
+        return true;
+    }
+
+    void start() {
+        int ends[2];
+        if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+            throw std::runtime_error("no program can be started");
+        try {
+            _process =
+                startProgram(programPath("patinaTryImage", PATINA_TRY_IMAGE), {}, ends[1], ends[1]);
+        } catch (...) {
+            ::close(ends[0]);
+            ::close(ends[1]);
+            throw;
+        }
+        ::close(ends[1]);
+        _socket = ends[0];
+    }
+
+    std::string end() {
+        if (_socket >= 0) ::close(std::exchange(_socket, -1));
+        return endProgram(std::exchange(_process, -1));
+    }
+
+    std::mutex _mutex;
+    std::map<Key, std::string> _answers;
+    pid_t _process = -1;
+    int _socket = -1;
+};
+
+} // namespace
+
+std::string whyTrialFails(const std::string& path) {
+    struct stat found;
+    if (::stat(path.c_str(), &found) != 0) return {}; // its reader says so
+    if (uint64_t(found.st_size) <= limitOf(Limit::untriedBytes)) return {};
+    return Trials::get().of(path, found);
+}
+
+} // namespace patina

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace patina {
+
+/// Has the program patinaTryImage read an image with OpenImageIO first, where the file holds more
+/// bytes than Limit::untriedBytes. Once for each state of a file. Thread safe.
+/// @returns why it is not to be read, as in "makes OpenImageIO fail (Segmentation fault)"; empty
+///          when it may be, also where OpenImageIO itself says what is wrong with it
+std::string whyTrialFails(const std::string& path);
+
+} // namespace patina

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads a stage in a process that may die, before this one does: OpenUSD may crash on damaged files."""
+import os
+import signal
+import subprocess
+import sys
+
+from patina import limits
+
+_SECONDS = 60  # and one more for each MiB
+# Opens layers, composes, and reads every value, as a render does.
+_READ = """
+import resource, sys
+from pxr import Usd
+resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+stage = Usd.Stage.Open(sys.argv[1])
+for prim in Usd.PrimRange.Stage(stage, Usd.TraverseInstanceProxies()):
+    for attribute in prim.GetAttributes():
+        attribute.Get()
+        attribute.GetTimeSamples()
+"""
+
+
+def why_trial_fails(path):
+    """:returns: why a stage is not to be opened, as in "makes OpenUSD fail (Segmentation fault)"; "" when it may be, also where
+    OpenUSD itself says what is wrong with it, or where the file is no larger than the limit untriedBytes"""
+    size = os.path.getsize(path)
+    if size <= limits.value("untriedBytes"):
+        return ""
+    seconds = _SECONDS + (size >> 20)
+    try:
+        done = subprocess.run([sys.executable, "-c", _READ, path], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL, timeout=seconds, check=False)
+    except subprocess.TimeoutExpired:
+        return f"is not read by OpenUSD within {seconds} s"
+    if done.returncode >= 0:
+        return ""
+    return f"makes OpenUSD fail ({signal.strsignal(-done.returncode)})"

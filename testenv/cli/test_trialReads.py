@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""With `--limit untriedBytes=0` a process that may die reads stage and images first (SECURITY.md)."""
+import glob
+import os
+import shutil
+import stat
+import subprocess
+import sys
+
+import _patina
+import numpy as np
+import pytest
+
+import inProcess
+from patina.cli import tryStage
+from test_limits import HEAD, PREVIEW, QUAD, bound
+
+FLAGS = ("-w", 8, "--samples", 1, "--camera", "/camera")
+UNTRIED = ("--limit", "untriedBytes=0")
+
+
+@pytest.fixture(name="stage")
+def _stage(tmp_path):
+    stage = tmp_path / "stage.usda"
+    stage.write_text(HEAD + PREVIEW % "t.png" + bound(QUAD % "a"))
+    _patina.write_image(str(tmp_path / "t.png"), np.full((4, 4, 3), 0.5, np.float32), ["R", "G", "B"])
+    return stage
+
+
+def test_sound_files_make_the_same_image(stage, tmp_path):
+    for name, flags in (("a", ()), ("b", UNTRIED)):
+        done = inProcess.record(stage, tmp_path / f"{name}.exr", *FLAGS, *flags, check=False)
+        assert done.returncode == 0 and "warning" not in done.stderr, done.stderr
+    assert np.array_equal(*(inProcess.pixels(tmp_path / f"{name}.exr") for name in "ab"))
+
+
+@pytest.fixture(name="dying")
+def _dying(tmp_path):
+    """:returns: an environment whose Patina tries images by a program that a file of some name kills"""
+    folder = tmp_path / "module"
+    folder.mkdir()
+    for file in glob.glob(os.path.join(os.path.dirname(_patina.__file__), "*")):
+        if os.path.isfile(file) and not file.endswith("patinaTryImage"):
+            os.symlink(file, folder / os.path.basename(file))
+    library = folder / os.path.basename(_patina.__file__)
+    library.unlink()
+    shutil.copy(_patina.__file__, library)  # the program is looked for beside it
+    program = folder / "patinaTryImage"
+    program.write_text(f"#!{sys.executable}\nimport os\nname = b''\nwhile byte := os.read(0, 1):\n"
+                       "    name += byte\n    if byte == b'\\0':\n        if b't.png' in name:\n"
+                       "            os.kill(os.getpid(), 11)\n        os.write(1, b't')\n        name = b''\n")
+    program.chmod(program.stat().st_mode | stat.S_IXUSR)
+    return dict(os.environ, PYTHONPATH=f"{folder}:{os.environ['PYTHONPATH']}")
+
+
+def test_an_image_that_kills_its_reader_is_left_out(stage, dying, tmp_path):
+    command = [sys.executable, "-m", "patina", "record", stage, tmp_path / "a.exr", *FLAGS, *UNTRIED]
+    done = subprocess.run(list(map(str, command)), env=dying, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "makes OpenImageIO fail (Segmentation fault)" in done.stderr and "/m/t" in done.stderr
+    assert inProcess.pixels(tmp_path / "a.exr").max() > 0
+
+
+def test_a_stage_that_kills_its_reader_is_refused(stage, tmp_path, monkeypatch):
+    monkeypatch.setattr(tryStage, "_READ", "import os\nos.kill(os.getpid(), 11)")
+    assert tryStage.why_trial_fails(stage) == "", "small files are trusted by default"
+    done = inProcess.record(stage, tmp_path / "a.exr", *FLAGS, *UNTRIED, check=False)
+    assert done.returncode == 1
+    assert f"{stage} makes OpenUSD fail (Segmentation fault): the file is damaged" in done.stderr
+    assert not (tmp_path / "a.exr").exists()
+
+
+def test_a_broken_stage_gets_its_own_message(tmp_path):
+    stage = tmp_path / "broken.usda"
+    stage.write_text("#usda 1.0\ndef {\n")
+    done = inProcess.record(stage, tmp_path / "a.exr", *FLAGS, *UNTRIED, check=False)
+    assert done.returncode == 1 and "cannot be opened" in done.stderr

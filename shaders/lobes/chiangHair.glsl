@@ -89,7 +89,7 @@ PATINA_FN float hairLogisticSample(float u, float s) {
     float lo = hairLogisticCdf(-PI, s);
     float hi = hairLogisticCdf(PI, s);
     float c = clamp(mix(lo, hi, u), 1e-7f, 1.0f - 1e-7f);
-    return clamp(-s * 0.693147181f * log2(1.0f / c - 1.0f), -PI, PI);
+    return clamp(-s * 0.693147181f * log2((1.0f - c) / c), -PI, PI); // 1 / c - 1 may round below 0
 }
 
 // Arc sine on [-1, 1].
@@ -199,6 +199,9 @@ PATINA_FN LobeEval chiangHairEval(ChiangHairLobe l, vec3 wo, vec3 wi) {
     return e;
 }
 
+// Chances that the rounding of the others' sum decides: what is drawn by them alone may have no density.
+const float HAIR_SELDOM = 1e-7f;
+
 PATINA_FN LobeSample chiangHairSample(ChiangHairLobe l, vec3 wo, vec3 u) {
     HairOut o = hairOut(l, wo);
     vec4 chance = hairChances(o);
@@ -206,15 +209,15 @@ PATINA_FN LobeSample chiangHairSample(ChiangHairLobe l, vec3 wo, vec3 u) {
     float left = u.z;
     float p = 0.0f;
     float part = chance.x;
-    if (left >= part) {
+    if (left >= part && chance.y + chance.z + chance.w > HAIR_SELDOM) {
         left -= part;
         p = 1.0f;
         part = chance.y;
-        if (left >= part) {
+        if (left >= part && chance.z + chance.w > HAIR_SELDOM) {
             left -= part;
             p = 2.0f;
             part = chance.z;
-            if (left >= part) {
+            if (left >= part && chance.w > HAIR_SELDOM) {
                 left -= part;
                 p = 3.0f;
                 part = chance.w;

@@ -101,6 +101,9 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/cli/test_chart.py::*", "full", "chart materialNetwork"),
     ("testenv/cli/test_chartScenes.py::*", "full", "chart"),
     ("testenv/cli/test_subdivisionPlan.py::*", "full", "geometry plan materialNetwork"),
+    # Half a minute of software OpenGL each; others of their kind stay.
+    ("testenv/raster/test_emitters.py::test_light_follows_cones_of_several_axes[[]narrow[]]", "long", None),
+    ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]manyDomes[]]", "long", None),
     # A minute of software OpenGL; the whole table, measured again.
     ("testenv/cli/test_subdivisionPlan.py::test_the_predicted_error_holds_in_the_rasterizer", "long", None),
     ("testenv/cli/test_chart.py::test_errors_are_those_of_the_table", "long", None),

@@ -89,7 +89,7 @@ PATINA_FN float hairLogisticSample(float u, float s) {
     float lo = hairLogisticCdf(-PI, s);
     float hi = hairLogisticCdf(PI, s);
     float c = clamp(mix(lo, hi, u), 1e-7f, 1.0f - 1e-7f);
-    return clamp(-s * 0.693147181f * log2((1.0f - c) / c), -PI, PI); // 1 / c - 1 may round below 0
+    return clamp(-s * 0.693147181f * log2((1.0f - c) / c), -PI, PI); // 1 - c is exact, 1 / c is not
 }
 
 // Arc sine on [-1, 1].

@@ -31,6 +31,10 @@ public:
 
     std::string of(const std::string& path, const struct stat& found) {
         const std::lock_guard<std::mutex> lock(_mutex);
+        if (_process > 0 && _host != ::getpid()) { // forked since: the program is the parent's
+            ::close(std::exchange(_socket, -1));
+            _process = -1;
+        }
         const Key key{path, found.st_size, found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
         const auto known = _answers.find(key);
         if (known != _answers.end()) return known->second;
@@ -71,6 +75,10 @@ private:
             char answer;
             const ssize_t got = ::recv(_socket, &answer, 1, 0);
             if (got < 0 && errno == EINTR) continue;
+            if (got == 1 && answer == 'm') {
+                end(); // what it holds is given back
+                return "takes more memory than the limit textureBytes allows";
+            }
             if (got == 1) return {};
             return "makes OpenImageIO fail" + end();
         }
@@ -94,7 +102,9 @@ private:
             throw std::runtime_error("no program can be started");
         try {
             _process =
-                startProgram(programPath("patinaTryImage", PATINA_TRY_IMAGE), {}, ends[1], ends[1]);
+                startProgram(programPath("patinaTryImage", PATINA_TRY_IMAGE),
+                             {std::to_string(limitOf(Limit::textureBytes))}, ends[1], ends[1]);
+            _host = ::getpid();
         } catch (...) {
             ::close(ends[0]);
             ::close(ends[1]);
@@ -111,7 +121,7 @@ private:
 
     std::mutex _mutex;
     std::map<Key, std::string> _answers;
-    pid_t _process = -1;
+    pid_t _process = -1, _host = -1; ///< the program, and the process that started it
     int _socket = -1;
 };
 

@@ -70,6 +70,51 @@ def test_a_stage_that_kills_its_reader_is_refused(stage, tmp_path, monkeypatch):
     assert not (tmp_path / "a.exr").exists()
 
 
+@pytest.mark.parametrize("flag", ["--layer", "--sessionLayer"])
+def test_a_layer_that_kills_its_reader_is_refused(stage, tmp_path, monkeypatch, flag):
+    layer = tmp_path / "layer.usda"
+    layer.write_text("#usda 1.0\n")
+    monkeypatch.setattr(tryStage, "_READ",
+                        "import os, sys\nif sys.argv[1].endswith('layer.usda'):\n    os.kill(os.getpid(), 11)")
+    assert inProcess.record(stage, tmp_path / "a.exr", *FLAGS, flag, layer, check=False).returncode == 0
+    done = inProcess.record(stage, tmp_path / "b.exr", *FLAGS, flag, layer, *UNTRIED, check=False)
+    assert done.returncode == 1
+    assert f"{layer} makes OpenUSD fail (Segmentation fault): the file is damaged" in done.stderr
+    assert not (tmp_path / "b.exr").exists()
+
+
+def test_an_image_that_takes_all_memory_is_left_out(stage, tmp_path):
+    (tmp_path / "t.png").unlink()
+    (tmp_path / "t.ppm").write_bytes(b"P6 268435456 4 65535\n")  # rows of 1.6 GB, of which the file has none
+    stage.write_text(stage.read_text().replace("t.png", "t.ppm"))
+    command = [sys.executable, "-m", "patina", "record", stage, tmp_path / "a.exr", *FLAGS, *UNTRIED,
+               "--limit", "textureBytes=1000"]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "takes more memory than the limit textureBytes allows" in done.stderr and "/m/t" in done.stderr
+
+
+def test_a_forked_process_tries_images_by_a_program_of_its_own(stage):
+    """Both hold the socket of the first program: with that alone, answers could change places."""
+    shutil.copy(stage.with_name("t.png"), stage.with_name("u.png"))
+    script = f"""
+import os, psutil, _patina
+def programs():
+    return [child.pid for child in psutil.Process().children() if child.name().startswith("patinaTry")]
+_patina.set_limits({{"untriedBytes": 0}})
+_patina.read_image({str(stage.with_name("t.png"))!r})
+first = programs()
+child = os.fork()
+if child == 0:
+    _patina.read_image({str(stage.with_name("u.png"))!r})
+    os._exit(len(programs()))
+assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 1, "the child has no program"
+assert len(first) == 1 and programs() == first, "the parent's program is gone"
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
 def test_a_broken_stage_gets_its_own_message(tmp_path):
     stage = tmp_path / "broken.usda"
     stage.write_text("#usda 1.0\ndef {\n")

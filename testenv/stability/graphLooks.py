@@ -49,10 +49,10 @@ ROUNDED = 1e-3
 # Beneath a reflecting lobe a transmission is scaled by up to 1 / ALBEDO_MIN = 1000. Where hardly any of it is left, as within
 # almost total reflection, that makes all of an albedo of the error of the tables, 1e-4 to 1e-3.
 UNKNOWN = 1.0
-# How far methods that estimate an albedo are off: the largest errors of a Schlick lobe on grids, rounded up; a finer grid may
-# find larger ones. Karis: GGX, 21 pairs of roughnesses, 180 directions; the curve knows one roughness alone. Samples: 32 pairs,
-# both distributions, 850 directions; they send back too much where they miss brighter facets.
-GUESSES = {"karis": 0.51, "monteCarlo16": 0.5, "monteCarlo64": 0.18}
+# How far methods that estimate an albedo are off: the largest errors of Schlick lobes on the grid of guessedAlbedos.py, rounded
+# up; a finer grid may find larger ones. Karis's curve knows one roughness alone, and GGX. Samples send back too much where they
+# miss brighter facets.
+GUESSES = {"karis": 0.55, "monteCarlo16": 0.5, "monteCarlo64": 0.18}
 # Lobes whose values are the same when both directions are exchanged, whatever their inputs.
 RECIPROCAL = {"oren_nayar_diffuse_bsdf", "burley_diffuse_bsdf", "translucent_bsdf", "subsurface_bsdf", "patina_lambert_bsdf",
               "patina_phong_bsdf", "patina_blinn_phong_bsdf", "patina_ward_bsdf", "patina_cook_torrance_bsdf"}

@@ -11,6 +11,7 @@ import graphChecks  # noqa: E402
 import graphLooks  # noqa: E402
 import graphShrink  # noqa: E402
 import graphText  # noqa: E402
+import guessedAlbedos  # noqa: E402
 import plantedDefects  # noqa: E402
 import randomGraphs  # noqa: E402
 
@@ -30,6 +31,12 @@ def test_quantiles_have_their_significance():
 
 def test_a_million_sound_graphs_are_hardly_ever_called_broken():
     assert graphLooks.false_alarms(1000000) <= 0.0021
+
+
+@pytest.mark.parametrize("method", graphLooks.GUESSES)
+def test_estimated_albedos_are_as_far_off_as_the_looks_allow(method):
+    error, *place = guessedAlbedos.largest(_patina, method)
+    assert graphLooks.GUESSES[method] - 0.01 < error <= graphLooks.GUESSES[method], place
 
 
 @pytest.fixture(scope="module")

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// patinaTryImage: reads images with OpenImageIO, whose names come from standard input, each ended
-// by a zero, and writes a byte after each. A program of its own, because on damaged files
-// OpenImageIO and the libraries of formats may abort or overrun their memory.
+// patinaTryImage BYTES: reads images with OpenImageIO, whose names come from standard input, each
+// ended by a zero, and writes a byte after each: t, or m where it takes more memory than a texture
+// of so many bytes needs. A program of its own, because on damaged files OpenImageIO and the
+// libraries of formats may abort or overrun their memory.
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cstdlib>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,7 @@
 namespace {
 
 constexpr uint64_t partBytes = 64 << 20; ///< read at once, but for a single row
+constexpr uint64_t ownBytes = 1 << 30;   ///< address space beside the texels: libraries, threads
 
 /// As Patina's readers do, from the first texel to the last.
 void read(const std::string& file) {
@@ -44,23 +47,35 @@ void read(const std::string& file) {
         }
 }
 
+template <class Resource> void limit(Resource resource, rlim_t most) {
+    rlimit now;
+    if (::getrlimit(resource, &now) != 0) return;
+    now.rlim_cur = std::min(now.rlim_max, most);
+    ::setrlimit(resource, &now);
+}
+
 } // namespace
 
-int main() {
-    const rlimit none{0, 0};
-    ::setrlimit(RLIMIT_CORE, &none);
+int main([[maybe_unused]] int count, [[maybe_unused]] char** arguments) {
+    limit(RLIMIT_CORE, 0);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // these map terabytes
+    if (count > 1) limit(RLIMIT_AS, ownBytes + std::strtoull(arguments[1], nullptr, 10));
+#endif
     std::string file;
     for (char c; ::read(0, &c, 1) == 1;) {
         if (c != 0) {
             file += c;
             continue;
         }
+        char answer = 't';
         try {
             read(file);
+        } catch (const std::bad_alloc&) {
+            answer = 'm';
         } catch (const std::exception&) { // Patina's reader meets it too, and says so
         }
         (void)OIIO::geterror();
-        if (::write(1, "t", 1) != 1) return 1;
+        if (::write(1, &answer, 1) != 1) return 1;
         file.clear();
     }
     return 0;

@@ -70,6 +70,9 @@ def _above(layer, what, Sdf):
     if not os.path.exists(layer):
         raise CommandError(f"{what} {layer}: there is no such file")
     inputs.check_regular(layer)
+    problem = tryStage.why_trial_fails(layer)
+    if problem:
+        raise CommandError(f"{what} {layer} {problem}: the file is damaged")
     found = Sdf.Layer.FindOrOpen(layer)
     if not found:
         raise CommandError(f"{what} {layer} cannot be opened")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/gl/programCompiler.h"
 
+#include "hdDelegate/raster/gl/glFunctions.h"
+
 #include <algorithm>
 #include <string>
 
@@ -80,6 +82,9 @@ void ProgramCompiler::run(EglContext* context) {
         lock.unlock();
         work();
         work = nullptr; // what it holds goes while the context is there
+        // Others see what is new for sure. Of programs that others have deleted, Mesa keeps a part
+        // in the context that made them until that is flushed.
+        gl.Flush();
         finished();
         lock.lock();
         ++_idle;

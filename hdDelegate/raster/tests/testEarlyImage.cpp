@@ -13,6 +13,8 @@
 #include <cstdlib>
 #include <numeric>
 
+#include <malloc.h>
+
 using namespace patina;
 
 namespace {
@@ -193,6 +195,53 @@ TEST(ProgramCompiler, ProgramsOfOtherThreadsRunHere) {
         result.read(&value, sizeof value);
         EXPECT_EQ(value, float(i));
     }
+}
+
+double heapBytes() {
+    const struct mallinfo2 found = mallinfo2();
+    return double(found.uordblks) + double(found.hblkhd);
+}
+
+TEST(ProgramCompiler, ProgramsThatAreDeletedLeaveNothing) {
+    PATINA_NEED_CONTEXT();
+    const SlowPrograms uncached("0");
+    ProgramCompiler compiler(*context, 1);
+    std::string fragment = "layout(location = 0) out vec4 o;\nvoid main() {\n"
+                           "vec4 x = gl_FragCoord * 0.01;\n";
+    for (int i = 1; i <= 60; ++i)
+        fragment += "x = vec4(sin(x.y * " + std::to_string(i) + ".0), cos(x.x), x.w, x.z);\n";
+    fragment += "o = x;\n}\n";
+    const auto make = [&] {
+        std::unique_ptr<GlProgram> program;
+        std::string error;
+        std::atomic<bool> done{false};
+        compiler.add([&] {
+            program = GlProgram::make(
+                {{GL_VERTEX_SHADER, "vertex", "void main() { gl_Position = vec4(gl_VertexID); }\n"},
+                 {GL_FRAGMENT_SHADER, "fragment", fragment}},
+                error);
+            done = true;
+        });
+        while (!done)
+            compiler.wait(std::chrono::milliseconds(20));
+        EXPECT_TRUE(program) << error;
+        return program;
+    };
+    make(); // whatever the driver keeps of a first one
+    const double before = heapBytes();
+    double some = 0.0;
+    {
+        std::vector<std::unique_ptr<GlProgram>> programs;
+        for (int i = 0; i < 4; ++i)
+            programs.push_back(make());
+        some = heapBytes() - before;
+    }
+    if (!(some > 0.0)) GTEST_SKIP() << "this heap does not tell how much is in use";
+    make();
+    const double start = heapBytes();
+    for (int i = 0; i < 32; ++i)
+        make();
+    EXPECT_LT(heapBytes() - start, some) << "32 that are gone take less than four that are there";
 }
 
 TEST(ProgramCompiler, WhoeverWaitsDoesTheWorkWhereThereAreNoThreads) {

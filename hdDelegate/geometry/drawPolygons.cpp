@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/geometry/drawnFaces.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace patina {
@@ -77,8 +78,12 @@ TriangleMesh drawPolygons(const Mesh& mesh, PointSteps points, const CageFaces& 
                           CageNormals source, Diagnostics& diagnostics) {
     TriangleMesh out;
     out.positions = std::move(points.steps);
+    const bool cornersMatter =
+        std::any_of(mesh.primvars.begin(), mesh.primvars.end(), [](const Primvar& primvar) {
+            return rateOf(primvar.interpolation) == Rate::PerCorner;
+        });
     DrawnTriangles drawn =
-        drawFaces(faces, mesh.faceVertexIndices, out.positions[0], mesh.leftHanded);
+        drawFaces(faces, mesh.faceVertexIndices, out.positions[0], mesh.leftHanded, cornersMatter);
     out.triangles = std::move(drawn.triangles);
     out.triangleFace = std::move(drawn.faces);
 

@@ -17,13 +17,13 @@ float angleBetween(const vec3& a, const vec3& b) {
 } // namespace
 
 DrawnTriangles drawFaces(const CageFaces& faces, const std::vector<int>& vertices,
-                         const std::vector<vec3>& positions, bool flip) {
+                         const std::vector<vec3>& positions, bool flip, bool withCorners) {
     DrawnTriangles drawn;
     size_t expected = 0;
     for (int count : faces.counts)
         expected += size_t(count - 2);
     drawn.triangles.reserve(expected);
-    drawn.corners.reserve(3 * expected);
+    if (withCorners) drawn.corners.reserve(3 * expected);
     drawn.faces.reserve(expected);
 
     std::vector<vec3> polygon;
@@ -44,7 +44,7 @@ DrawnTriangles drawFaces(const CageFaces& faces, const std::vector<int>& vertice
                 continue;
             drawn.triangles.push_back(triangle);
             drawn.faces.push_back(faces.authored[f]);
-            for (int k = 0; k < 3; ++k)
+            for (int k = 0; withCorners && k < 3; ++k)
                 drawn.corners.push_back(faces.firstCorner[f] + t[k]);
         }
     }

@@ -9,15 +9,16 @@ namespace patina {
 /// Triangles of a mesh with the face corners that they were cut from.
 struct DrawnTriangles {
     std::vector<uvec3> triangles;
-    std::vector<size_t> corners; ///< three per triangle: index of the face corner
+    std::vector<size_t> corners; ///< three per triangle: index of the face corner; or none
     std::vector<int> faces;      ///< authored face of each triangle
 };
 
 /// Cuts the faces, without holes, into triangles.
 /// @param vertices point index of each corner
 /// @param flip turns the winding (left-handed prims)
+/// @param withCorners whether anybody asks for these: they take twice the memory of the triangles
 DrawnTriangles drawFaces(const CageFaces& faces, const std::vector<int>& vertices,
-                         const std::vector<vec3>& positions, bool flip);
+                         const std::vector<vec3>& positions, bool flip, bool withCorners = true);
 
 /// Normals at the points: mean of the normals of the triangles around, weighted by their angle
 /// (Thürmer and Wüthrich 1998). Points without a triangle get +z.

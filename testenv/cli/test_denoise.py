@@ -23,13 +23,14 @@ def channels(path):
     return {name: np.array(image.pixels)[..., i] for i, name in enumerate(image.channels)}
 
 
-@pytest.mark.parametrize("scene", ["lightDome", "roughConductor", "texturedMesh"])
-def test_the_error_falls(scene, library, tmp_path):
+# Below four samples the guides are denoised too.
+@pytest.mark.parametrize("scene,samples", [("lightDome", 1), ("lightDome", 4), ("roughConductor", 4), ("texturedMesh", 4)])
+def test_the_error_falls(scene, samples, library, tmp_path):
     stage = inProcess.scene(scene)
-    # Its noise is an eighth of that of 4 samples, and counts in both errors alike.
+    # Its noise is at most an eighth of that of the others, and counts in both errors alike.
     truth = inProcess.references(stage, [77], "-w", WIDTH, "--samples", "256")[0]
-    record(stage, tmp_path / "noisy.exr", "-w", WIDTH, "--samples", "4")
-    record(stage, tmp_path / "clean.exr", "-w", WIDTH, "--samples", "4", "--denoise")
+    record(stage, tmp_path / "noisy.exr", "-w", WIDTH, "--samples", samples)
+    record(stage, tmp_path / "clean.exr", "-w", WIDTH, "--samples", samples, "--denoise")
     clean, noisy = channels(tmp_path / "clean.exr"), channels(tmp_path / "noisy.exr")
     for name in "RGB":  # what it started from is the render without it, to the bit
         np.testing.assert_array_equal(clean["color.noisy." + name], noisy[name])

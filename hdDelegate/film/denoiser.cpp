@@ -137,9 +137,9 @@ private:
     void* _device;
 };
 
-/// From so many samples of a pixel on, in the mean, guides are taken as they are: cleaning them
-/// first takes twice the time of the rest, gains next to nothing then, and blurs leaves that are as
-/// fine as a pixel (docs/measurements/denoise.md).
+/// From so many samples of a pixel on, in the mean, guides count as free of noise. With fewer the
+/// filter takes them as noisy. Cleaning them first takes three to seven times as long as that, in
+/// which further samples gain more (docs/measurements/denoise.md).
 constexpr double samplesOfCleanGuides = 4.0;
 
 double meanSamples(const Film& film) {
@@ -177,16 +177,9 @@ void denoise(Film& film, int threads) {
     if (!albedo.empty() && !normal.empty()) {
         for (float& value : albedo)
             value = std::clamp(value, 0.0f, 1.0f);
-        if (meanSamples(film) < samplesOfCleanGuides)
-            for (auto& [name, pixels] :
-                 {Device::Image{"albedo", albedo}, Device::Image{"normal", normal}}) {
-                std::vector<float> clean(pixels.size());
-                device.filter({{name, pixels}, {"output", clean}}, {}, width, height);
-                pixels = std::move(clean);
-            }
         images.push_back({"albedo", albedo});
         images.push_back({"normal", normal});
-        flags.push_back("cleanAux");
+        if (meanSamples(film) >= samplesOfCleanGuides) flags.push_back("cleanAux");
     }
     device.filter(images, flags, width, height);
     film.setDenoised(std::move(result));

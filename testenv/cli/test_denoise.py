@@ -23,7 +23,7 @@ def channels(path):
     return {name: np.array(image.pixels)[..., i] for i, name in enumerate(image.channels)}
 
 
-# Below four samples the guides are denoised too.
+# Below four samples the guides count as noisy.
 @pytest.mark.parametrize("scene,samples", [("lightDome", 1), ("lightDome", 4), ("roughConductor", 4), ("texturedMesh", 4)])
 def test_the_error_falls(scene, samples, library, tmp_path):
     stage = inProcess.scene(scene)

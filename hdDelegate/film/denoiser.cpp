@@ -142,12 +142,15 @@ private:
 /// which further samples gain more (docs/measurements/denoise.md).
 constexpr double samplesOfCleanGuides = 4.0;
 
+/// Of the pixels that have any: a crop of the image leaves the others empty.
 double meanSamples(const Film& film) {
-    double sum = 0.0;
+    double sum = 0.0, pixels = 0.0;
     for (int y = 0; y < film.height(); ++y)
-        for (int x = 0; x < film.width(); ++x)
+        for (int x = 0; x < film.width(); ++x) {
             sum += film.sampleCount(x, y);
-    return sum / (double(film.width()) * film.height());
+            pixels += film.sampleCount(x, y) > 0;
+        }
+    return pixels > 0.0 ? sum / pixels : 0.0;
 }
 
 } // namespace

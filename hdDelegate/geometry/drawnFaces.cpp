@@ -44,7 +44,8 @@ DrawnTriangles drawFaces(const CageFaces& faces, const std::vector<int>& vertice
                 continue;
             drawn.triangles.push_back(triangle);
             drawn.faces.push_back(faces.authored[f]);
-            for (int k = 0; withCorners && k < 3; ++k)
+            if (!withCorners) continue;
+            for (int k = 0; k < 3; ++k)
                 drawn.corners.push_back(faces.firstCorner[f] + t[k]);
         }
     }

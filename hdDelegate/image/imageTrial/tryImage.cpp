@@ -58,6 +58,9 @@ template <class Resource> void limit(Resource resource, rlim_t most) {
 
 int main([[maybe_unused]] int count, [[maybe_unused]] char** arguments) {
     limit(RLIMIT_CORE, 0);
+    // Threads reserve address space, on large machines more than the limit allows.
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // these map terabytes
     if (count > 1) limit(RLIMIT_AS, ownBytes + std::strtoull(arguments[1], nullptr, 10));
 #endif

@@ -13,7 +13,9 @@
 #include <cstdlib>
 #include <numeric>
 
+#if defined(__GLIBC__)
 #include <malloc.h>
+#endif
 
 using namespace patina;
 
@@ -197,9 +199,14 @@ TEST(ProgramCompiler, ProgramsOfOtherThreadsRunHere) {
     }
 }
 
+/// Bytes that malloc has handed out; 0 where it does not tell.
 double heapBytes() {
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
     const struct mallinfo2 found = mallinfo2();
     return double(found.uordblks) + double(found.hblkhd);
+#else
+    return 0.0;
+#endif
 }
 
 TEST(ProgramCompiler, ProgramsThatAreDeletedLeaveNothing) {

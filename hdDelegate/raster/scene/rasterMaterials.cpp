@@ -40,7 +40,7 @@ RasterMaterials::RasterMaterials(CompiledScene& compiled, ProgramCompiler* compi
     : _compiler(compiler), _diagnostics(compiled.scene()->diagnostics()),
       _compiledMaterials(compiled.materials()), _uploaded(compiled.textures(), _diagnostics) {}
 
-void RasterMaterials::forgetUnused() {
+void RasterMaterials::forgetUnused(const RenderSettings& settings) {
     ++_turn;
     using Place = decltype(_programs)::iterator;
     std::vector<Place> unused;
@@ -49,8 +49,9 @@ void RasterMaterials::forgetUnused() {
             it->second.lastUse = _turn;
         else
             unused.push_back(it);
-    if (unused.size() <= _unused) return;
-    const auto kept = unused.end() - std::ptrdiff_t(_unused);
+    const size_t most = size_t(std::max(settings.unusedPrograms, 0));
+    if (unused.size() <= most) return;
+    const auto kept = unused.end() - std::ptrdiff_t(most);
     std::nth_element(unused.begin(), kept - 1, unused.end(),
                      [](Place a, Place b) { return a->second.lastUse < b->second.lastUse; });
     for (auto it = unused.begin(); it != kept; ++it)
@@ -59,7 +60,7 @@ void RasterMaterials::forgetUnused() {
 
 void RasterMaterials::update(const SceneState& state, const RenderSettings& settings,
                              const RasterLightPlan& lights) {
-    forgetUnused();
+    forgetUnused(settings);
     _lights = lights;
     if (const RasterAovRequest aovs(settings.aovs); !(aovs == _aovs)) {
         _aovs = aovs;
@@ -109,6 +110,7 @@ bool RasterMaterials::edit(const SceneDelta::Paths& edited, const SceneState& st
     }
     for (const auto& item : edited)
         if (_materials.erase(item.first) > 0) asked(item.first, std::string(), state, settings);
+    forgetUnused(settings);
     return true;
 }
 

@@ -76,8 +76,7 @@ public:
     /// @param user who is told about in messages
     const RasterMaterial& get(const std::string& path, const std::string& user,
                               const SceneState& state, const RenderSettings& settings);
-    /// Forgets materials whose prim has changed, and programs that nobody has used for long;
-    /// textures stay.
+    /// Forgets materials whose prim has changed, and unused programs; textures stay.
     /// @param lights that materials are lit by, for how they are
     void update(const SceneState& state, const RenderSettings& settings,
                 const RasterLightPlan& lights);
@@ -100,8 +99,9 @@ public:
 
     size_t programsBuilt() const { return _built; }
     size_t programsKept() const { return _programs.size(); }
-    /// How many programs stay beside those in use, for networks to come back to: 8 if not set.
-    void keepUnused(size_t count) { _unused = count; }
+    /// Keeps the memory of a session in which networks change from growing: of the programs that
+    /// nobody uses, `unusedPrograms` stay, those that were in use last.
+    void forgetUnused(const RenderSettings& settings);
 
     /// Expected cost of the methods of the materials in use.
     ScenePlan plan() const;
@@ -133,8 +133,6 @@ private:
         }
     };
 
-    /// Keeps the memory of a session in which networks change from growing.
-    void forgetUnused();
     Cached& compiled(const std::string& path, const std::string& user, const SceneState& state,
                      const RenderSettings& settings);
     Cached& asked(const std::string& path, const std::string& user, const SceneState& state,
@@ -159,7 +157,6 @@ private:
     std::map<std::string, Cached> _materials;
     std::map<std::string, Kept> _programs; ///< by text
     uint64_t _turn = 0;                    ///< grows with each use of a program
-    size_t _unused = 8; // 40 MB each where a driver in software compiles them
     bool _showStandIns = false;
     size_t _standIns = 0;
     RasterTextures _uploaded;

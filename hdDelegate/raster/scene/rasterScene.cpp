@@ -117,6 +117,7 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
         addPrim(item.second, own, state, camera, settings, places);
     }
     _shapes.forgetUnused();
+    _materials.forgetUnused(settings);
     _volumes.end();
     if (_draws.empty() && _volumes.placed().empty()) _boundsMin = _boundsMax = vec3(0.0f);
     _linkBuffer = GlBuffer(_links);

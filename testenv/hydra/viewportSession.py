@@ -8,7 +8,7 @@ Usage: viewportSession.py [--seconds 3600] [--backend embree|raster|interactive]
 The program viewportSession makes every kind of edit once, in random order, and takes all of them back: a cycle. Then the scene
 is what it was, and memory is counted: bytes on the heap that malloc has handed out, and resident bytes of no file, after
 malloc_trim(). The first third of the time is left out, in which caches fill. Programs that the rasterizer keeps for networks to
-come back to are others after each cycle, of 1 to 50 MB each, so it keeps none there.
+come back to are others after each cycle, up to 40 MB each, so it keeps none there.
 
 Growth is the slope of memory over edits after Theil (1950) and Sen (1968), with limits of 99 % on either side. Medians of at
 most 32 equal spans are compared, since neighbouring cycles resemble each other. Memory is flat where the upper limit is below

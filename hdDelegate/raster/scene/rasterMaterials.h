@@ -99,8 +99,8 @@ public:
 
     size_t programsBuilt() const { return _built; }
     size_t programsKept() const { return _programs.size(); }
-    /// Keeps the memory of a session in which networks change from growing: of the programs that
-    /// nobody uses, `unusedPrograms` stay, those that were in use last.
+    /// Drops programs that nobody uses, but for `unusedPrograms` of them, those that were in use
+    /// last. So the memory of a session stays bounded while networks change.
     void forgetUnused(const RenderSettings& settings);
 
     /// Expected cost of the methods of the materials in use.

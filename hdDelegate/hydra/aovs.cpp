@@ -7,6 +7,8 @@
 #include <pxr/base/gf/vec3f.h>
 #include <pxr/base/gf/vec4f.h>
 
+#include <stdexcept>
+
 namespace patina {
 
 std::string filmAovOf(const TfToken& hydraName) {

@@ -15,6 +15,7 @@
 #include <pxr/imaging/hd/tokens.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace patina {

@@ -3,6 +3,8 @@
 
 #include <OpenImageIO/half.h>
 
+#include <glm/glm.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>

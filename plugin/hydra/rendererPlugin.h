@@ -5,6 +5,8 @@
 
 #include <pxr/imaging/hd/rendererPlugin.h>
 
+#include <string>
+
 // Names of types that plugInfo.json gives hold no namespace, so this one class lives in OpenUSD's.
 PXR_NAMESPACE_OPEN_SCOPE
 

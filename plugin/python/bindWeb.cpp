@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <stdexcept>
 
 namespace py = pybind11;
 

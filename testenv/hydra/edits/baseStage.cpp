@@ -2,6 +2,7 @@
 #include "testenv/hydra/edits/baseStage.h"
 
 #include <stdexcept>
+#include <string>
 
 namespace patina {
 

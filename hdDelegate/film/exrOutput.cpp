@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/imageOutput.h"
+#include "hdDelegate/film/temporaryFailure.h"
 #include "hdDelegate/parallel.h"
 
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenImageIO/half.h>
 
 #include <algorithm>
@@ -48,6 +50,19 @@ void put(const ChannelSource& channel, const float* from, uint8_t* to) {
 }
 
 } // namespace
+
+void checkExrIsWhole(const std::string& path, const std::string& file) {
+    bool whole = false;
+    try {
+        whole = Imf::InputFile(file.c_str(), 0).isComplete();
+    } catch (const Iex::BaseExc& error) {
+        throw std::runtime_error("cannot write '" + path +
+                                 "': what was written cannot be read: " + firstLine(error.what()));
+    }
+    if (!whole)
+        throw TemporaryFailure("cannot write '" + path +
+                               "': OpenEXR left rows out, as it does where memory runs out");
+}
 
 void writeExr(const std::vector<ChannelSource>& channels, int sourceWidth,
               const ImagePlacement& placement, const std::string& path, const ImageOptions& options,

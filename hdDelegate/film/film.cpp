@@ -46,6 +46,25 @@ bool alwaysThere(const std::string& name) {
     return id != AovId::unknown && aovRows()[size_t(id)].ofFilm;
 }
 
+/// Files of others may hold any. Who reads an AOV by its name counts on what the table says of it.
+/// @throws std::invalid_argument for an AOV that no film can have
+void checkSpec(const AovSpec& spec) {
+    const std::string aov = "AOV " + spec.name + " has ";
+    const int most = spec.kind == AovKind::Coverage ? cryptomatteComponents(16) : 16;
+    if (spec.components < 1 || spec.components > most)
+        throw std::invalid_argument(aov + std::to_string(spec.components) +
+                                    " components, not 1 to " + std::to_string(most));
+    if (spec.name == noisyColor) throw std::invalid_argument(aov + "a name that films keep");
+    const AovId id = aovIdOf(spec.name);
+    if (id == AovId::unknown) return;
+    const AovRow& row = aovRows()[size_t(id)];
+    if (spec.kind != row.kind) throw std::invalid_argument(aov + "values of another kind");
+    const bool any = id == AovId::primvars || row.kind == AovKind::Coverage;
+    if (!any && spec.components != row.components)
+        throw std::invalid_argument(aov + std::to_string(spec.components) + " components, not " +
+                                    std::to_string(row.components));
+}
+
 /// As assign(), but a vector of that size keeps its memory and is filled on all threads.
 template <class Value> void fill(std::vector<Value>& values, size_t count, const Value& value) {
     if (values.size() != count) return values.assign(count, value);
@@ -78,13 +97,8 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
         int64_t(width) * height > maxPixels)
         throw std::invalid_argument("film size " + std::to_string(width) + "x" +
                                     std::to_string(height) + " is not possible");
-    for (const AovSpec& spec : aovs) {
-        const int most = spec.kind == AovKind::Coverage ? cryptomatteComponents(16) : 16;
-        if (spec.components < 1 || spec.components > most)
-            throw std::invalid_argument("AOV " + spec.name + " has " +
-                                        std::to_string(spec.components) + " components, not 1 to " +
-                                        std::to_string(most));
-    }
+    for (const AovSpec& spec : aovs)
+        checkSpec(spec);
     bool same = width == _width && height == _height &&
                 std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);
     _denoised.clear();

@@ -48,7 +48,8 @@ class Film {
 public:
     /// Clears everything unless size and AOVs are as before and keep is set. color, alpha,
     /// sampleCount and variance are always there and may be listed.
-    /// @throws std::invalid_argument for a negative or absurd size or number of components
+    /// @throws std::invalid_argument for a negative or absurd size or number of components, or an
+    /// AOV of the table (aovs.def) that is unlike its row
     void reset(int width, int height, const std::vector<AovSpec>& aovs, bool keep = false);
 
     int width() const { return _width; }

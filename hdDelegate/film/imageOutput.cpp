@@ -130,6 +130,7 @@ void writeAtomically(const std::string& path, const OIIO::ImageSpec& spec,
         failWith("cannot write '" + path + "'", problem);
     if (!good) fail(path, reason);
     if (!watched) readBack(path, file.temporaryPath());
+    if (isExr(path)) checkExrIsWhole(path, file.temporaryPath());
     file.commit();
 }
 

@@ -48,6 +48,11 @@ void writeExr(const std::vector<ChannelSource>& channels, int sourceWidth,
               const ImagePlacement& placement, const std::string& path, const ImageOptions& options,
               const Metadata& metadata);
 
+/// OpenEXR does not tell its caller when one of its own threads could not compress its rows.
+/// @param path that messages name; file: what was written
+/// @throws TemporaryFailure when rows are missing, std::runtime_error when it cannot be read
+void checkExrIsWhole(const std::string& path, const std::string& file);
+
 /// @param channels 1, 3 or 4: grey, colour, colour multiplied by alpha
 void writeDisplayImage(const float* pixels, int channels, int sourceWidth,
                        const ImagePlacement& placement, const std::string& path,

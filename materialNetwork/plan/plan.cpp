@@ -38,6 +38,7 @@ public:
 private:
     const GraphNode& nodeOf(int node) const { return _plan.graph.nodes[size_t(node)]; }
 
+    /// @param name of an input that all nodes of its kind of closure have
     const Operand& input(const GraphNode& node, const char* name) const {
         return node.inputs[size_t(node.def->findInput(name))];
     }
@@ -47,7 +48,9 @@ private:
         if (operand.isConstant()) return;
         const GraphNode& node = nodeOf(operand.node);
         switch (node.def->closure) {
-        case ClosureKind::Material: planSurface(input(node, "surfaceshader"), terminal); return;
+        case ClosureKind::Material:
+            if (node.def->findInput("surfaceshader") < 0) break;
+            return planSurface(input(node, "surfaceshader"), terminal);
         case ClosureKind::Surface: {
             const Operand bsdf = input(node, "bsdf"), edf = input(node, "edf");
             _plan.opacity = input(node, "opacity");
@@ -122,7 +125,8 @@ private:
     void planVolume(const Operand& operand) {
         if (operand.isConstant()) return;
         const GraphNode& node = nodeOf(operand.node);
-        if (node.def->closure == ClosureKind::Material) {
+        if (node.def->closure == ClosureKind::Material &&
+            node.def->findInput("volumeshader") >= 0) {
             planVolume(input(node, "volumeshader"));
         } else if (node.def->closure == ClosureKind::Volume) {
             const Operand vdf = input(node, "vdf"), edf = input(node, "edf");

@@ -218,6 +218,22 @@ TEST(MergeSurfaceShaders, VolumesAreMixed) {
     expectColor(medium.scattering(), 2.0f, 2.0f, 2.0f);
 }
 
+TEST(MergeSurfaceShaders, AMaterialThatHasNoSuchShaderIsNone) {
+    Network network;
+    network.path = "/m";
+    network.nodes = {makeNode("m", "ND_surfacematerial", {}),
+                     makeNode("v", "ND_volumematerial", {})};
+    network.terminals["volume"] = {"/m/m", ""};
+    Compiled surface(network);
+    EXPECT_EQ(warnings(surface.diagnostics),
+              "/m/m volume: surfacematerial is not a volume; it is ignored\n");
+    EXPECT_FALSE(surface.program->hasInterior());
+    network.terminals = {{"surface", {"/m/v", ""}}, {"displacement", {"/m/v", ""}}};
+    Compiled volume(network);
+    EXPECT_EQ(warnings(volume.diagnostics),
+              "/m/v displacement: volumematerial is not a displacement; it is ignored\n");
+}
+
 TEST(MergeSurfaceShaders, MediaOfMixedSurfacesAreMixed) {
     const auto glass = [](const std::string& name, float absorption) {
         return std::vector<NetworkNode>{

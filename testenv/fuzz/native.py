@@ -57,7 +57,7 @@ def _why(text):
         match = re.search(pattern, text)
         if match:
             frame = re.search(r"#\d+ 0x\w+ in (patina::\S+)[^\n]*?([\w./]+:\d+)?", text)
-            reason = match.group(1) if match.groups() else pattern.rpartition(" ")[2]
+            reason = re.sub(r"0x[0-9a-f]+", "*", match.group(1)) if match.groups() else pattern.rpartition(" ")[2]
             return kind, f"{reason[:120]}" + (f" in {frame.group(1)[:80]}" if frame else "")
     return "crash", (text.strip().splitlines() or ["no words"])[-1][:160]
 

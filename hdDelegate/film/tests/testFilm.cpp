@@ -218,6 +218,17 @@ TEST(Film, WrongRequestsAreRefusedByName) {
     EXPECT_THROW(film.reset(-1, 4, {}), std::invalid_argument);
     EXPECT_THROW(film.reset(1 << 30, 1 << 30, {}), std::invalid_argument);
     EXPECT_THROW(film.reset(1, 1, {{"wide", 17, AovKind::Mean, 0, false}}), std::invalid_argument);
+    // As files of others may ask for them: resolve() and the denoiser write and read three floats.
+    const std::vector<AovSpec> others = {{"color", 1, AovKind::Mean, 0, false},
+                                         {"color", 3, AovKind::Coverage, 0, false},
+                                         {"color.noisy", 1, AovKind::Mean, 0, false},
+                                         {"denoisingAlbedo", 1, AovKind::Mean, 0, false},
+                                         {"depth", 1, AovKind::Mean, 0, false},
+                                         {"lpe:C.*", 2, AovKind::Mean, 0, false}};
+    for (const AovSpec& spec : others)
+        EXPECT_THROW(film.reset(1, 1, {spec}), std::invalid_argument) << spec.name;
+    film.reset(1, 1, {{"color", 3, AovKind::Mean, 0, false}, {"mine", 2, AovKind::Mean, 0, false}});
+    EXPECT_EQ(film.resolve("color").size(), 3u);
     try {
         standardAov("shininess");
         FAIL();

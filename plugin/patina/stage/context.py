@@ -4,7 +4,7 @@ import numpy as np
 from pxr import Gf, Usd, UsdGeom
 
 from .colorSpaces import ColorSpaces
-from .errors import one_line
+from .errors import StageError, one_line
 from .fallbacks import Fallbacks
 
 MAX_MOTION_SAMPLES = 16
@@ -140,10 +140,11 @@ def array(context, prim, name, value, components, dtype=np.float32):
 
 
 class Guard:
-    """Turns an error while one prim is read into a warning: one broken prim is not drawn, the rest is."""
+    """Turns an error while one prim is read into a warning: one broken prim is not drawn, the rest is. Without a prim that is
+    needed there is nothing to render: then it becomes a StageError."""
 
-    def __init__(self, context, prim):
-        self.context, self.prim = context, prim
+    def __init__(self, context, prim, needed=False):
+        self.context, self.prim, self.needed = context, prim, needed
 
     def __enter__(self):
         return self
@@ -152,5 +153,7 @@ class Guard:
         if kind is None or not issubclass(kind, Exception):
             return False
         text = "there is not enough memory for it" if issubclass(kind, MemoryError) else one_line(error)[:300]
+        if self.needed:
+            raise StageError(f"{self.prim.GetPath()} cannot be read: {text}") from error
         self.context.warn(self.prim.GetPath(), "", f"cannot be read and is not drawn: {text}")
         return True

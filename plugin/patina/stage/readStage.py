@@ -18,7 +18,7 @@ def read_stage(stage, edit, options=None):
     :param stage: Usd.Stage; materials of MaterialX documents are added to its session layer
     :param edit: `_patina.SceneEdit`, not committed here
     :returns: StageInfo
-    :raises StageError: when the camera that was asked for is not there"""
+    :raises StageError: when the camera that was asked for is not there, or the one that is used cannot be read"""
     context = Context(stage, edit, options or StageOptions())
     with compat.QuietDiagnostics() as quiet:
         try:
@@ -49,7 +49,7 @@ def _read(context):
     has_lights = _emit_lights(context, walked, linking)
     _emit_geometry(context, walked, bindings, linking, _patina)
     for found in walked.cameras:
-        with Guard(context, found.prim):
+        with Guard(context, found.prim, needed=found is chosen):
             cameras.emit(context, found)
     for path, material in bindings.materials.items():
         with Guard(context, material.GetPrim()):

@@ -2,6 +2,9 @@
 """Cameras: fields, choice, framing."""
 import pytest
 
+from patina.cli.errors import is_temporary
+from patina.stage import StageError, cameras
+
 
 def test_every_field(read, numbers):
     reading = read("""def Camera "c" {
@@ -126,3 +129,25 @@ def test_what_cameras_have_beyond_the_schema(read):
 def test_a_value_that_is_neither_number_nor_text(read):
     reading = read('def Camera "c" { float3 patina:fieldOfView = (1, 2, 3) }')
     assert reading.warnings == ["/c patina:fieldOfView: is neither a number nor a text; it is left out"]
+
+
+@pytest.mark.parametrize("error, text, passes", (
+    (MemoryError(), "/c cannot be read: there is not enough memory for it", True),
+    (ValueError("no camera"), "/c cannot be read: no camera", False)))
+def test_without_the_camera_that_is_used_there_is_no_image(read, monkeypatch, error, text, passes):
+    emit = cameras.emit
+
+    def fails_once(context, found):
+        if found.path == "/c":
+            raise error
+        emit(context, found)
+
+    monkeypatch.setattr(cameras, "emit", fails_once)
+    stage = 'def Camera "a" {}\ndef Camera "c" {}'
+    with pytest.raises(StageError) as raised:
+        read(stage, camera="/c")
+    assert str(raised.value) == text
+    assert is_temporary(raised.value) == passes
+    reading = read(stage)  # which uses the first
+    assert any(warning.startswith("/c") and "is not drawn" in warning for warning in reading.warnings)
+    assert reading.scene.camera("/a")

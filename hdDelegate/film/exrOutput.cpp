@@ -3,6 +3,7 @@
 #include "hdDelegate/film/temporaryFailure.h"
 #include "hdDelegate/parallel.h"
 
+#include <OpenEXR/IexBaseExc.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenImageIO/half.h>
 

@@ -46,9 +46,19 @@ bool alwaysThere(const std::string& name) {
     return id != AovId::unknown && aovRows()[size_t(id)].ofFilm;
 }
 
-/// Files of others may hold any. Who reads an AOV by its name counts on what the table says of it.
-/// @throws std::invalid_argument for an AOV that no film can have
-void checkSpec(const AovSpec& spec) {
+/// As assign(), but a vector of that size keeps its memory and is filled on all threads.
+template <class Value> void fill(std::vector<Value>& values, size_t count, const Value& value) {
+    if (values.size() != count) return values.assign(count, value);
+    constexpr size_t part = 1 << 16;
+    parallelFor(size_t(0), (count + part - 1) / part, [&](size_t i) {
+        std::fill(values.begin() + ptrdiff_t(i * part),
+                  values.begin() + ptrdiff_t(std::min(count, (i + 1) * part)), value);
+    });
+}
+
+} // namespace
+
+void checkAovSpec(const AovSpec& spec) {
     const std::string aov = "AOV " + spec.name + " has ";
     const int most = spec.kind == AovKind::Coverage ? cryptomatteComponents(16) : 16;
     if (spec.components < 1 || spec.components > most)
@@ -64,18 +74,6 @@ void checkSpec(const AovSpec& spec) {
         throw std::invalid_argument(aov + std::to_string(spec.components) + " components, not " +
                                     std::to_string(row.components));
 }
-
-/// As assign(), but a vector of that size keeps its memory and is filled on all threads.
-template <class Value> void fill(std::vector<Value>& values, size_t count, const Value& value) {
-    if (values.size() != count) return values.assign(count, value);
-    constexpr size_t part = 1 << 16;
-    parallelFor(size_t(0), (count + part - 1) / part, [&](size_t i) {
-        std::fill(values.begin() + ptrdiff_t(i * part),
-                  values.begin() + ptrdiff_t(std::min(count, (i + 1) * part)), value);
-    });
-}
-
-} // namespace
 
 /// @param plane of such an AOV, whose memory is used again, or an empty one
 void Film::clearPlane(const AovSpec& spec, size_t pixels, Plane& plane) {
@@ -98,7 +96,7 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
         throw std::invalid_argument("film size " + std::to_string(width) + "x" +
                                     std::to_string(height) + " is not possible");
     for (const AovSpec& spec : aovs)
-        checkSpec(spec);
+        checkAovSpec(spec);
     bool same = width == _width && height == _height &&
                 std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);
     _denoised.clear();

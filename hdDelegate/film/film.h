@@ -35,6 +35,10 @@ struct AovSpec {
 /// @throws std::invalid_argument naming an unknown AOV, or what is wrong with its light path
 /// expression
 AovSpec standardAov(const std::string& name);
+/// Files of others may hold any AOV. Who reads one by its name counts on what the table says of it.
+/// @throws std::invalid_argument for one that no film can have: components from 1 to 16 (of
+/// Cryptomatte more), or those of its row, and its kind of values
+void checkAovSpec(const AovSpec& spec);
 
 /// The specs of those that a renderer writes: all but the film's own.
 /// @param cryptomatteLevels ids per pixel that images hold, 1 to 16

@@ -4,6 +4,7 @@
 #include "hdDelegate/film/cryptomatteHash.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace patina {
 
@@ -52,9 +53,13 @@ FilmStream::Header FilmStream::readHeader(FilmFileReader& file) {
         const int32_t kind = file.value<int32_t>();
         spec.clearValue = file.value<float>();
         spec.isInteger = file.value<uint32_t>() != 0;
-        if (spec.components < 1 || kind < 0 || kind > int(AovKind::Coverage))
-            file.fail("it is damaged");
+        if (kind < 0 || kind > int(AovKind::Coverage)) file.fail("it is damaged");
         spec.kind = AovKind(kind);
+        try {
+            checkAovSpec(spec);
+        } catch (const std::invalid_argument&) {
+            file.fail("it is damaged");
+        }
         if (spec.kind != AovKind::Coverage) continue;
         std::vector<std::string>& names = header.names[spec.name];
         for (uint32_t left = file.value<uint32_t>(); left > 0; --left)

@@ -226,12 +226,12 @@ TEST(MergeSurfaceShaders, AMaterialThatHasNoSuchShaderIsNone) {
     network.terminals["volume"] = {"/m/m", ""};
     Compiled surface(network);
     EXPECT_EQ(warnings(surface.diagnostics),
-              "/m/m volume: surfacematerial is not a volume; it is ignored\n");
+              "/m/m [volume] surfacematerial is not a volume; it is ignored\n");
     EXPECT_FALSE(surface.program->hasInterior());
     network.terminals = {{"surface", {"/m/v", ""}}, {"displacement", {"/m/v", ""}}};
     Compiled volume(network);
     EXPECT_EQ(warnings(volume.diagnostics),
-              "/m/v displacement: volumematerial is not a displacement; it is ignored\n");
+              "/m/v [displacement] volumematerial is not a displacement; it is ignored\n");
 }
 
 TEST(MergeSurfaceShaders, MediaOfMixedSurfacesAreMixed) {

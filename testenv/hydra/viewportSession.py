@@ -10,8 +10,9 @@ is what it was, and memory is counted: bytes on the heap that malloc has handed 
 malloc_trim(). The first third of the time is left out, in which caches fill. Programs that the rasterizer keeps for networks to
 come back to are others after each cycle, up to 40 MB each, so it keeps none there.
 
-Growth is the slope of memory over edits after Theil (1950) and Sen (1968), with limits of 99 % on either side. Medians of at
-most 32 equal spans are compared, since neighbouring cycles resemble each other. Memory is flat where the upper limit is below
+Growth is the slope of memory over edits after Theil (1950) and Sen (1968), with limits of 99 % on either side. At most 20 equal
+spans are compared, each by its smallest count: what an edit leaves behind for good is in all later counts, while what a driver
+has compiled for a program's last uses comes and goes with the order of edits. Memory is flat where the upper limit is below
 a bound, and grows where the lower one is above: 32 bytes of the heap for each edit, malloc's smallest chunk, so that below it
 not every edit can leave something behind; for resident memory one page of 4096 bytes for each cycle.
 
@@ -41,7 +42,7 @@ import results  # noqa: E402
 
 CHUNK = 32  # bytes: the smallest that malloc hands out on 64-bit machines, with its header
 PAGE = 4096
-SPANS = 32
+SPANS = 20
 CONFIDENCE = 0.99  # of each limit
 BACKENDS = ("embree", "raster", "interactive")
 
@@ -81,7 +82,8 @@ def growth(samples, key):
     if len(samples) < 4:
         return 0.0, -np.inf, np.inf
     spans = np.array_split(np.arange(len(samples)), min(SPANS, len(samples)))
-    x, y = ([np.median(of[span]) for span in spans] for of in (edits, memory))
+    least = [span[np.argmin(memory[span])] for span in spans]
+    x, y = edits[least], memory[least]
     slope, _, low, high = stats.theilslopes(y, x, 2 * CONFIDENCE - 1)
     return slope, low, high
 

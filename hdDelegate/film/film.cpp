@@ -69,8 +69,9 @@ void checkAovSpec(const AovSpec& spec) {
     if (id == AovId::unknown) return;
     const AovRow& row = aovRows()[size_t(id)];
     if (spec.kind != row.kind) throw std::invalid_argument(aov + "values of another kind");
-    const bool any = id == AovId::primvars || row.kind == AovKind::Coverage;
-    if (!any && spec.components != row.components)
+    if (row.kind == AovKind::Coverage) return;
+    const int least = id == AovId::primvars ? 1 : row.components;
+    if (spec.components < least || spec.components > row.components)
         throw std::invalid_argument(aov + std::to_string(spec.components) + " components, not " +
                                     std::to_string(row.components));
 }

@@ -36,8 +36,8 @@ struct AovSpec {
 /// expression
 AovSpec standardAov(const std::string& name);
 /// Files of others may hold any AOV. Who reads one by its name counts on what the table says of it.
-/// @throws std::invalid_argument for one that no film can have: components from 1 to 16 (of
-/// Cryptomatte more), or those of its row, and its kind of values
+/// @throws std::invalid_argument for one that no film can have: with other than 1 to 16 components
+/// (of Cryptomatte more), or unlike the row of its name
 void checkAovSpec(const AovSpec& spec);
 
 /// The specs of those that a renderer writes: all but the film's own.

@@ -224,6 +224,7 @@ TEST(Film, WrongRequestsAreRefusedByName) {
                                          {"color.noisy", 1, AovKind::Mean, 0, false},
                                          {"denoisingAlbedo", 1, AovKind::Mean, 0, false},
                                          {"depth", 1, AovKind::Mean, 0, false},
+                                         {"primvars:st", 4, AovKind::First, 0, false},
                                          {"lpe:C.*", 2, AovKind::Mean, 0, false}};
     for (const AovSpec& spec : others)
         EXPECT_THROW(film.reset(1, 1, {spec}), std::invalid_argument) << spec.name;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checkpoints and parts of frames that others made, with right checksums.
+#include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/film.h"
+#include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/film/partial.h"
 #include "testenv/fuzz/targets/forgeChecksums.h"
 #include "testenv/fuzz/targets/memoryFile.h"
 #include "testenv/fuzz/targets/targets.h"
 
+#include <cstdlib>
 #include <stdexcept>
 
 int fuzzFilm(const uint8_t* data, size_t size) {
@@ -30,8 +33,15 @@ int fuzzFilm(const uint8_t* data, size_t size) {
         return 0;
     }
     if (int64_t(film.width()) * film.height() > 4096) return 0;
-    for (const AovSpec& spec : film.aovs())
-        (void)film.resolve(spec.name);
+    for (const AovSpec& held : film.aovs()) {
+        AovSpec spec; // another one, where names are there twice
+        if (!film.findSpec(held.name, spec)) std::abort();
+        const size_t channels = channelNames(spec).size();
+        const size_t values = film.resolve(spec.name).size();
+        if (channels != size_t(spec.components) || values % channels != 0) std::abort();
+        if (spec.kind == AovKind::Coverage)
+            (void)cryptomatteManifest(film.coverageNames(spec.name));
+    }
     (void)film.resolve("color");
     return 0;
 }

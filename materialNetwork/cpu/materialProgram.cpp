@@ -135,7 +135,8 @@ glm::vec3 MaterialProgram::displacementAt(const ShadingPoint& point) const {
 }
 
 void MaterialProgram::evaluate(const ShadingPoint& point, Bsdf& out) const {
-    if (_code->surfaceCode.empty()) {
+    // Walked layers keep all registers, not constants alone.
+    if (_code->surfaceCode.empty() && _code->walkedLayers == 0) {
         BsdfBuilder::build(*_code, point, _code->constants.data(), out);
         return;
     }

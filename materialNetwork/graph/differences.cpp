@@ -12,7 +12,8 @@ namespace patina {
 namespace {
 
 constexpr int blurTaps = sh::BLUR_TAPS * sh::BLUR_TAPS;
-constexpr size_t maxNodes = 20000; ///< blurs of blurs multiply; a graph beyond this stops growing
+constexpr size_t maxNodes = 20000; ///< blurs and slopes of each other multiply; a graph beyond
+                                   ///< this stops growing
 
 Operand number(float x) {
     Operand operand;
@@ -69,6 +70,11 @@ private:
     }
 
     Operand slopeOf(const GraphNode& node) {
+        if (_out.nodes.size() > maxNodes) {
+            _diagnostics.warn(node.path, "in",
+                              "too much would have to be evaluated for its slope; it is flat");
+            return add(node);
+        }
         const auto along = [&](int input, float axis) {
             return moved(node.inputs[size_t(input)],
                          [&](const Operand& read, ValueType type, bool world) {

@@ -30,17 +30,22 @@ public:
         _result.path = _network.path;
         for (const auto& [name, c] : _network.terminals)
             request(c.node, 0);
-        while (!_queue.empty() && _nodes <= _maxNodes) {
+        while (!_queue.empty() && !isTooLarge()) {
             const auto [path, depth] = _queue.front();
             _queue.pop_front();
             const auto found = _source.find(path);
             if (found != _source.end()) visit(*found->second, depth);
         }
-        if (_nodes > _maxNodes) {
+        if (isTooLarge()) {
             // Definitions that use others twice, those others twice, and so on.
-            _diagnostics.warn(_network.path, "",
-                              "the material expands to more nodes than " + limitText(Limit::nodes) +
-                                  "; it is left out");
+            _diagnostics.warn(
+                _network.path, "",
+                (_nodes > _maxNodes
+                     ? "the material expands to more nodes than " + limitText(Limit::nodes)
+                     : "the names and texts of the expanded material take more bytes "
+                       "than " +
+                           limitText(Limit::documentBytes)) +
+                    "; it is left out");
             Network nothing;
             nothing.path = _network.path;
             return nothing;
@@ -87,9 +92,10 @@ private:
         const std::string prefix = node.path + "/";
         _instances[node.path] = {model, prefix};
         _nodes += 1 + model->nodes.size();
-        if (_nodes > _maxNodes) return;
+        if (isTooLarge()) return;
         reportInputs(node, *model);
         for (const NetworkNode& inner : model->nodes) {
+            if (isTooLarge()) return;
             _owned.push_back(instantiate(inner, node, *model, prefix, depth));
             _source[_owned.back().path] = &_owned.back();
         }
@@ -135,12 +141,17 @@ private:
                found->second.value.numbers == value.numbers;
     }
 
+    bool isTooLarge() const { return _nodes > _maxNodes || _bytes > _maxBytes; }
+
     NetworkNode instantiate(const NetworkNode& inner, const NetworkNode& outer,
                             const ShadingModel& model, const std::string& prefix, int depth) {
         NetworkNode node;
         node.path = prefix + inner.path;
         node.id = inner.id;
         node.inputs = inner.inputs;
+        _bytes += node.path.size() * (1 + inner.connections.size());
+        for (const auto& [input, value] : inner.inputs)
+            _bytes += value.text.size();
         for (const auto& [input, c] : inner.connections) {
             if (c.node != ShadingModel::interfaceNode) {
                 node.connections[input] = {prefix + c.node, c.output};
@@ -234,6 +245,8 @@ private:
     size_t _nodes = 0;              ///< of the result and of all models taken in
     std::deque<std::pair<std::string, int>> _queue;
     const size_t _maxNodes = limitOf(Limit::nodes);
+    const size_t _maxBytes = limitOf(Limit::documentBytes);
+    size_t _bytes = 0; ///< of paths and texts of what models became
     Network _result;
 };
 

@@ -6,12 +6,17 @@
 #include "materialNetwork/nodes/nodeTable.h"
 #include "materialNetwork/network/value.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace patina {
 
 namespace {
 
 // The builder follows connections by recursion; a chain this long is no material.
 constexpr int maxChain = 1000;
+// What was built before makes a chain longer; conversions stand between its nodes.
+constexpr int maxHeight = 3 * maxChain;
 
 class GraphBuilder {
 public:
@@ -52,6 +57,10 @@ private:
     bool follow(const Connection& c, Operand& out, std::string& problem) {
         const int node = build(c.node, problem);
         if (node < 0) return false;
+        if (heightOf(node) > maxHeight) {
+            problem = "the chain of nodes is too long";
+            return false;
+        }
         const NodeDef& def = *_graph.nodes[size_t(node)].def;
         const int output = def.findOutput(c.output);
         if (output < 0) {
@@ -94,6 +103,18 @@ private:
         --_depth;
         _built[path] = index;
         return index;
+    }
+
+    /// The longest way from a node to one without connected inputs.
+    int heightOf(int node) {
+        for (size_t i = _heights.size(); i <= size_t(node); ++i) {
+            int height = 0;
+            for (const Operand& input : _graph.nodes[i].inputs)
+                if (!input.isConstant())
+                    height = std::max(height, 1 + _heights[size_t(input.node)]);
+            _heights.push_back(height);
+        }
+        return _heights[size_t(node)];
     }
 
     int addNode(const NetworkNode& node, const NodeDef& def) {
@@ -193,6 +214,7 @@ private:
     std::map<std::string, const NetworkNode*> _source;
     std::map<std::string, int> _built;
     int _depth = 0;
+    std::vector<int> _heights; ///< of the first nodes of the graph
     Graph _graph;
 };
 

@@ -3,6 +3,8 @@
 
 #include "materialNetwork/nodes/nodeTable.h"
 
+#include <map>
+
 namespace patina {
 
 namespace {
@@ -135,8 +137,15 @@ private:
     }
 
     Surface surfaceOf(const Operand& operand) {
+        if (operand.isConstant()) return {};
+        const auto known = _surfaces.find(operand.node);
+        if (known != _surfaces.end()) return known->second;
+        const Surface found = surfaceOfNode(operand);
+        return _surfaces[operand.node] = found;
+    }
+
+    Surface surfaceOfNode(const Operand operand) {
         Surface s;
-        if (operand.isConstant()) return s; // black
         switch (kindOf(operand)) {
         case ClosureKind::Material: return materialOf(operand);
         case ClosureKind::SurfaceUnlit: return unlitOf(operand);
@@ -270,8 +279,15 @@ private:
     }
 
     Displacement displacementOf(const Operand& operand) {
+        if (operand.isConstant()) return {};
+        const auto known = _displacements.find(operand.node);
+        if (known != _displacements.end()) return known->second;
+        const Displacement found = displacementOfNode(operand);
+        return _displacements[operand.node] = found;
+    }
+
+    Displacement displacementOfNode(const Operand operand) {
         Displacement d;
-        if (operand.isConstant()) return d;
         switch (kindOf(operand)) {
         case ClosureKind::Material: return displacementOf(input(operand, "displacementshader"));
         case ClosureKind::Displacement: {
@@ -305,8 +321,15 @@ private:
     }
 
     Volume volumeOf(const Operand& operand) {
+        if (operand.isConstant()) return {};
+        const auto known = _volumes.find(operand.node);
+        if (known != _volumes.end()) return known->second;
+        const Volume found = volumeOfNode(operand);
+        return _volumes[operand.node] = found;
+    }
+
+    Volume volumeOfNode(const Operand operand) {
         Volume v;
-        if (operand.isConstant()) return v;
         switch (kindOf(operand)) {
         case ClosureKind::Material: return volumeOf(input(operand, "volumeshader"));
         case ClosureKind::Volume:
@@ -336,6 +359,10 @@ private:
 
     Graph& _graph;
     Diagnostics& _diagnostics;
+    // By node: what is shared is made one once.
+    std::map<int, Surface> _surfaces;
+    std::map<int, Displacement> _displacements;
+    std::map<int, Volume> _volumes;
 };
 
 } // namespace

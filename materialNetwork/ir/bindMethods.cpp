@@ -30,6 +30,8 @@ public:
 
     void run() {
         _ir.layerTransmittance = _methods.get<method::LayerTransmittance>();
+        if (_ir.topsAreVast && _ir.layerTransmittance == LayerTransmittance::Returned)
+            _ir.layerTransmittance = LayerTransmittance::Largest;
         _ir.slabsHaveTwoFaces = _methods.get<method::ThinWalled>() != method::ThinWalled::Sheet;
         bool changed = false;
         for (LobeTemplate& t : _ir.lobes)

@@ -87,14 +87,15 @@ Register IrBuilder::constant(const Value& value) {
     if (key.size() < 4) key.resize(4, 0.0f);
     const auto known = _constants.find(key);
     if (known != _constants.end()) return known->second;
-    if (_constants.size() >= 30000) {
+    const size_t first = _ir.constants.size(), count = (key.size() + 3) / 4;
+    if (first + count > 30000) {
         _overflow = true;
         return 0;
     }
-    const Register r = Register(_ir.constants.size());
+    const Register r = Register(first);
     Value rows;
     rows.numbers = key;
-    _ir.constants.resize(size_t(r) + (key.size() + 3) / 4);
+    _ir.constants.resize(first + count);
     valueRows(rows, &_ir.constants[r]);
     _constants.emplace(std::move(key), r);
     return r;

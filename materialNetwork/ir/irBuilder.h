@@ -38,6 +38,7 @@ private:
     bool isShadingPoints(const Operand& operand, const char* standard) const;
     int frame(const PlanClosure& closure, bool flips, std::vector<bool>& needed);
     void markTops(std::vector<ClosureOp>& ops) const;
+    void markVastTops(const std::vector<ClosureOp>& ops);
     void markLobes(std::vector<ClosureOp>& ops) const;
     void markLayers(std::vector<ClosureOp>& ops) const;
     bool isPassThrough(const PlanClosure& closure) const;

@@ -5,6 +5,8 @@
 
 #include "materialNetwork/plan/layering.h"
 
+#include <algorithm>
+
 namespace patina {
 
 std::vector<ClosureOp> IrBuilder::linearOps(int root, std::vector<bool>& needed) {
@@ -121,6 +123,24 @@ void IrBuilder::bsdfOps(std::vector<bool>& needed) {
     markTops(_ir.bsdf);
     markLobes(_ir.bsdf);
     markLayers(_ir.bsdf);
+    markVastTops(_ir.bsdf);
+}
+
+/// Light that returns beneath a top is found along every way through the top, and a closure that is
+/// shared lies on many: on 2^n of n sums that each add the one before to itself.
+void IrBuilder::markVastTops(const std::vector<ClosureOp>& ops) {
+    constexpr uint32_t mostWays = 4096;
+    std::vector<uint32_t> ways(ops.size(), 1);
+    for (size_t i = 0; i < ops.size(); ++i) {
+        for (const int part : {ops[i].a, ops[i].b})
+            if (part >= 0) ways[i] += ways[size_t(part)];
+        ways[i] = std::min(ways[i], mostWays);
+        _ir.topsAreVast |= ops[i].kind == ClosureKind::Layer && ways[i] == mostWays;
+    }
+    if (_ir.topsAreVast)
+        _diagnostics.warn(_plan.graph.path, "",
+                          "its layers share too many closures; what they lay over is darkened as "
+                          "by the method layerTransmittance=largest");
 }
 
 void IrBuilder::markLobes(std::vector<ClosureOp>& ops) const {

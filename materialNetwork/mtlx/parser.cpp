@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/mtlx/parser.h"
 
+#include "base/limits.h"
+#include "materialNetwork/mtlx/giveNodes.h"
 #include "materialNetwork/mtlx/include.h"
 #include "materialNetwork/mtlx/lists.h"
 #include "materialNetwork/mtlx/xmlFile.h"
@@ -33,32 +35,6 @@ bool isPort(const char* name) {
 /// Of the paths of a graph's nodes.
 std::string prefixOf(const pugi::xml_node& graph) {
     return "/" + std::string(graph.attribute("name").value()) + "/";
-}
-
-/// Gives each material the nodes that its terminals reach, in the order of the document.
-void giveNodes(const std::vector<NetworkNode>& nodes, std::vector<Network>& materials) {
-    std::map<std::string, size_t> places;
-    for (size_t i = 0; i < nodes.size(); ++i)
-        places.emplace(nodes[i].path, i);
-    for (Network& material : materials) {
-        std::set<size_t> reached;
-        std::vector<size_t> open;
-        const auto reach = [&](const Connection& c) {
-            const auto found = places.find(c.node);
-            if (found != places.end() && reached.insert(found->second).second)
-                open.push_back(found->second);
-        };
-        for (const auto& [name, c] : material.terminals)
-            reach(c);
-        while (!open.empty()) {
-            const NetworkNode& node = nodes[open.back()];
-            open.pop_back();
-            for (const auto& [input, c] : node.connections)
-                reach(c);
-        }
-        for (const size_t i : reached)
-            material.nodes.push_back(nodes[i]);
-    }
 }
 
 } // namespace
@@ -237,11 +213,7 @@ bool MtlxParser::connectInterface(const Element& port, const Scope& scope, Netwo
     for (const Element& child : scope.element.children())
         if (isPort(child.name()) && interface == child.attribute("name").value()) {
             const Scope outer{scope.element.parent(), "/", false};
-            Connection c;
-            if (connect(child, outer, c))
-                node.connections[name] = c;
-            else if (child.attribute("value"))
-                node.inputs[name] = readValue(child);
+            take(child, outer, node, name);
             return true;
         }
     _diagnostics.warn(where(port.parent()), name,
@@ -252,17 +224,36 @@ bool MtlxParser::connectInterface(const Element& port, const Scope& scope, Netwo
 void MtlxParser::readInput(const Element& input, const Scope& scope, NetworkNode& node) {
     const std::string name = input.attribute("name").value();
     if (connectInterface(input, scope, node, name)) return;
+    take(input, scope, node, name);
+}
+
+void MtlxParser::take(const Element& port, const Scope& scope, NetworkNode& node,
+                      const std::string& name) {
     Connection c;
-    if (connect(input, scope, c))
-        node.connections[name] = c;
-    else if (input.attribute("value"))
-        node.inputs[name] = readValue(input);
+    if (connect(port, scope, c)) {
+        if (hasRoom(c.node.size())) node.connections[name] = std::move(c);
+    } else if (port.attribute("value")) {
+        Value value = readValue(port);
+        if (hasRoom(value.text.size())) node.inputs[name] = std::move(value);
+    }
+}
+
+bool MtlxParser::hasRoom(size_t bytes) {
+    const uint64_t most = limitOf(Limit::documentBytes);
+    if (_bytes > most) return false;
+    _bytes += bytes;
+    if (_bytes > most)
+        _diagnostics.warn(_path, "",
+                          "the names and texts of its nodes take more bytes than " +
+                              limitText(Limit::documentBytes) + "; what follows is left out");
+    return _bytes <= most;
 }
 
 void MtlxParser::readNode(const Element& element, const Scope& scope,
                           std::vector<NetworkNode>& nodes) {
     NetworkNode node;
     node.path = scope.prefix + element.attribute("name").value();
+    if (!hasRoom(node.path.size())) return;
     std::map<std::string, ValueType> types;
     for (const Element& child : element.children())
         if (isPort(child.name())) {
@@ -394,7 +385,11 @@ void MtlxParser::readMaterials(const Element& root, MtlxDocument& out) {
                 const std::string name = child.attribute("name").value();
                 addMaterial(name).terminals["surface"] = {"/" + name, ""};
             }
-    giveNodes(nodes, out.materials);
+    if (const size_t leftOut = giveNodes(nodes, out.materials))
+        _diagnostics.warn(_path, "",
+                          "the materials have more nodes than five times " +
+                              limitText(Limit::nodes) + "; " + std::to_string(leftOut) +
+                              " of them are left out");
 }
 
 } // namespace patina

@@ -44,6 +44,10 @@ private:
                            const std::map<std::string, Element>& known) const;
     void readMaterials(const Element& root, MtlxDocument& out);
     void indexNames(const Element& root);
+    /// Sets an input by the value of an element, or by what that is connected to.
+    void take(const Element& port, const Scope& scope, NetworkNode& node, const std::string& name);
+    /// Names and texts are copied to each use of them. @returns whether so many bytes more may be
+    bool hasRoom(size_t bytes);
     Value readValue(const Element& port) const;
     std::string inherited(const Element& element, const char* attribute) const;
     std::string where(const Element& element) const;
@@ -56,6 +60,7 @@ private:
     std::map<std::string, Element> _topmost; ///< nodes outside of graphs by name
     bool _useLibrary = false;
     int _depth = 0;
+    uint64_t _bytes = 0; ///< of names and texts of nodes
 };
 
 } // namespace patina

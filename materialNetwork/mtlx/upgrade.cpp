@@ -42,8 +42,9 @@ Node addInput(Node node, const char* name, const char* type) {
 
 /// The same source for another input: a copy under a new name.
 void copyInput(const Node& source, Node node, const char* name, const char* type) {
-    Node copy = node.append_copy(source);
-    copy.set_name("input");
+    Node copy = node.append_child("input");
+    for (const pugi::xml_attribute& attribute : source.attributes())
+        copy.append_copy(attribute);
     set(copy, "name", name);
     set(copy, "type", type);
     copy.remove_attribute("channels");

@@ -188,7 +188,8 @@ private:
             const Operand& top = node.inputs[0];
             if (!top.isConstant() && nodeOf(top.node).def->closure == ClosureKind::ThinFilm) {
                 const GraphNode film = nodeOf(top.node);
-                return build(coat(node.inputs[1], film), place);
+                std::map<int, Operand> coated;
+                return build(coat(node.inputs[1], film, coated), place);
             }
             closure.a = build(node.inputs[0], place);
             if (node.def->inputs[1].type == ValueType::Vdf) return closure.a;
@@ -254,8 +255,15 @@ private:
 
     /// The same closures with the film on every interface that reflects, as MaterialX 1.39 reads
     /// the older thin_film_bsdf. The graph keeps what it had; coated copies are appended.
-    Operand coat(const Operand& operand, const GraphNode& film) {
+    /// @param done by node: what is shared is coated once
+    Operand coat(const Operand& operand, const GraphNode& film, std::map<int, Operand>& done) {
         if (operand.isConstant()) return operand;
+        const auto known = done.find(operand.node);
+        if (known != done.end()) return known->second;
+        return done[operand.node] = coatNode(operand, film, done);
+    }
+
+    Operand coatNode(const Operand& operand, const GraphNode& film, std::map<int, Operand>& done) {
         GraphNode node = nodeOf(operand.node);
         const int thickness = node.def->findInput("thinfilm_thickness");
         if (thickness >= 0) {
@@ -267,7 +275,7 @@ private:
             bool changed = false;
             for (size_t i = 0; i < node.inputs.size(); ++i) {
                 if (node.def->inputs[i].type != ValueType::Bsdf) continue;
-                const Operand coated = coat(node.inputs[i], film);
+                const Operand coated = coat(node.inputs[i], film, done);
                 changed |= coated.node != node.inputs[i].node;
                 node.inputs[i] = coated;
             }

@@ -6,6 +6,7 @@
 #include "shaders/shaders.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace patina {
 
@@ -89,12 +90,19 @@ bool refracts(const Plan& plan, const PlanClosure& closure) {
 
 namespace {
 
+/// Nodes come before those that read them.
 bool readsWavelength(const Graph& graph, const Operand& operand) {
     if (operand.isConstant()) return false;
-    const GraphNode& node = graph.nodes[size_t(operand.node)];
-    if (node.def->pattern && node.def->pattern->spectral()) return true;
-    return std::any_of(node.inputs.begin(), node.inputs.end(),
-                       [&](const Operand& input) { return readsWavelength(graph, input); });
+    std::vector<bool> needed(size_t(operand.node) + 1, false);
+    needed.back() = true;
+    for (size_t i = needed.size(); i-- > 0;) {
+        if (!needed[i]) continue;
+        const GraphNode& node = graph.nodes[i];
+        if (node.def->pattern && node.def->pattern->spectral()) return true;
+        for (const Operand& input : node.inputs)
+            if (!input.isConstant()) needed[size_t(input.node)] = true;
+    }
+    return false;
 }
 
 } // namespace

@@ -67,6 +67,11 @@ void checkAovSpec(const AovSpec& spec) {
     if (spec.name == noisyColor) throw std::invalid_argument(aov + "a name that films keep");
     const AovId id = aovIdOf(spec.name);
     if (id == AovId::unknown) return;
+    if (id == AovId::lpe) { // resolve() also finds it by the name of its channels
+        const std::string channels = channelsOfAov(spec.name);
+        if (aovIdOf(channels) != AovId::unknown || channels == noisyColor)
+            throw std::invalid_argument(aov + "the name of another one");
+    }
     const AovRow& row = aovRows()[size_t(id)];
     if (spec.kind != row.kind) throw std::invalid_argument(aov + "values of another kind");
     if (row.kind == AovKind::Coverage) return;

@@ -3,8 +3,10 @@
 
 #include "hdDelegate/film/filmStream.h"
 #include "hdDelegate/film/relativeError.h"
+#include "base/limits.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 namespace patina {
@@ -14,15 +16,29 @@ namespace {
 constexpr FilmFileKind partial = {"part", {'P', 'a', 't', 'i', 'n', 'a', 'P', 'T'}, 1};
 constexpr uint32_t longestDescription = 1u << 28;
 
+bool inside(const Tile& t, int width, int height) {
+    return t.x0 >= 0 && t.y0 >= 0 && t.x0 < t.x1 && t.y0 < t.y1 && t.x1 <= width &&
+           t.y1 <= height && t.x1 - t.x0 <= tileSize && t.y1 - t.y0 <= tileSize;
+}
+
 /// Like FilmStream::Header's reset for a film that parts are merged into.
-void begin(Film& film, FilmStream::Header header, size_t tiles, const FilmFileReader& file) {
-    // A small file cannot ask for much memory: it holds a pixel of each tile at least.
-    constexpr uint64_t maxParts = 1 << 12, tileArea = uint64_t(tileSize) * tileSize;
-    if (uint64_t(tiles) * FilmStream::bytesOfPixel(header.aovs) > file.left())
-        file.fail("it is truncated");
-    if (header.width < 1 || header.height < 1 ||
-        uint64_t(header.width) * uint64_t(header.height) > tiles * tileArea * maxParts)
-        file.fail("it is damaged");
+void begin(Film& film, FilmStream::Header header, const std::vector<Tile>& tiles,
+           const FilmFileReader& file) {
+    // A small file cannot ask for much memory: it holds the pixels of its tiles. Of an image that
+    // is cut into very many parts one may hold a corner alone.
+    constexpr uint64_t maxParts = 1 << 15;
+    uint64_t area = 0;
+    for (const Tile& tile : tiles) {
+        if (!inside(tile, header.width, header.height)) file.fail("it is damaged");
+        area += uint64_t(tile.x1 - tile.x0) * uint64_t(tile.y1 - tile.y0);
+    }
+    if (header.width < 1 || header.height < 1) file.fail("it is damaged");
+    const uint64_t pixel = FilmStream::bytesOfPixel(header.aovs);
+    if (area > file.left() / pixel) file.fail("it is truncated");
+    const uint64_t most = std::max(limitOf(Limit::textureBytes),
+                                   std::min(file.left(), UINT64_MAX / maxParts) * maxParts);
+    if (uint64_t(header.width) * uint64_t(header.height) > most / pixel)
+        file.fail("its image takes more bytes than " + limitText(Limit::textureBytes));
     header.firstSample = 0;
     header.dropped = 0;
     header.token.clear();
@@ -37,11 +53,6 @@ bool sameAovs(const std::vector<AovSpec>& a, const std::vector<AovSpec>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
         return x.name == y.name && x.components == y.components && x.kind == y.kind;
     });
-}
-
-bool inside(const Tile& t, const Film& film) {
-    return t.x0 >= 0 && t.y0 >= 0 && t.x0 < t.x1 && t.y0 < t.y1 && t.x1 <= film.width() &&
-           t.y1 <= film.height() && t.x1 - t.x0 <= tileSize && t.y1 - t.y0 <= tileSize;
 }
 
 /// Whether a tile has stopped before this sample, or does so now.
@@ -75,7 +86,8 @@ PartialWriter::PartialWriter(const std::string& file, const std::string& descrip
 void PartialWriter::add(const Film& film) {
     if (_finished) throw std::logic_error("the part is finished");
     for (const Tile& tile : _tiles)
-        if (!inside(tile, film)) throw std::invalid_argument("a tile lies outside of the film");
+        if (!inside(tile, film.width(), film.height()))
+            throw std::invalid_argument("a tile lies outside of the film");
     _file.value(uint32_t(1));
     FilmStream::writeHeader(_file, film);
     for (const Tile& tile : _tiles)
@@ -109,14 +121,14 @@ std::string mergePartial(Film& film, const std::string& file, const PartialMerge
     Film part;
     while (reader.value<uint32_t>() != 0) {
         const FilmStream::Header header = FilmStream::readHeader(reader);
-        if (film.width() == 0) begin(film, header, tiles.size(), reader);
+        if (film.width() == 0) begin(film, header, tiles, reader);
         if (header.width != film.width() || header.height != film.height() ||
             !sameAovs(header.aovs, film.aovs()))
             reader.fail("it is of another size or other AOVs than the parts before");
         FilmStream::addDropped(film, header.dropped);
         FilmStream::addNames(film, header);
         for (const Tile& tile : tiles) {
-            if (!inside(tile, film)) reader.fail("it is damaged");
+            if (!inside(tile, film.width(), film.height())) reader.fail("it is damaged");
             part.reset(tile.x1 - tile.x0, tile.y1 - tile.y0, header.aovs);
             FilmStream::readPixels(reader, part, {0, 0, part.width(), part.height()});
             if (!hasEnough(film, tile, header.firstSample, merge))

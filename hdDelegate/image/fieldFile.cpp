@@ -3,6 +3,7 @@
 #include "hdDelegate/image/fieldGrid.h"
 
 #include "hdDelegate/image/fieldReader/fieldStream.h"
+#include "base/limits.h"
 #include "base/childProgram.h"
 #include "base/regularFile.h"
 
@@ -94,6 +95,7 @@ std::shared_ptr<const FieldGrid> take(Program& program) {
                 (header.components == 1 || header.components == 3);
     for (int axis = 0; axis < 3; ++axis) {
         places *= std::clamp<int64_t>(header.brickCount[axis], 0, fieldStreamPlaces);
+        if (places > fieldStreamPlaces) places = fieldStreamPlaces + 1;
         good &= places <= fieldStreamPlaces && header.brickCount[axis] >= 0 &&
                 std::abs(int64_t(header.firstVoxel[axis])) <= fieldStreamFar + fieldStreamEdge;
     }
@@ -106,12 +108,17 @@ std::shared_ptr<const FieldGrid> take(Program& program) {
             header.components, transformOf(header));
     std::vector<float> values(size_t(FieldGrid::voxels) * size_t(header.components));
     FieldStreamBrick brick;
+    uint64_t held = 0;
     for (program.read(&brick, sizeof brick); brick.place[0] >= 0;
          program.read(&brick, sizeof brick)) {
         for (int axis = 0; axis < 3; ++axis)
             if (brick.place[axis] < 0 || brick.place[axis] >= header.brickCount[axis])
                 throw std::runtime_error("a brick lies outside of the grid");
         program.read(values.data(), values.size() * sizeof(float));
+        held += values.size() * sizeof(float);
+        if (held > limitOf(Limit::textureBytes))
+            throw std::runtime_error("its voxels take more bytes than " +
+                                     limitText(Limit::textureBytes));
         grid->setBrick(ivec3(brick.place[0], brick.place[1], brick.place[2]), values);
     }
     std::string problem(size_t(std::clamp<int64_t>(brick.place[1], 0, fieldStreamText)), ' ');

@@ -121,7 +121,8 @@ class _Unspeakable(Exception):
 @pytest.mark.parametrize("error", [_Unspeakable(), ValueError("many\n\n lines"), KeyError("key"), RecursionError(),
                                    MemoryError(), AssertionError("x"),
                                    ZeroDivisionError("by zero"), UnicodeDecodeError("utf-8", b"ab\xffc", 2, 3, "why"),
-                                   OSError(28, "No space left on device", "file"), RuntimeError("half a character: \udcff")])
+                                   OSError(28, "No space left on device", "file"), RuntimeError("half a character: \udcff"),
+                                   RuntimeError("a terminal's \x1b[2J command \x07")])
 def test_every_exception_becomes_one_line(error, monkeypatch, capsys):
     def fail(_):
         raise error
@@ -131,6 +132,7 @@ def test_every_exception_becomes_one_line(error, monkeypatch, capsys):
     status, said = run(capsys, "explain", "m.mtlx")
     temporary = isinstance(error, (MemoryError, OSError))
     assert status == (75 if temporary else 1) and said.startswith("patina: ") and len(said.splitlines()) == 1 and len(said) > 10
+    assert said.rstrip("\n").isprintable()
     monkeypatch.setenv("PATINA_TRACEBACK", "1")
     assert main.main(["explain", "m.mtlx"]) == status
     said = capsys.readouterr().err

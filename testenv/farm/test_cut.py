@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cuts: what they are written as, and where samples may be cut."""
+import os
+
 import pytest
 
 import _patina
 from patina.cli.errors import CommandError
-from patina.farm import cut
+from patina.farm import cut, digests, identity, partial
 
 
 def test_parts_are_written_as_numbers_of_a_cut():
     assert cut.cut("4x2") == cut.Cut(4, 2) and cut.cut("3") == cut.Cut(3, 1)
     part = cut.part("6/4x2")
     assert (part.tile_group, part.range_index, str(part)) == (1, 1, "6/4x2")
-    for text in ("0/2", "3/2", "9/4x2", "1", "1/0", "1/2x0", "a/2"):
+    for text in ("0/2", "3/2", "9/4x2", "1", "1/0", "1/2x0", "a/2", "1/999999x9999"):
         with pytest.raises(ValueError):
             cut.part(text)
 
@@ -32,3 +34,23 @@ def test_every_count_up_to_the_most_is_possible(samples):
         assert len(ranges) == count and all(begin < end for begin, end in ranges)
     with pytest.raises(CommandError):
         cut.ranges(ends, len(ends) + 1)
+
+
+def test_digests_are_of_regular_files_alone(tmp_path):
+    """Parts of others name the files that they were made of."""
+    os.mkfifo(tmp_path / "pipe")
+    for path in (tmp_path / "pipe", "/dev/zero", tmp_path):
+        with pytest.raises(OSError):
+            digests.of_file(str(path))
+    what = {**identity.of_machine(_patina), "environment": identity.of_environment()}
+    for name in ("pipe", "/dev/zero", "no\0name"):
+        assert not identity.still_true(_patina, {**what, "files": {name: "x"}}, str(tmp_path / "shot.usda"))
+
+
+def test_a_description_holds_tables(tmp_path):
+    values = {"identity": {"files": []}, "part": "1/2", "range": [0, 1], "arguments": {}, "options": {}, "frame": 1, "camera": "/c",
+              "settings": {}, "noiseTolerance": 0, "folder": "", "home": "", "denoise": False, "decimals": 0}
+    with pytest.raises(CommandError):
+        partial.Description("a.part", values)
+    values["identity"] = {"files": {}}
+    assert partial.Description("a.part", values).part.number == 1

@@ -225,6 +225,7 @@ TEST(Film, WrongRequestsAreRefusedByName) {
                                          {"denoisingAlbedo", 1, AovKind::Mean, 0, false},
                                          {"depth", 1, AovKind::Mean, 0, false},
                                          {"primvars:st", 4, AovKind::First, 0, false},
+                                         {"alpha=lpe:C", 3, AovKind::Mean, 0, false},
                                          {"lpe:C.*", 2, AovKind::Mean, 0, false}};
     for (const AovSpec& spec : others)
         EXPECT_THROW(film.reset(1, 1, {spec}), std::invalid_argument) << spec.name;

@@ -311,6 +311,9 @@ TEST(OutputFailures, ReadingNamesWhatIsWrong) {
         EXPECT_TRUE(has(reason, name)) << reason;
         EXPECT_FALSE(has(reason, "\n")) << reason;
     }
+    std::ofstream(temp.file("huge.pgm")) << "P5\n70000 70000\n255\n";
+    const std::string reason = reasonOf([&] { readImage(temp.file("huge.pgm")); });
+    EXPECT_TRUE(has(reason, "huge.pgm") && has(reason, "--limit textureBytes")) << reason;
 }
 
 } // namespace patina

@@ -5,6 +5,7 @@
 #include "hdDelegate/film/relativeError.h"
 #include "hdDelegate/film/spans.h"
 #include "hdDelegate/film/tests/tempFolder.h"
+#include "base/limits.h"
 
 #include <gtest/gtest.h>
 
@@ -168,6 +169,29 @@ TEST(Partial, TruncationsAndFlippedBytesAreNoticed) {
     Film film;
     mergePartial(film, temp.file("good"), {});
     EXPECT_EQ(film.sampleCount(1, 1), 1u);
+}
+
+TEST(Partial, ASmallFileAsksForNoImageBeyondALimit) {
+    TempFolder temp;
+    const std::string file = temp.file("a.part");
+    Film film;
+    film.reset(1024, 1024, {});
+    PartialWriter writer(file, "{}", {{1023, 1023, 1024, 1024}});
+    writer.add(film);
+    writer.commit("");
+    Film merged;
+    mergePartial(merged, file, {});
+    EXPECT_EQ(merged.width(), 1024);
+    setLimits({{"textureBytes", 1000000}});
+    Film refused;
+    try {
+        mergePartial(refused, file, {});
+        ADD_FAILURE() << "an image of 100 MB";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("--limit textureBytes"), std::string::npos);
+    }
+    setLimits({});
+    EXPECT_EQ(refused.width(), 0);
 }
 
 } // namespace patina

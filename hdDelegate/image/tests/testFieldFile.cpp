@@ -2,6 +2,7 @@
 // Grids of OpenVDB files, as they were written.
 
 #include "hdDelegate/image/fieldGrid.h"
+#include "base/limits.h"
 
 #include <gtest/gtest.h>
 
@@ -126,6 +127,26 @@ TEST(FieldFile, DamagedFilesAreReportedAndEndNothing) {
         EXPECT_NE(readDamaged(good.substr(0, good.size() * part / 9)), "") << "broken off";
     EXPECT_EQ(readDamaged(good), "") << "reading goes on working";
     std::remove(file.c_str());
+#endif
+}
+
+TEST(FieldFile, VoxelsTakeNoMoreThanALimit) {
+#ifndef PATINA_HAS_OPENVDB
+    GTEST_SKIP() << "this build has no OpenVDB";
+#else
+    openvdb::initialize();
+    auto density = openvdb::FloatGrid::create(0.0f);
+    density->setName("density");
+    density->tree().addTile(2, openvdb::Coord(0), 1.0f, true); // 128 voxels wide, of one number
+    const std::string file = testing::TempDir() + "patinaTile.vdb";
+    openvdb::io::File(file).write({density});
+    Diagnostics diagnostics;
+    EXPECT_NE(readFieldGrid(file, "density", "/volume", diagnostics), nullptr);
+    setLimits({{"textureBytes", 1000000}});
+    EXPECT_EQ(readFieldGrid(file, "density", "/volume", diagnostics), nullptr);
+    setLimits({});
+    ASSERT_EQ(diagnostics.count(), 1);
+    EXPECT_NE(diagnostics.all()[0].message.find("--limit textureBytes"), std::string::npos);
 #endif
 }
 

@@ -8,7 +8,7 @@ import sys
 import traceback
 
 from patina import __version__, inputs, limits
-from patina.cli import interrupts, standardStreams
+from patina.cli import causes, interrupts, standardStreams
 from patina.cli.errors import FAILED, TEMPORARY, USAGE, CommandError, UsageError, is_temporary
 
 _BATCH = ("record", "merge", "farm")  # what schedulers run: a signal that ended one may pass
@@ -156,7 +156,7 @@ def _one_line(error):
         text = f"Python's {error.name} is missing: pip install usd-core numpy (or PATINA_PYTHON names a Python that has them)"
     elif not isinstance(error, (UsageError, CommandError, RuntimeError, OSError)):
         text = f"{type(error).__name__}: {text}" if text else type(error).__name__
-    return (text or type(error).__name__).encode(errors="backslashreplace").decode()
+    return causes.printable(text or type(error).__name__)
 
 
 def main(argv=None):

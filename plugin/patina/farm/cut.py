@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from patina.cli.errors import CommandError
 
+MOST = 1 << 20  # parts: who lists those that are missing makes each of them
 _CUT = re.compile(r"([1-9]\d{0,5})(?:x([1-9]\d{0,3}))?")
 
 
@@ -47,7 +48,10 @@ def cut(text):
     match = _CUT.fullmatch(text)
     if not match:
         raise ValueError
-    return Cut(int(match[1]), int(match[2] or 1))
+    found = Cut(int(match[1]), int(match[2] or 1))
+    if found.parts > MOST:
+        raise ValueError
+    return found
 
 
 def part(text):

@@ -6,6 +6,8 @@ import json
 import os
 import tempfile
 
+from patina import inputs
+
 KEPT_FROM = 1 << 20  # bytes: smaller files are read again
 _CHUNK = 1 << 20
 
@@ -13,6 +15,7 @@ _CHUNK = 1 << 20
 def of_file(path):
     """:returns: hexadecimal digest of a file's content
     :raises OSError: where it cannot be read"""
+    inputs.check_regular(path)
     status = os.stat(path)
     if status.st_size < KEPT_FROM:
         return _read(path)

@@ -65,7 +65,7 @@ def of_environment():
 def _digest(path):
     try:
         return digests.of_file(path)
-    except OSError:
+    except (OSError, ValueError):  # a name that no file can have
         return "missing"
 
 

@@ -21,7 +21,9 @@ class Description:
             self.noise = float(values["noiseTolerance"])
             self.folder, self.home = values["folder"], values["home"]
             self.denoise, self.decimals = values["denoise"], int(values["decimals"])
-        except (KeyError, TypeError, ValueError):
+            for table in (self.identity, self.identity.get("files", {}), self.arguments, self.options, self.settings):
+                table.items()
+        except (AttributeError, KeyError, TypeError, ValueError):
             raise CommandError(f"{file} is of another version of Patina") from None
 
 

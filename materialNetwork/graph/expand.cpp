@@ -38,14 +38,14 @@ public:
         }
         if (isTooLarge()) {
             // Definitions that use others twice, those others twice, and so on.
-            _diagnostics.warn(
-                _network.path, "",
-                (_nodes > _maxNodes
-                     ? "the material expands to more nodes than " + limitText(Limit::nodes)
-                     : "the names and texts of the expanded material take more bytes "
-                       "than " +
-                           limitText(Limit::documentBytes)) +
-                    "; it is left out");
+            if (_nodes > _maxNodes)
+                _diagnostics.warn(_network.path, "",
+                                  "the material expands to more nodes than " +
+                                      limitText(Limit::nodes) + "; it is left out");
+            else
+                _diagnostics.warn(_network.path, "",
+                                  "the names and texts of the material take more bytes than " +
+                                      limitText(Limit::documentBytes) + "; it is left out");
             Network nothing;
             nothing.path = _network.path;
             return nothing;

@@ -48,8 +48,8 @@ def test_digests_are_of_regular_files_alone(tmp_path):
 
 
 def test_a_description_holds_tables(tmp_path):
-    values = {"identity": {"files": []}, "part": "1/2", "range": [0, 1], "arguments": {}, "options": {}, "frame": 1, "camera": "/c",
-              "settings": {}, "noiseTolerance": 0, "folder": "", "home": "", "denoise": False, "decimals": 0}
+    values = {"identity": {"files": []}, "part": "1/2", "range": [0, 1], "arguments": {}, "options": {}, "frame": 1,
+              "camera": "/c", "settings": {}, "noiseTolerance": 0, "folder": "", "home": "", "denoise": False, "decimals": 0}
     with pytest.raises(CommandError):
         partial.Description("a.part", values)
     values["identity"] = {"files": {}}

@@ -18,7 +18,7 @@ _ROWS = (
     (r"start too far away, or have no direction", "look for transforms and points that are far too large or not finite"),
     (r"caustics, not photons", "change the part that the message names, or take `--method caustics=paths`"),
     # Limits.
-    (r"\(--limit|nodes than|is longer than|the scene has more|included documents than|levels deep than",
+    (r"\(--limit|nodes than|bytes than|is longer than|the scene has more|included documents than|levels deep than",
      "raise the limit with `--limit`, or with PATINA_LIMITS in other hosts, where the file is trusted; "
      "[limits](limits.md) lists them"),
     # Lights' filters and portals.
@@ -108,7 +108,7 @@ _ROWS = (
      "connect `outputs:surface` (or mtlx:surface) to a node of type surfaceshader"),
     (r"is not modelled|cannot be used at this place|coats only as the top",
      "use another node; [nodes](../generated/nodes.md) lists all of them"),
-    (r"nested too deeply|too large|more than … lobes|too much would",
+    (r"nested too deeply|too large|more than … lobes|share too many|too much would",
      "split the material, or bake parts of it to textures (`patina bake`)"),
     (r"unknown space|unknown address|unknown wrap|wrap mode|is not known",
      "use one of the values of the MaterialX specification"),

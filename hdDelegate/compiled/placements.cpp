@@ -33,6 +33,23 @@ Placements::Placements(const SceneState& state, const RenderSettings& settings,
                 _of[prototype].push_back({instancer, std::move(list)});
         }
     keepWithinLimits(diagnostics);
+    countLevels();
+}
+
+void Placements::countLevels() {
+    std::map<std::string, std::vector<std::string>>
+        inside; // group -> groups that it has instances of
+    for (const auto& [prototype, uses] : _of)
+        for (const Use& use : uses)
+            inside[use.instancer->group].push_back(prototype);
+    std::vector<std::string> level = {""};
+    for (int number = 1; !level.empty(); ++number) {
+        std::vector<std::string> next;
+        for (const std::string& group : level)
+            for (const std::string& prototype : inside[group])
+                if (_levels.emplace(prototype, number).second) next.push_back(prototype);
+        level = std::move(next);
+    }
 }
 
 namespace {

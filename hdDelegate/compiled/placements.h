@@ -55,7 +55,9 @@ public:
             visit(inner);
             return;
         }
-        if (depth > maxDepth) return;
+        // Ways that do not come to the world would be followed in vain, and may be very many.
+        const auto levels = _levels.find(group);
+        if (levels == _levels.end() || depth + levels->second > maxDepth + 1) return;
         for (const Use& use : of(group))
             for (const uint32_t i : use.instances) {
                 Place place = inner;
@@ -66,10 +68,12 @@ public:
 
 private:
     void keepWithinLimits(Diagnostics& diagnostics);
+    void countLevels();
 
     Instancers _drawn;
     std::map<std::string, Instancers> _in;
     std::map<std::string, std::vector<Use>> _of;
+    std::map<std::string, int> _levels; ///< group -> least instancers between it and the world
     std::map<const Instancer*, std::shared_ptr<const InstanceValues>> _values;
     std::set<std::string> _valueNames;
 };

@@ -145,16 +145,18 @@ FaceVaryingChannel mergeCornerValues(const SubdivCage& cage, const std::vector<f
     FaceVaryingChannel channel;
     channel.components = components;
     channel.indices.resize(cage.vertices.size());
-    // Per vertex, a chain of the different values that its corners have.
+    // Per vertex, a chain of the different values that its corners have. Where one has more than
+    // anybody would share, the last ones are looked at.
+    constexpr int longestSearch = 256;
     std::vector<int> first(cage.points.size(), -1), next;
     for (size_t c = 0; c < cage.vertices.size(); ++c) {
         const float* value = &values[cage.corners[c] * components];
         int* link = &first[cage.vertices[c]];
-        int index = *link;
-        while (index >= 0 &&
+        int index = *link, steps = 0;
+        while (index >= 0 && ++steps <= longestSearch &&
                !std::equal(value, value + components, &channel.values[size_t(index) * components]))
             index = next[index];
-        if (index < 0) {
+        if (index < 0 || steps > longestSearch) {
             index = int(next.size());
             next.push_back(*link);
             *link = index;

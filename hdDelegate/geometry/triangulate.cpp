@@ -2,6 +2,7 @@
 #include "hdDelegate/geometry/triangulate.h"
 
 #include <cmath>
+#include <cstdint>
 
 namespace patina {
 
@@ -62,9 +63,14 @@ void clipEars(const std::vector<vec2>& p, std::vector<uvec3>& out) {
     for (int i = 0; i < count; ++i)
         if (turn(p[previous[i]], p[i], p[next[i]]) <= 0.0f) reflex.push_back(i);
     std::vector<uint8_t> gone(count);
+    // A polygon that crosses itself may be tried at each corner again and again: after as many
+    // tests as four rounds take, any corner will do.
+    int64_t tests = 4 * int64_t(count) * int64_t(reflex.size() + 1);
     const auto isEar = [&](int i) {
         const int a = previous[i], c = next[i];
+        if (tests < 0) return true;
         if (turn(p[a], p[i], p[c]) <= 0.0f) return false;
+        tests -= int64_t(reflex.size());
         for (int r : reflex)
             if (!gone[r] && r != a && r != i && r != c && p[r] != p[a] && p[r] != p[i] &&
                 p[r] != p[c] && inTriangle(p[r], p[a], p[i], p[c]))

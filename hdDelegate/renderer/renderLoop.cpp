@@ -134,6 +134,14 @@ void RenderLoop::notify() {
     _lastNotified = Clock::now();
 }
 
+/// Tells the listener once more. What it throws now has nobody left to tell.
+void RenderLoop::tellFailure(const RenderProgress& failed) {
+    try {
+        _listener(*_film, failed);
+    } catch (const std::exception&) {
+    }
+}
+
 /// The listener is notified of the end before progress() tells it.
 void RenderLoop::finish(const std::string& failure, bool temporary) {
     RenderProgress last = progress();
@@ -147,7 +155,18 @@ void RenderLoop::finish(const std::string& failure, bool temporary) {
         last.fraction = 1.0;
         last.secondsLeft = 0.0;
     }
-    if (_listener && (last.converged || last.failed)) _listener(*_film, last);
+    if (_listener && (last.converged || last.failed)) {
+        try {
+            _listener(*_film, last);
+        } catch (const std::exception& error) { // a host that copies the image, as a rule
+            const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+            last.converged = false;
+            last.failed = true;
+            last.temporary |= memory;
+            last.error = memory ? "out of memory" : error.what();
+            tellFailure(last);
+        }
+    }
     {
         const std::lock_guard<std::mutex> lock(_mutex);
         _progress = last;

@@ -83,6 +83,20 @@ TEST_F(Fixture, EndsWhereInstancesAreNestedInThemselves) {
     EXPECT_EQ(placesOf("a").size(), size_t(Placements::maxDepth) + 1);
 }
 
+TEST_F(Fixture, FollowsNoWaysThatDoNotComeToTheWorld) {
+    // Nine levels of five instances each lead from the mesh outwards, to nine levels more.
+    const int levels = 18;
+    for (int i = 0; i < levels; ++i)
+        add(instancer("/i" + std::to_string(i), i == 0 ? "" : "g" + std::to_string(i),
+                      {"g" + std::to_string(i + 1)},
+                      i < levels / 2 ? std::vector<int>{0} : std::vector<int>(5, 0)));
+    size_t steps = 0;
+    EXPECT_TRUE(placesOf("g" + std::to_string(levels), &steps).empty());
+    EXPECT_EQ(steps, 0u);
+    EXPECT_EQ(placesOf("g9").size(), 1u);
+    EXPECT_TRUE(placesOf("g10").empty());
+}
+
 TEST_F(Fixture, KeepsTheOrderOfGroupsAndPaths) {
     add(instancer("/b", "", {"a"}, {0}));
     add(instancer("/a", "", {"a"}, {0}));

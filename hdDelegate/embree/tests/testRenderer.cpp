@@ -128,6 +128,22 @@ TEST(EmbreeRenderer, ASlowFirstPassShowsBlocksAndEndsWithTheSameBits) {
     EXPECT_EQ(images[0], images[1]);
 }
 
+TEST(EmbreeRenderer, AListenerThatThrowsAtTheEndFailsTheRender) {
+    auto renderer = makeRenderer("embree");
+    auto film = std::make_shared<Film>();
+    int failures = 0;
+    renderer->setListener([&](const Film&, const RenderProgress& progress) {
+        failures += progress.failed;
+        if (progress.converged || progress.failed) throw std::bad_alloc();
+    });
+    renderer->start(furnaceScene(), "/camera", smallImage(1), film);
+    renderer->wait();
+    const RenderProgress progress = renderer->progress();
+    EXPECT_TRUE(progress.failed && progress.temporary && !progress.converged);
+    EXPECT_EQ(progress.error, "out of memory");
+    EXPECT_EQ(failures, 1);
+}
+
 TEST(EmbreeRenderer, PausedStoppedAndResumedGivesTheSameBits) {
     auto whole = std::make_shared<Film>(), cut = std::make_shared<Film>();
     auto renderer = makeRenderer("embree");

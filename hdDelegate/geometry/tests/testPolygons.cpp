@@ -95,6 +95,18 @@ TEST(Triangulation, hugePolygonsEnd) {
     EXPECT_EQ(triangles.size(), size_t(n - 2));
 }
 
+TEST(Triangulation, polygonsThatCrossThemselvesEnd) {
+    // Found by review: an ear was looked for at each corner for each triangle.
+    const vec3 places[5] = {{-3, -1, 0}, {2, -1, 0}, {-1, 3, 0}, {0, 3, 0}, {-3, -1, 0}};
+    std::vector<vec3> star;
+    for (int i = 0; i + 1 < maxEarClipping; ++i)
+        star.push_back(places[i % 5]);
+    star.push_back({1.5f, -1, 0});
+    std::vector<uvec3> triangles;
+    triangulatePolygon(star.data(), int(star.size()), triangles);
+    EXPECT_EQ(triangles.size(), star.size() - 2);
+}
+
 TEST(Polygons, cubeFacesOut) {
     const TriangleMesh mesh = draw(cubeMesh());
     EXPECT_EQ(mesh.triangles.size(), 12u);

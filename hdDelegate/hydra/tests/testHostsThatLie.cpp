@@ -2,6 +2,7 @@
 // Hosts that break promises: buffers that vanish or change while a render runs, windows beside
 // them, parts that are taken down in the wrong order.
 
+#include "hdDelegate/hydra/values.h"
 #include "hdDelegate/hydra/renderBuffer.h"
 #include "hdDelegate/hydra/renderDelegate.h"
 
@@ -384,4 +385,15 @@ TEST_F(LyingHost, TakesItselfDownInTheWrongOrder) {
     delegate.reset();
     pass.reset();
     second.reset();
+}
+
+TEST(LyingHostTimes, TimesThatDoNotAscendAreNoMotion) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<float> all[] = {{0.0f, nan}, {nan, 1.0f}, {1.0f, 0.0f}, {0.5f, 0.5f}, {0.0f}};
+    for (const std::vector<float>& times : all) {
+        const auto sampled = sampledOf(times, std::vector<int>{3, 4});
+        EXPECT_EQ(sampled.values, std::vector<int>{3});
+        EXPECT_EQ(sampled.times.size(), 1u);
+    }
+    EXPECT_EQ(sampledOf({0.0f, 1.0f}, std::vector<int>{3, 4}).values.size(), 2u);
 }

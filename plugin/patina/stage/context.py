@@ -3,6 +3,7 @@
 import numpy as np
 from pxr import Gf, Usd, UsdGeom
 
+from . import cycles
 from .colorSpaces import ColorSpaces
 from .errors import StageError, one_line
 from .fallbacks import Fallbacks
@@ -23,7 +24,7 @@ class Context:
         self.notes = []
         self.reported = set()  # texts of composition errors, which pxr also prints
         self.skinned = []  # (prim whose space it is, points) of what UsdGeom.BBoxCache does not know
-        self.cyclic = False  # there are instancers that hold themselves: UsdGeom.BBoxCache never ends there
+        self._cyclic = None  # not known yet
         self.color_spaces = ColorSpaces()
         self.light_fallbacks = Fallbacks()
         self.portals = None  # paths of the portals that domes name, once they are asked for
@@ -53,6 +54,13 @@ class Context:
         frame = self.time.GetValue()
         return Gf.Interval(frame + self.shutter[0], frame + self.shutter[1])
 
+    @property
+    def cyclic(self):
+        """Whether there are instancers that hold themselves, drawn or not: UsdGeom.BBoxCache never ends there."""
+        if self._cyclic is None:
+            self._cyclic = cycles.are_in(self.stage)
+        return self._cyclic
+
     def motion_offsets(self, samples):
         """When to evaluate what has these time samples: the ends of the shutter and what is between.
 
@@ -63,7 +71,7 @@ class Context:
         if len(inside) > MAX_MOTION_SAMPLES - 2:
             step = (end - start) / (MAX_MOTION_SAMPLES - 1)
             inside = [start + step * i for i in range(1, MAX_MOTION_SAMPLES - 1)]
-        return [start, *inside, end]
+        return distinct([start, *inside, end])
 
     def attribute_offsets(self, attribute):
         """:returns: motion_offsets() of an attribute, or [0] when it does not move in the shutter. Like Hydra it
@@ -77,7 +85,15 @@ class Context:
             offsets[0] = before[0] - frame
         if after and after[1] >= interval.max:
             offsets[-1] = after[1] - frame
-        return offsets
+        return distinct(offsets)
+
+
+def distinct(times):
+    """:param times: ascending
+    :returns: those that are later than the one before as 32-bit floats too, which the renderer has"""
+    kept = times[:1]
+    kept += [time for before, time in zip(times, times[1:]) if np.float32(time) > np.float32(before)]
+    return kept
 
 
 def get(prim, name, time, fallback=None):

@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from .context import array, get
+from .context import MAX_MOTION_SAMPLES, array, distinct, get
 from .primvars import in_rendering_space, numbers
 from .transforms import is_finite, matrix_at, sample_times
 
@@ -113,7 +113,9 @@ def emit_instances(context, outer, prototype, founds, linking):
             moving[i] = times
     transforms = matrices
     if moving:
-        times = sorted({t for own in moving.values() for t in own})
+        times = distinct(sorted({t for own in moving.values() for t in own}))
+        if len(times) > MAX_MOTION_SAMPLES:
+            times = list(np.linspace(times[0], times[-1], MAX_MOTION_SAMPLES))
         samples = [matrices.copy() for _ in times]
         for i in moving:
             for sample, t in zip(samples, times):

@@ -85,7 +85,8 @@ def _emit_geometry(context, walked, bindings, linking, module):
         with Guard(context, found.prim):
             instancers.emit_instancer(context, found, names, linking)
     for (outer, prototype), founds in walked.instances.items():
-        instancers.emit_instances(context, outer, prototype, founds, linking)
+        with Guard(context, founds[0].prim):
+            instancers.emit_instances(context, outer, prototype, founds, linking)
     for found, mode in walked.boxes:
         with Guard(context, found.prim):
             drawModes.emit(context, found, mode, module)

@@ -13,6 +13,8 @@ from .skinning import skinning_of
 from .state import Found, Group, State, Walked
 
 _ANY = Usd.PrimIsActive & Usd.PrimIsLoaded  # prototypes of point instancers may be overs and classes
+MAX_NESTED = 8  # point instancers in each other, as many as renderers follow
+MAX_GROUPS = 100000  # prototypes of point instancers that are in others, by each way to them
 _PROXIES = Usd.TraverseInstanceProxies()  # what is skinned differs from instance to instance
 
 
@@ -25,6 +27,8 @@ class Walk:
         self._todo = []  # (prims, state, predicate)
         self._native = {}  # what prims of a prototype inherit -> group
         self._pointed = {}  # the same for prototypes of point instancers
+        self._nested = 0  # of these, those inside of others
+        self._told = False  # that there are too many
 
     def run(self):
         """:returns: Walked"""
@@ -146,11 +150,17 @@ class Walk:
             return name
         if instancer.GetPath().HasPrefix(target) or str(target) in state.group.chain:
             self.context.warn(instancer.GetPath(), "prototypes", f"{target} holds itself; it is not drawn")
-            self.context.cyclic = True
             return name
         key = (str(target), state.group.name, state.purpose, _paths(state.primvars))
         if key in self._pointed:
             return self._pointed[key]
+        if len(state.group.chain) >= MAX_NESTED or state.group.chain and self._nested >= MAX_GROUPS:
+            if not self._told:
+                self.context.warn(instancer.GetPath(), "prototypes", "instancers are nested too deeply, or too many of them in "
+                                  "each other; this one's prototypes are not drawn, nor those of others like it")
+            self._told = True
+            return name
+        self._nested += bool(state.group.chain)
         self._pointed[key] = name
         outer = state.group
         inside = root.GetPath().HasPrefix(instancer.GetPath())

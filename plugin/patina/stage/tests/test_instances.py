@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Point instancers and native instances."""
+import pytest
+from pxr import Usd
+
+from patina.stage import cycles, walk
 
 MATERIALS = """
     def Material "red" { token outputs:surface.connect = </red/s.outputs:out>
@@ -145,3 +149,75 @@ def test_instancers_that_hold_each_other_end(read):
     def PointInstancer "a" { rel prototypes = </b>  int[] protoIndices = [0]  point3f[] positions = [(0,0,0)] }
     def PointInstancer "b" { rel prototypes = </a>  int[] protoIndices = [0]  point3f[] positions = [(0,0,0)] }""")
     assert any("holds itself" in w for w in reading.warnings)
+
+
+@pytest.mark.parametrize("undrawn", ['uniform token model:drawMode = "bounds"', ""])
+def test_instancers_that_hold_themselves_and_are_not_drawn(read, undrawn):
+    """UsdGeom.BBoxCache, which draw modes and the framing camera ask, would never end there."""
+    purpose = "" if undrawn else 'uniform token purpose = "guide"'
+    reading = read(f"""def Xform "M" (kind = "component"
+        prepend apiSchemas = ["GeomModelAPI"]) {{ {undrawn}
+        def Sphere "s" {{ }}
+        def PointInstancer "I" {{ rel prototypes = </M>
+            {purpose}
+            int[] protoIndices = [0]
+            point3f[] positions = [(0, 0, 0)] }} }}""")
+    assert reading.info.framed
+
+
+def test_cycles_lead_through_native_instances_too():
+    text = """#usda 1.0
+class Xform "proto"
+{
+    def PointInstancer "inner"
+    {
+        rel prototypes = <%s>
+    }
+}
+def Xform "a" (instanceable = true
+    inherits = </proto>)
+{
+}
+def Xform "holder"
+{
+    def Xform "b" (instanceable = true
+        inherits = </proto>)
+    {
+    }
+}
+def Xform "leaf"
+{
+}
+"""
+    for target, cyclic in (("/holder", True), ("/leaf", False)):
+        found = Usd.Stage.CreateInMemory()
+        found.GetRootLayer().ImportFromString(text % target)
+        assert cycles.are_in(found) == cyclic
+
+
+def test_prototypes_that_hold_each_other_end(read, monkeypatch):
+    """Each way through them is a group of its own: n! of them."""
+    monkeypatch.setattr(walk, "MAX_GROUPS", 200)
+    n = 7
+    targets = ", ".join(f"</P{i}>" for i in range(n))
+    reading = read("".join(f"""def Xform "P{i}" {{ def PointInstancer "I" {{ rel prototypes = [{targets}]
+        int[] protoIndices = [0]
+        point3f[] positions = [(0, 0, 0)] }} }}
+    """ for i in range(n)))
+    assert sum("too many of them" in warning for warning in reading.warnings) == 1
+    assert reading.text.count("Instancer ") < 200 + 2 * n * n
+
+
+def test_moving_instances_have_no_more_times_than_others(read):
+    """Times that are the same as 32-bit floats are one; of many, some are taken."""
+    near = "def Xform \"{0}\" (instanceable = true; inherits = </leaf>) {{ double3 xformOp:translate.timeSamples = {{ {1} }}" \
+        "  uniform token[] xformOpOrder = [\"xformOp:translate\"] }}\n"
+    samples = [f"{t}: (0, 0, 0), {t + 0.5}: (1, 0, 0)" for t in (10.1, 10.10000000001)]
+    reading = read('class Xform "leaf" { def Cube "blade" { } }\n'
+                   + "".join(near.format(f"t{i}", text) for i, text in enumerate(samples)), frame=10.0, shutter=(0.0, 1.0))
+    assert reading.prim("/t0")["instances"] == "2"
+    many = [", ".join(f"{10 + (k + i / 40) / 12:.6f}: ({k}, 0, 0)" for k in range(12)) for i in range(30)]
+    reading = read('class Xform "leaf2" { def Cube "blade" { } }\n'
+                   + "".join(near.replace("/leaf", "/leaf2").format(f"m{i}", text) for i, text in enumerate(many)),
+                   frame=10.0, shutter=(0.0, 1.0))
+    assert reading.prim("/m0")["instances"] == "30"

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Point instancers that hold themselves, by any way through prototypes and native instances."""
+import bisect
+
+from pxr import Usd
+
+MOST_STEPS = 5000000  # a stage that would take more is taken for one that has such instancers
+
+
+def are_in(stage):
+    """:returns: whether a point instancer lies below one of its own prototypes, or below a prototype of one that does"""
+    below = _holders(stage)
+    paths = sorted(below)
+    done, steps = set(), 0
+    for start in paths:
+        stack, open_ones = [(start, None)], set()
+        while stack:
+            path, rest = stack.pop()
+            if rest is None:
+                if path in done:
+                    continue
+                open_ones.add(path)
+                rest = iter([held for root in below[path] for held in _within(paths, root)])
+            for held in rest:
+                steps += 1
+                if held in open_ones or steps > MOST_STEPS:
+                    return True
+                if held not in done:
+                    stack += [(path, rest), (held, None)]
+                    break
+            else:
+                open_ones.discard(path)
+                done.add(path)
+    return False
+
+
+def _holders(stage):
+    """:returns: path of a point instancer or a native instance -> paths of what it holds"""
+    found = {}
+    for root in [stage.GetPseudoRoot(), *stage.GetPrototypes()]:
+        for prim in Usd.PrimRange(root, Usd.PrimAllPrimsPredicate):
+            if prim.IsInstance():
+                found[str(prim.GetPath())] = [str(prim.GetPrototype().GetPath())]
+            elif prim.GetTypeName() == "PointInstancer":
+                found[str(prim.GetPath())] = [str(path) for path in prim.GetRelationship("prototypes").GetForwardedTargets()]
+    return found
+
+
+def _within(paths, root):
+    """:returns: those of sorted paths that are a path, or below it"""
+    own = paths[(at := bisect.bisect_left(paths, root)):at + 1]
+    first, last = bisect.bisect_left(paths, root + "/"), bisect.bisect_left(paths, root + "0")
+    return [path for path in own if path == root] + paths[first:last]

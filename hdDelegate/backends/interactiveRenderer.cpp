@@ -5,6 +5,7 @@
 #include "hdDelegate/parallel.h"
 
 #include <algorithm>
+#include <new>
 
 namespace patina {
 
@@ -174,10 +175,17 @@ void InteractiveRenderer::run(std::string camera) {
     try {
         changeOver(camera);
     } catch (const std::exception& error) {
+        _quick->stop(); // so that the film rests
+        _slow->stop();
+        const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
         RenderProgress failed = progress();
         failed.failed = true;
-        failed.error = error.what();
-        if (_listener) _listener(*_film, failed);
+        failed.temporary |= memory;
+        failed.error = memory ? "out of memory" : error.what();
+        try {
+            if (_listener) _listener(*_film, failed);
+        } catch (const std::exception&) { // nobody is left to tell
+        }
         end(failed);
     }
 }

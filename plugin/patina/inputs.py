@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The files that a command has read: so that it reads nothing but regular files of a bounded size, and
 writes over none of them."""
+import html
 import os
 import re
 import stat
@@ -8,7 +9,11 @@ import stat
 from patina import limits
 
 _UDIM = "<UDIM>"
-_INCLUDE = re.compile(rb"""<xi:include\b[^>]*?\bhref\s*=\s*(?:"([^"]+)"|'([^']+)')""")
+# An element ends before the next one begins, so that each place of a hostile file is looked at once.
+_INCLUDE = re.compile(rb"""<xi:include\b[^<]*?\bhref\s*=\s*(?:"([^"]+)"|'([^']+)')""")
+_ENCODINGS = ((b"\xff\xfe\0\0", "utf-32-le"), (b"\0\0\xfe\xff", "utf-32-be"), (b"<\0\0\0", "utf-32-le"),
+              (b"\0\0\0<", "utf-32-be"), (b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"), (b"<\0", "utf-16-le"),
+              (b"\0<", "utf-16-be"))
 _noted = set()
 
 
@@ -42,11 +47,19 @@ def note_document(path):
             data = read(file)
         except OSError:
             continue
-        for match in _INCLUDE.finditer(data):
-            name = (match[1] or match[2]).decode(errors="surrogateescape")
+        for match in _INCLUDE.finditer(_as_utf8(data)):
+            name = html.unescape((match[1] or match[2]).decode(errors="surrogateescape"))
             more = os.path.normpath(os.path.join(os.path.dirname(file), name))
             if more not in waiting and len(waiting) < most:
                 waiting.append(more)
+
+
+def _as_utf8(data):
+    """:returns: the bytes of an XML document in UTF-8; others are told by their first character, as pugixml does"""
+    for begin, encoding in _ENCODINGS:
+        if data.startswith(begin):
+            return data.decode(encoding, errors="replace").encode(errors="replace")
+    return data
 
 
 def note_network(network):

@@ -10,8 +10,13 @@
 // A curve's knots: values, w: places.
 vec3 filterCurve(int first, int count, int kind, float x) {
     int above = 0;
-    while (above < count && lightTables[first + above].w <= x)
-        ++above;
+    for (int beyond = count; above < beyond;) { // knots before it are at x or below; the places ascend
+        int middle = (above + beyond) / 2;
+        if (lightTables[first + middle].w <= x)
+            above = middle + 1;
+        else
+            beyond = middle;
+    }
     if (above == 0) return lightTables[first].xyz;
     int low = first + above - 1, last = first + count - 1;
     if (above == count) return lightTables[last].xyz;

@@ -160,3 +160,9 @@ def test_explain_and_check_tell_causes(stage, capsys):
     assert main.main(["check", f"{stage}:/m0", "--samples", "1024", "--places", "1", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert [g["culprit"].endswith("missing.png") for g in found["causes"]] == [True] and len(found["warnings"]) == 1
+
+
+@pytest.mark.parametrize("text", ["'" + "<" * 10 ** 6, "-" * 10 ** 6, "1" * 10 ** 6 + "a", "a." * 10 ** 6])
+def test_long_names_in_messages_take_no_time_without_end(text):
+    warning = {"prim": "/a", "input": "basis", "message": f"'{text}' is unknown; bezier is used", "count": 1}
+    assert causes.Causes([warning]).groups[0]["message"] == warning["message"]

@@ -9,6 +9,7 @@ import pytest
 _patina = pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
+from patina import inputs  # noqa: E402
 from patina.cli import main, record  # noqa: E402
 
 DOCUMENT = """<?xml version="1.0"?>
@@ -182,3 +183,20 @@ def test_an_output_is_no_input(arguments, kept, folder, capsys):
     assert status == 1 and "cannot write" in said and len(said.splitlines()) == 1
     assert not kept or (folder / kept).read_bytes() == content
     assert sorted(os.listdir()) == names
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-32-be"])
+@pytest.mark.parametrize("include", ['<xi:include href="lib.xml"/>', '<xi:include href="lib&#46;xml"/>',
+                                     "<xi:include note='a > b' href = 'lib.xml'/>"])
+def test_documents_that_are_included_are_inputs(tmp_path, include, encoding):
+    (tmp_path / "a.mtlx").write_bytes(f"<materialx>{include}</materialx>".encode(encoding))
+    inputs.forget()
+    inputs.note_document(str(tmp_path / "a.mtlx"))
+    assert inputs.files() == [str(tmp_path / "a.mtlx"), str(tmp_path / "lib.xml")]
+
+
+def test_elements_that_do_not_end_are_looked_at_once(tmp_path):
+    (tmp_path / "a.mtlx").write_text("<xi:include " * 200000)
+    inputs.forget()
+    inputs.note_document(str(tmp_path / "a.mtlx"))
+    assert inputs.files() == [str(tmp_path / "a.mtlx")]

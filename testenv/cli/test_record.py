@@ -127,6 +127,13 @@ def test_checkpoint_goes_with_success_and_stays_when_asked(stage, tmp_path):
     assert np.array_equal(resumed, pixels(tmp_path / "a.exr"))
 
 
+def test_without_checkpoints_what_has_their_name_is_left_alone(stage, tmp_path):
+    other = tmp_path / "a.exr.checkpoint"
+    other.write_text("mine")
+    assert record(stage, tmp_path / "a.exr", "-w", 16, "--samples", 1, "--checkpointSeconds", 0) == 0
+    assert other.read_text() == "mine"
+
+
 @pytest.mark.parametrize("spoil", ["garbage", "other seed"])
 def test_a_checkpoint_that_does_not_fit_is_named_and_not_used(stage, tmp_path, spoil):
     image, checkpoint, out = tmp_path / "a.exr", tmp_path / "a.exr.checkpoint", tmp_path / "s.json"

@@ -120,3 +120,11 @@ def test_a_broken_stage_gets_its_own_message(tmp_path):
     stage.write_text("#usda 1.0\ndef {\n")
     done = inProcess.record(stage, tmp_path / "a.exr", *FLAGS, *UNTRIED, check=False)
     assert done.returncode == 1 and "cannot be opened" in done.stderr
+
+
+def test_modules_beside_the_stage_are_not_run(stage, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("PYTHONSAFEPATH", raising=False)
+    monkeypatch.setattr(tryStage.limits, "value", lambda _: 0)
+    (tmp_path / "resource.py").write_text("import pathlib\npathlib.Path('ran').touch()\n")
+    assert tryStage.why_trial_fails(str(stage)) == "" and not os.path.exists("ran")

@@ -53,4 +53,7 @@ def test_a_description_holds_tables(tmp_path):
     with pytest.raises(CommandError):
         partial.Description("a.part", values)
     values["identity"] = {"files": {}}
+    for name, value in (("decimals", float("inf")), ("noiseTolerance", 10 ** 400), ("folder", 3)):
+        with pytest.raises(CommandError):
+            partial.Description("a.part", {**values, name: value})
     assert partial.Description("a.part", values).part.number == 1

@@ -7,6 +7,8 @@ import types
 
 import pytest
 
+import _patina
+import patina
 from patina.cli.errors import CommandError
 from patina.farm import cut, identity, sender, work, worker
 
@@ -140,3 +142,30 @@ def test_what_variables_lead_to_makes_a_part(tmp_path, monkeypatch):
     assert identity.difference({"environment": now}, {"environment": before}) == "$OCIO leads to something else"
     monkeypatch.setenv("OCIO", "ocio://default")
     assert identity.of_environment()["OCIO"] == "ocio://default" and "OCIO" not in identity.environment_files()
+
+
+def version(folder, log, name):
+    """Runs a short command as a worker does, from another folder."""
+    paths = [os.path.dirname(os.path.dirname(patina.__file__)), os.path.dirname(_patina.__file__)]
+    worker.run(["--version"], str(folder), str(log), (name, [], [], None),
+               {"PYTHONPATH": os.pathsep.join(map(os.path.abspath, paths))})
+
+
+def test_nothing_of_the_senders_folder_runs(tmp_path, monkeypatch):
+    """A patina/ beside a shot is not meant."""
+    monkeypatch.delenv("PYTHONSAFEPATH", raising=False)
+    (tmp_path / "patina").mkdir()
+    (tmp_path / "patina" / "__init__.py").write_text("import pathlib\npathlib.Path('ran').touch()\n")
+    version(tmp_path, tmp_path / "1.log", "own")
+    assert sorted(os.listdir(tmp_path)) == ["patina"]
+
+
+def test_logs_follow_no_links_and_wait_for_no_pipes(tmp_path):
+    (tmp_path / "mine").write_text("mine")
+    os.symlink(tmp_path / "mine", tmp_path / "1.log")
+    os.mkfifo(tmp_path / "2.log")
+    for number in (1, 2):
+        version(tmp_path, tmp_path / f"{number}.log", "logs")
+    assert (tmp_path / "mine").read_text() == "mine"
+    with pytest.raises(worker.PartFailed, match="cannot write .*none"):
+        version(tmp_path, tmp_path / "none" / "1.log", "none")

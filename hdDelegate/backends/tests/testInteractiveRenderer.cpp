@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
+
 using namespace patina;
 
 namespace {
@@ -153,6 +155,21 @@ TEST(Interactive, PausedAndStoppedAtAnyTime) {
         if (i % 3) s.renderer->stop();
         EXPECT_FALSE(i % 3 && s.renderer->isRunning());
     }
+}
+
+TEST(Interactive, AListenerThatThrowsFailsTheRenderAndLetsTheFilmRest) {
+    Session s;
+    int told = 0;
+    s.renderer->setListener([&](const Film&, const RenderProgress& p) {
+        told += p.failed;
+        throw std::bad_alloc();
+    });
+    s.render();
+    const RenderProgress progress = s.renderer->progress();
+    EXPECT_TRUE(progress.failed && progress.temporary);
+    EXPECT_EQ(progress.error, "out of memory");
+    EXPECT_EQ(told, 1);
+    EXPECT_FALSE(s.quick->isRunning() || s.slow->isRunning());
 }
 
 TEST(Interactive, WithoutAListenerOnlyTheSlowOneWorks) {

@@ -30,10 +30,12 @@ void ProgramCompiler::add(std::function<void()> work) {
         if (auto context = EglContext::sharing(_shared, error)) {
             _contexts.push_back(std::move(context));
             ++_idle; // what the thread subtracts when it begins
+            ++_living;
             try {
                 _threads.emplace_back(&ProgramCompiler::run, this, _contexts.back().get());
             } catch (const std::exception&) { // no thread can be had: help() does it
                 --_idle;
+                --_living;
                 _maximum = int(_threads.size());
             }
         } else {
@@ -89,6 +91,12 @@ void ProgramCompiler::run(EglContext* context) {
         lock.lock();
         ++_idle;
     }
+    // Its context does not become current: help() does what it was to do.
+    --_idle;
+    --_living;
+    _maximum = 0;
+    lock.unlock();
+    finished();
 }
 
 } // namespace patina

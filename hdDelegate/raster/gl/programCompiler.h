@@ -28,7 +28,10 @@ public:
     /// Runs one function on this thread. @returns false when none waits
     bool help();
     /// Whether somebody but help() runs functions.
-    bool hasThreads() const { return !_threads.empty(); }
+    bool hasThreads() {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        return _living > 0;
+    }
     /// Waits until some function has ended, or so long.
     void wait(std::chrono::milliseconds maximum);
 
@@ -44,6 +47,7 @@ private:
     std::vector<std::thread> _threads;
     std::vector<std::unique_ptr<EglContext>> _contexts;
     int _idle = 0;
+    int _living = 0;   ///< threads that have a context, or may have one
     size_t _count = 0; ///< that have ended
     bool _stop = false;
 };

@@ -134,7 +134,8 @@ private:
             normal = nextNormal;
         }
         const float steps = std::max(std::sqrt(bend / (8.0f * _gap)), turn / largestTurn);
-        return int(std::ceil(std::clamp(steps, 1.0f, float(maxSteps))));
+        // Points near the largest float make a bend that is no number: one step then.
+        return int(std::ceil(std::min(std::max(1.0f, steps), float(maxSteps))));
     }
 
     /// Whether no other segment of the curve goes on from an end of this one.

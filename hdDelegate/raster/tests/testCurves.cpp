@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -71,6 +72,17 @@ TEST(RasterCurves, StripsFollowTheCurveAsFarAsIsSeen) {
         for (const int curve : mesh.triangleFace)
             straight += curve == 1;
         EXPECT_EQ(straight, 2u);
+    }
+}
+
+TEST(RasterCurves, ControlPointsThatOverflowMakeFiniteNumbersOfTriangles) {
+    CurveSet set = bent(0.01f);
+    set.controlPoints[0][1].x = set.controlPoints[0][14].y = INFINITY; // as a basis of 3e38 makes
+    for (const bool strips : {false, true}) {
+        const RasterTriangles found = curveTriangles(set, fineness(0.5f), strips);
+        EXPECT_GE(found.mesh.triangles.size(), 4u);
+        for (const uvec3& t : found.mesh.triangles)
+            EXPECT_LT(std::max({t.x, t.y, t.z}), found.mesh.positions[0].size());
     }
 }
 

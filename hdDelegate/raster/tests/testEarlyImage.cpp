@@ -118,7 +118,7 @@ float brightest(const std::vector<float>& image) {
 
 TEST(EarlyImages, ShowWhatIsReadyAndLeaveNothingInTheLast) {
     PATINA_NEED_CONTEXT();
-    const SlowPrograms slow("600"); // longer than cached ones are waited for
+    const SlowPrograms slow("1500"); // longer than cached ones are waited for
     std::string error;
     const Shown batch = render(false, 1, error);
     ASSERT_EQ(error, "");

@@ -16,6 +16,8 @@ from patina.cli.advice import advice
 MAX_CAUSES = 20  # causes on the terminal; all of them are in --json
 SEVERITIES = ("error", "warning")
 
+_LOOKED_AT = 2000  # characters of a message: names in it may have a million, and patterns try each place
+
 # Words of messages where something is missing.
 _MISSING = re.compile(
     r"not drawn|nothing is drawn|not written|not read\b|not found|not readable|not shaped by|"
@@ -32,12 +34,12 @@ _NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.]*\w)", 
 
 def severity(warning):
     """:returns: `error` or `warning`"""
-    return SEVERITIES[0] if _MISSING.search(warning["message"]) else SEVERITIES[1]
+    return SEVERITIES[0] if _MISSING.search(warning["message"][:_LOOKED_AT]) else SEVERITIES[1]
 
 
 def cause(warning):
     """:returns: (kind, culprit) of a warning; messages that differ in numbers alone are of one kind"""
-    message, found = warning["message"], []
+    message, found = warning["message"][:_LOOKED_AT], []
     if len(warning["prim"]) > 1:
         message = message.replace(warning["prim"], "it")
 
@@ -70,7 +72,7 @@ class Causes:
             if group is None:
                 group = groups[kind, culprit] = {
                     "severity": severity(warning), "message": warning["message"], "culprit": culprit, "kind": kind,
-                    "advice": plain(advice(warning["message"])),
+                    "advice": plain(advice(warning["message"][:_LOOKED_AT])),
                     "prim": warning["prim"], "input": warning["input"], "count": 0, "prims": 0, "_prims": set()}
             group["count"] += warning["count"]
             group["_prims"].add(warning["prim"])

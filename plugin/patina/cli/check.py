@@ -23,7 +23,7 @@ import sys
 import numpy as np
 
 from patina import limits
-from patina.cli import compiled, layers, materials, methods, outputs, statistics
+from patina.cli import causes, compiled, layers, materials, methods, outputs, statistics
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
 
@@ -385,4 +385,4 @@ def _print(name, outcomes, width):
     """Shows a material as soon as it is checked."""
     for kind in CHECKS:
         outcome = outcomes[kind]
-        print(f"{name:<{width}}  {kind:<12} {outcome['state']:<5} {outcome['text']}", flush=True)
+        print(f"{causes.printable(name):<{width}}  {kind:<12} {outcome['state']:<5} {outcome['text']}", flush=True)

@@ -11,7 +11,7 @@ For a whole stage with a tolerance it also builds the scene and prints the choic
 import sys
 
 from patina import limits
-from patina.cli import compiled, materials, methods, outputs, planText, recordFlags, sceneChoices, statistics
+from patina.cli import causes, compiled, materials, methods, outputs, planText, recordFlags, sceneChoices, statistics
 
 
 def add_arguments(parser):
@@ -49,8 +49,9 @@ def run(arguments):
         return
     for i, (name, text) in enumerate(texts):
         if len(texts) > 1:
-            print(("\n" if i else "") + f"=== {name}")
-        print(text.rstrip("\n"))
+            print(("\n" if i else "") + f"=== {causes.printable(name)}")
+        for line in text.rstrip("\n").split("\n"):
+            print(causes.printable(line))
         print("\n".join(planText.lines(plans[i][1])))
     if len(texts) > 1:
         print("\n" + "\n".join(planText.scene_lines(plans, tolerance)))

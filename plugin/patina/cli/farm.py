@@ -14,7 +14,7 @@ import contextlib
 import sys
 
 from patina import inputs
-from patina.cli import compiled, denoiser, frames, openStage, outputs, overrides, recordFlags, renderSettings
+from patina.cli import causes, compiled, denoiser, frames, openStage, outputs, overrides, recordFlags, renderSettings
 from patina.cli.errors import UsageError
 from patina.farm import cut, engines, jobFiles, work
 
@@ -62,7 +62,7 @@ def run(arguments):
     for file in files:
         inputs.note(file)
     if missing and not arguments.quiet:
-        print(f"patina farm: the stage names {missing[0]}, which is not there" +
+        print(f"patina farm: the stage names {causes.printable(missing[0])}, which is not there" +
               (f", and {len(missing) - 1} more such files" if len(missing) > 1 else ""), file=sys.stderr)
     outputs.check_all([arguments.json, arguments.writeJob, *(image for _, image in shots)])
     if arguments.writeJob:

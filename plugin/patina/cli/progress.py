@@ -4,6 +4,8 @@ import shutil
 import sys
 import time
 
+from patina.cli import causes
+
 BAR = 30
 SPARSE_SECONDS = 10.0
 
@@ -65,10 +67,11 @@ class Progress:
             # A line that wraps would stay: long labels, which are paths, show their ends.
             room = shutil.get_terminal_size().columns - 1
             maximum = max(room - len(bar) - len(text), 12)
-            label = self.label if len(self.label) <= maximum else "..." + self.label[3 - maximum:]
-            self.stream.write("\r\033[K" + (label + bar + text)[:room])
+            label = causes.printable(self.label)
+            label = label if len(label) <= maximum else "..." + label[3 - maximum:]
+            self.stream.write("\r\033[K" + (label + bar + causes.printable(text))[:room])
         else:
-            self.stream.write(f"{self.label}: {text}\n")
+            self.stream.write(causes.printable(f"{self.label}: {text}") + "\n")
         self.stream.flush()
 
     def _preparing(self, state, now):
@@ -89,4 +92,4 @@ class Progress:
     def say(self, text):
         if not self.quiet:
             self.clear()
-            print(text, file=self.stream)
+            print(causes.printable(text), file=self.stream)

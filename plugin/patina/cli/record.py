@@ -130,17 +130,23 @@ class _Job:
                                      "color.noisy has them")
             denoiser.run(self.module, film, self.arguments.threads)
 
+    @property
+    def _has_checkpoint(self):
+        """Whether IMAGE.checkpoint is this render's: otherwise what lies there is left alone."""
+        a = self.arguments
+        return a.checkpointSeconds > 0.0 or a.keepCheckpoint or a.resume
+
     def _check_outputs(self, shot):
         a = self.arguments
         files = shot.images + ([snapshots.path_of(image, a.snapshotSuffix) for image in shot.images] if a.snapshot else [])
         outputs.check_all([*files, a.json, shot.page])
-        if a.checkpointSeconds > 0.0 or a.keepCheckpoint or a.resume:
+        if self._has_checkpoint:
             outputs.check(checkpoints.path_of(shot.image))
 
     def _left_over(self, image):
         """Files that a killed render has left; they go when this image is written."""
         path = checkpoints.path_of(image)
-        if self.arguments.resume or not os.path.isfile(path):
+        if self.arguments.resume or not self._has_checkpoint or not os.path.isfile(path):
             return []
         return [f"{path} of an earlier render is given up (--resume would have continued it)"]
 
@@ -230,7 +236,7 @@ class _Job:
         self.statistics.rendered(state, film)
         if self.interrupted and not film.width:
             raise TemporaryError("interrupted before there were samples; nothing is saved")
-        if self.interrupted or a.keepCheckpoint:
+        if (self.interrupted and self._has_checkpoint) or a.keepCheckpoint:
             if film.width:
                 film.save_checkpoint(checkpoints.path_of(shot.image))
         if self.interrupted and (a.onlyWhole or not state["samplesDone"]):
@@ -250,7 +256,7 @@ class _Job:
         for output in shot.outputs:
             self.module.write_images(film, output.image, shots.image_options(a, shot, output, settings), metadata)
         self.snapshots.remove()
-        if not self.interrupted and not a.keepCheckpoint:
+        if self._has_checkpoint and not self.interrupted and not a.keepCheckpoint:
             checkpoints.remove(checkpoints.path_of(shot.image))
 
     def _write_snapshot(self, film, shot, settings, camera):

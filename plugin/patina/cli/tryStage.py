@@ -10,7 +10,9 @@ from patina import limits
 _SECONDS = 60  # and one more for each MiB
 # Opens layers, composes, and reads every value, as a render does.
 _READ = """
-import resource, sys
+import sys
+sys.path[:] = [folder for folder in sys.path if folder]  # not the current one: its resource.py is not meant
+import resource
 from pxr import Usd
 resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 stage = Usd.Stage.Open(sys.argv[1])

@@ -25,6 +25,8 @@ def merge(module, parts, image, threads=0):
             reports.append(json.loads(report))
     except RuntimeError as error:
         raise CommandError(str(error)) from error
+    except (KeyError, TypeError, ValueError) as error:
+        raise CommandError(f"{description.file} is of another version of Patina") from error
     merged = _MergedStatistics(arguments, first.frame, image, reports)
     merged.rendered(_state(reports), film)
     if arguments.denoise:

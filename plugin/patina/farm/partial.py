@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The files of parts: a description of what made them, films, and a report of the render."""
 import json
+import os
 
 from patina.cli.errors import CommandError
 from patina.farm import cut
@@ -21,9 +22,11 @@ class Description:
             self.noise = float(values["noiseTolerance"])
             self.folder, self.home = values["folder"], values["home"]
             self.denoise, self.decimals = values["denoise"], int(values["decimals"])
-            for table in (self.identity, self.identity.get("files", {}), self.arguments, self.options, self.settings):
+            for table in (self.identity, self.identity["files"], self.arguments, self.options, self.settings):
                 table.items()
-        except (AttributeError, KeyError, TypeError, ValueError):
+            for text in (self.folder, self.home):
+                os.fsencode(text)
+        except (AttributeError, KeyError, OverflowError, TypeError, ValueError):
             raise CommandError(f"{file} is of another version of Patina") from None
 
 

@@ -51,6 +51,22 @@ def _problems(files, folders, machine, home):
     return found + [f"{name} is {own[name]}, not {value}" for name, value in (machine or {}).items() if own.get(name) != value]
 
 
+# `-m patina.farm.child`, but for what lies in the folder of the sender: a patina/ there is not meant.
+_CHILD = ("import sys; sys.path[:] = [folder for folder in sys.path if folder]; import runpy; "
+          "runpy.run_module('patina.farm.child', run_name='__main__', alter_sys=True)")
+
+
+def _new(path):
+    """:returns: a file that is made anew: what lies there in a shared folder, as a link or a pipe of others, is removed
+    :raises PartFailed: with the reason in one line"""
+    try:
+        if os.path.lexists(path):
+            os.remove(path)
+        return open(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666), "wb")
+    except OSError as error:
+        raise PartFailed(f"cannot write {path}: {error.strerror}") from error
+
+
 def run(arguments, folder, log, checks, variables=None):
     """Runs a command of Patina in a process of its own.
 
@@ -67,8 +83,8 @@ def run(arguments, folder, log, checks, variables=None):
     if problems:
         raise Refused(f"{name} {words(problems)}", address)
     begin = time.perf_counter()
-    with open(log, "wb") as file:
-        command = [sys.executable, "-m", "patina.farm.child", str(os.getpid()), *arguments]
+    with _new(log) as file:
+        command = [sys.executable, "-c", _CHILD, str(os.getpid()), *arguments]
         environment = {name: value for name, value in {**os.environ, **(variables or {})}.items() if value is not None}
         status = subprocess.call(command, stdin=subprocess.DEVNULL, stdout=file, stderr=file, cwd=folder, env=environment)
     if status != 0:

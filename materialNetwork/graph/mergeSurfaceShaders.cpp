@@ -136,12 +136,19 @@ private:
         return true;
     }
 
-    Surface surfaceOf(const Operand& operand) {
+    /// @param made by node, to which what is made now is added
+    template <class Part, class Make>
+    static Part once(std::map<int, Part>& made, const Operand& operand, const Make& make) {
         if (operand.isConstant()) return {};
-        const auto known = _surfaces.find(operand.node);
-        if (known != _surfaces.end()) return known->second;
-        const Surface found = surfaceOfNode(operand);
-        return _surfaces[operand.node] = found;
+        const int node = operand.node; // making appends nodes, which may move the operand
+        const auto known = made.find(node);
+        if (known != made.end()) return known->second;
+        const Part part = make();
+        return made[node] = part;
+    }
+
+    Surface surfaceOf(const Operand& operand) {
+        return once(_surfaces, operand, [&] { return surfaceOfNode(operand); });
     }
 
     Surface surfaceOfNode(const Operand operand) {
@@ -279,11 +286,7 @@ private:
     }
 
     Displacement displacementOf(const Operand& operand) {
-        if (operand.isConstant()) return {};
-        const auto known = _displacements.find(operand.node);
-        if (known != _displacements.end()) return known->second;
-        const Displacement found = displacementOfNode(operand);
-        return _displacements[operand.node] = found;
+        return once(_displacements, operand, [&] { return displacementOfNode(operand); });
     }
 
     Displacement displacementOfNode(const Operand operand) {
@@ -321,11 +324,7 @@ private:
     }
 
     Volume volumeOf(const Operand& operand) {
-        if (operand.isConstant()) return {};
-        const auto known = _volumes.find(operand.node);
-        if (known != _volumes.end()) return known->second;
-        const Volume found = volumeOfNode(operand);
-        return _volumes[operand.node] = found;
+        return once(_volumes, operand, [&] { return volumeOfNode(operand); });
     }
 
     Volume volumeOfNode(const Operand operand) {

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/backends/refine.h"
 #include "hdDelegate/parallel.h"
+#include "hdDelegate/renderer/startedThread.h"
 
 #include <algorithm>
 #include <new>
@@ -53,7 +54,13 @@ void InteractiveRenderer::start(std::shared_ptr<Scene> scene, const std::string&
     } else {
         _quickEnded = true;
     }
-    _thread = std::thread(&InteractiveRenderer::run, this, camera);
+    try {
+        _thread = startedThread([this, camera] { run(camera); });
+    } catch (const std::runtime_error&) {
+        _quick->stop();
+        end(RenderProgress());
+        throw;
+    }
 }
 
 void InteractiveRenderer::stop() {

@@ -23,7 +23,7 @@ CompiledVolumes::medium(const std::shared_ptr<const Volume>& prim, const SceneSt
     }
     if (!request.program) request.program = plain();
     return _media.get(prim.get(), request, [&] {
-        return std::make_shared<const VolumeMedium>(*prim, request.program, _diagnostics);
+        return std::make_shared<const VolumeMedium>(*prim, request.program, _diagnostics, &_grids);
     });
 }
 

@@ -37,6 +37,7 @@ private:
 
     CompiledMaterials& _materials;
     Diagnostics& _diagnostics;
+    FieldGrids _grids;
     MadeOnce<Request, Key, VolumeMedium> _media;
     std::once_flag _plainMade;
     std::shared_ptr<const MaterialProgram> _plain;

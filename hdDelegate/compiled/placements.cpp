@@ -79,6 +79,10 @@ private:
 
 } // namespace
 
+double Placements::count(const std::string& group) const {
+    return PlaceCount(*this).of(group);
+}
+
 void Placements::keepWithinLimits(Diagnostics& diagnostics) {
     const double most = double(limitOf(Limit::instances));
     PlaceCount places(*this);

@@ -43,6 +43,9 @@ public:
     /// Whether any instance has a primvar of this name.
     bool haveValue(const std::string& name) const { return _valueNames.count(name) > 0; }
 
+    /// How often forPlaces() visits a group; a double, since it may be more than integers hold.
+    double count(const std::string& group) const;
+
     /// Visits every place of a group in the world, through all levels of instances.
     /// @param inner what stands for the group's own space
     /// @param step (instancer, instance, depth, place) takes a place into the group around by

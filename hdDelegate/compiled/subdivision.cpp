@@ -7,22 +7,35 @@
 #include "hdDelegate/scene/primCompare.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace patina {
 
 namespace {
 
-/// From a group to the world at the frame, everywhere that it stands.
-std::vector<dmat4> placesOf(const Placements& placements, const std::string& group) {
-    std::vector<dmat4> places;
+/// Where a group stands in the world at the frame.
+struct SampledPlaces {
+    std::vector<dmat4> toWorld;
+    double each = 1.0; ///< places that one of them stands for
+};
+
+/// Everywhere, or where there are more than a million places, every so many of them.
+SampledPlaces placesOf(const Placements& placements, const std::string& group) {
+    constexpr double most = 1 << 20;
+    SampledPlaces places;
+    places.each = std::max(1.0, std::ceil(placements.count(group) / most));
+    const size_t every = size_t(places.each);
+    size_t number = 0;
     placements.forPlaces(
         group, dmat4(1.0),
         [](const Instancer& instancer, uint32_t i, int, dmat4& place) {
             place = exactTransformAt(instancer.transforms[i], 0.0f) * place;
             return true;
         },
-        [&](const dmat4& place) { places.push_back(place); });
+        [&](const dmat4& place) {
+            if (number++ % every == 0) places.toWorld.push_back(place);
+        });
     return places;
 }
 
@@ -51,7 +64,7 @@ Subdivision SubdivisionChoice::plan(const SceneState& state, const Placements& p
     SubdivisionPlan plan(settings, screenScale(camera, settings, eye));
     std::vector<std::shared_ptr<const void>> held;
     if (plan.isActive()) {
-        std::map<std::string, std::vector<dmat4>> places;
+        std::map<std::string, SampledPlaces> places;
         for (const auto& item : state.geometry) {
             const auto& prim = item.second;
             if (!subdivides(*prim) || !isDrawn(*prim, settings)) continue;
@@ -59,12 +72,12 @@ Subdivision SubdivisionChoice::plan(const SceneState& state, const Placements& p
             if (known == places.end())
                 known = places.emplace(prim->group, placesOf(placements, prim->group)).first;
             std::vector<mat4> toEye;
-            for (const dmat4& place : known->second)
+            for (const dmat4& place : known->second.toWorld)
                 toEye.push_back(seenFrom(eye, place * exactTransformAt(prim->transform, 0.0f)));
             const auto material = _materials.find(prim->material, prim->path, state, settings);
             const auto program = _materials.program(material, settings.methods, settings.tolerance);
             const auto extent = _extents.of(prim);
-            plan.add(*extent, toEye, program->planned());
+            plan.add(*extent, toEye, program->planned(), known->second.each);
             held.insert(held.end(), {extent, program});
         }
     }

@@ -131,15 +131,20 @@ EmbreeScene::surfacesWith(bool (*wanted)(const MaterialProgram&)) const {
     return result;
 }
 
-std::vector<mat4> EmbreeScene::groupTransforms(const std::string& group) const {
-    std::vector<mat4> result;
+void EmbreeScene::forTransforms(const std::string& group,
+                                const std::function<void(const mat4&)>& visit) const {
     _parts.placements->forPlaces(
         group, mat4(1.0f),
         [&](const Instancer& instancer, uint32_t i, int, mat4& place) {
             place = interpolate(instancer.transforms[i], 0.0f, originOf(instancer.group)) * place;
             return true;
         },
-        [&](const mat4& place) { result.push_back(place); });
+        visit);
+}
+
+std::vector<mat4> EmbreeScene::groupTransforms(const std::string& group) const {
+    std::vector<mat4> result;
+    forTransforms(group, [&](const mat4& place) { result.push_back(place); });
     return result;
 }
 

@@ -215,6 +215,7 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
                                             _compiled->lightImages(), _scene->diagnostics());
     _lightsKey = std::move(key);
     ++_lightsBuilt;
+    _compiled->lightImages().forgetUnused();
 }
 
 void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {

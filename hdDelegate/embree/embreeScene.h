@@ -12,6 +12,7 @@
 #include "hdDelegate/scene/settings.h"
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -81,6 +82,10 @@ public:
     std::vector<const Surface*> surfacesWith(bool (*wanted)(const MaterialProgram&)) const;
     /// World transforms of a group (for lights inside prototypes).
     std::vector<mat4> groupTransforms(const std::string& group) const;
+    /// The same, one after the other.
+    void forTransforms(const std::string& group,
+                       const std::function<void(const mat4&)>& visit) const;
+    double placeCount(const std::string& group) const { return _parts.placements->count(group); }
     /// The same with the instances around. Their values live as long as sharedPlacements().
     std::vector<GroupPlace> groupPlaces(const std::string& group) const;
     const LinkNames& links() const { return *_parts.links; }
@@ -138,7 +143,6 @@ private:
         const RenderSettings& settings;
         const ScreenScale& screen;
         const std::atomic<bool>& stop;
-        std::map<std::string, std::vector<mat4>> transformsOf; ///< by group, of those asked for
         /// By group: the surfaces that differ from the last update's. Null: all of them may.
         const Members* changed = nullptr;
     };

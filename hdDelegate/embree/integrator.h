@@ -10,6 +10,9 @@
 #include "hdDelegate/film/pixelFilter.h"
 #include "base/maths.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace patina {
 
 /// Counts of one thread; summed up for the statistics.
@@ -31,6 +34,10 @@ inline vec3 facingNormal(const ShadingPoint& s) {
 
 inline float powerHeuristic(float a, float b) {
     if (!std::isfinite(a)) return 1.0f;
+    if (std::max(a, b) > 1e18f) { // squares would overflow
+        const float ratio = b / a;
+        return a > 0.0f ? 1.0f / (1.0f + ratio * ratio) : 0.0f;
+    }
     const float aa = a * a, bb = b * b;
     return aa > 0.0f ? aa / (aa + bb) : 0.0f;
 }

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/embree/caustics/causticCasters.h"
 #include "hdDelegate/scene/lightUnits.h"
+#include "base/limits.h"
 #include "base/maths.h"
 
 #include <algorithm>
@@ -22,6 +23,22 @@ double areaOf(const Surface& surface, const mat4& place) {
         area += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
     }
     return area;
+}
+
+} // namespace
+
+namespace {
+
+/// Whether so many more lights are within Limit::lights.
+bool haveRoom(double more, const LightSetInput& input) {
+    const double sum = double(input.lights.size()) + double(input.triangles.size()) + more;
+    return sum <= double(limitOf(Limit::lights));
+}
+
+void warnOfMany(const std::string& light, Diagnostics& diagnostics) {
+    diagnostics.warn(light, "",
+                     "with it the scene has more lights, each wherever it is placed, than " +
+                         limitText(Limit::lights) + "; the light is off");
 }
 
 } // namespace
@@ -63,6 +80,10 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
             meshLights.push_back(light);
             continue;
         }
+        if (!haveRoom(scene.placeCount(light->group), input)) {
+            warnOfMany(light->path, diagnostics);
+            continue;
+        }
         if (!places.count(light->group)) places[light->group] = scene.groupTransforms(light->group);
         for (const mat4& place : places[light->group]) {
             input.lights.push_back({light, place});
@@ -81,13 +102,20 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
             continue;
         }
         MeshLight meshLight{light, lightBaseRadiance(*light), int(_infos.size()), {}};
+        const double places = scene.placeCount(surface->prim->group);
+        if (!haveRoom(places * double(surface->topology().triangles.size()), input)) {
+            warnOfMany(light->path, diagnostics);
+            continue;
+        }
         if (!light->filters.empty())
             for (const GroupPlace& place : scene.groupPlaces(surface->prim->group))
                 meshLight.filters.emplace_back(*light, place.toWorld, scene.origin(),
                                                input.shutterOpen, images, diagnostics);
         if (light->normalize) {
-            const auto where = scene.groupTransforms(surface->prim->group);
-            const double area = where.empty() ? 0.0 : areaOf(*surface, where[0]);
+            double area = -1.0;
+            scene.forTransforms(surface->prim->group, [&](const mat4& place) {
+                if (area < 0.0) area = areaOf(*surface, place);
+            });
             if (area > 0.0) meshLight.radiance /= float(area);
         }
         _infos.push_back(describe(light, scene, settings));
@@ -104,23 +132,41 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
     surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
     _placements = scene.sharedPlacements();
     for (const Surface* surface : surfaces)
-        addSurface(*surface, scene, input);
+        addSurface(*surface, scene, input, diagnostics);
     _set = std::make_unique<LightSet>(std::move(input), images, diagnostics);
 }
 
-void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
-                             LightSetInput& input) {
+void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene, LightSetInput& input,
+                             Diagnostics& diagnostics) {
     const auto meshLight = _meshLights.find(&surface);
     const bool isMeshLight = meshLight != _meshLights.end();
+    const std::vector<uvec3>& triangles = surface.topology().triangles;
+    EmittingSurface found;
+    int glowing = 0;
+    for (unsigned t = 0; t < triangles.size(); ++t)
+        found.slots.push_back(isMeshLight || surface.material(t).program->hasEmission() ? glowing++
+                                                                                        : -1);
+    if (!haveRoom(scene.placeCount(surface.prim->group) * double(glowing), input)) {
+        if (isMeshLight) {
+            warnOfMany(meshLight->second.light->path, diagnostics);
+            _meshLights.erase(meshLight);
+        } else { // paths that meet it see it glow
+            diagnostics.warn(
+                surface.prim->path, "",
+                "with it the scene has more glowing triangles, each wherever it is placed, than " +
+                    limitText(Limit::lights) +
+                    "; what it lights is found by chance alone, with more noise");
+        }
+        return;
+    }
     for (const GroupPlace& where : scene.groupPlaces(surface.prim->group)) {
         const mat4& place = where.toWorld;
-        const std::vector<uvec3>& triangles = surface.topology().triangles;
-        Emitting emitting{place, std::vector<int>(triangles.size(), -1)};
+        Emitting emitting{place, std::vector<int>(size_t(glowing), -1)};
         const int number = int(_places.size());
         _places.push_back(where);
         for (unsigned t = 0; t < triangles.size(); ++t) {
+            if (found.slots[t] < 0) continue;
             const bool glows = surface.material(t).program->hasEmission();
-            if (!isMeshLight && !glows) continue;
             LightTriangle triangle;
             for (int k = 0; k < 3; ++k)
                 triangle.vertices[k] =
@@ -149,13 +195,14 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
             }
             if (!(brightest > 0.0f) && surface.material(t).program->constant()) continue;
             triangle.luminance = std::max(brightest, 1e-6f);
-            emitting.triangles[t] = int(input.triangles.size());
+            emitting.triangles[size_t(found.slots[t])] = int(input.triangles.size());
             input.triangles.push_back(triangle);
             _sources.push_back({&surface, t, number});
             _triangleInfos.push_back(isMeshLight ? meshLight->second.info : _glowInfo);
         }
-        _emitting[&surface].push_back(std::move(emitting));
+        found.places.push_back(std::move(emitting));
     }
+    if (!found.places.empty()) _emitting[&surface] = std::move(found);
 }
 
 int SceneLights::worthwhileSamples() const {
@@ -168,8 +215,10 @@ int SceneLights::triangleLight(const Surface* surface, unsigned primitive,
                                const mat4& groupToWorld) const {
     const auto found = _emitting.find(surface);
     if (found == _emitting.end()) return -1;
-    const size_t place = nearestPlace(found->second, groupToWorld);
-    const int triangle = found->second[place].triangles[primitive];
+    const int slot = found->second.slots[primitive];
+    if (slot < 0) return -1;
+    const std::vector<Emitting>& places = found->second.places;
+    const int triangle = places[nearestPlace(places, groupToWorld)].triangles[size_t(slot)];
     return triangle < 0 ? -1 : triangle + _set->lightCount();
 }
 
@@ -203,7 +252,7 @@ vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
     vec3 light = front ? mesh.radiance : vec3(0.0f);
     if (lit && !mesh.filters.empty()) {
         const size_t place =
-            nearestPlace(_emitting.at(point.hit->surface), point.hit->groupToWorld);
+            nearestPlace(_emitting.at(point.hit->surface).places, point.hit->groupToWorld);
         light *= mesh.filters[place].factor(*lit, -s.viewDirection, glm::length(s.position - *lit),
                                             point.hit->time);
     }

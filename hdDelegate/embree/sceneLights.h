@@ -66,7 +66,11 @@ private:
     };
     struct Emitting {
         mat4 place;
-        std::vector<int> triangles; ///< per primitive of the surface: index, or -1
+        std::vector<int> triangles; ///< per triangle that may glow: index, or -1
+    };
+    struct EmittingSurface {
+        std::vector<int> slots; ///< per primitive: which of those that may glow it is, or -1
+        std::vector<Emitting> places;
     };
     struct Source {
         const Surface* surface;
@@ -76,7 +80,8 @@ private:
 
     LightInfo describe(const std::shared_ptr<const Light>& light, const EmbreeScene& scene,
                        const RenderSettings& settings);
-    void addSurface(const Surface& surface, const EmbreeScene& scene, LightSetInput& input);
+    void addSurface(const Surface& surface, const EmbreeScene& scene, LightSetInput& input,
+                    Diagnostics& diagnostics);
     static size_t nearestPlace(const std::vector<Emitting>& places, const mat4& groupToWorld);
 
     std::unique_ptr<LightSet> _set;
@@ -85,7 +90,7 @@ private:
     std::vector<Source> _sources; ///< per triangle
     std::vector<GroupPlace> _places;
     std::shared_ptr<const Placements> _placements; ///< keeps the values that _places points to
-    std::map<const Surface*, std::vector<Emitting>> _emitting;
+    std::map<const Surface*, EmittingSurface> _emitting;
     std::map<const Surface*, MeshLight> _meshLights;
     int _glowInfo = 0;
     bool _splitsLobes = false;

@@ -5,6 +5,22 @@
 
 namespace patina {
 
+CoverageRoom& CoverageRoom::operator=(const CoverageRoom& other) {
+    _taken.store(other.taken(), std::memory_order_relaxed);
+    _leftOut.store(other.leftOut(), std::memory_order_relaxed);
+    _most = other._most;
+    return *this;
+}
+
+bool CoverageRoom::take(size_t before) {
+    if (before >= idsOfAny && taken() >= _most) {
+        _leftOut.store(true, std::memory_order_relaxed);
+        return false;
+    }
+    _taken.fetch_add(1, std::memory_order_relaxed);
+    return true;
+}
+
 CoverageCell& CoverageCell::operator=(const CoverageCell& other) {
     if (this == &other) return *this;
     _first = other._first;
@@ -12,7 +28,7 @@ CoverageCell& CoverageCell::operator=(const CoverageCell& other) {
     return *this;
 }
 
-bool CoverageCell::add(uint32_t id, uint32_t samples) {
+bool CoverageCell::add(uint32_t id, uint32_t samples, CoverageRoom& room) {
     if (!samples) return false;
     if (!_first.samples || _first.id == id) {
         const bool isNew = !_first.samples;
@@ -26,13 +42,14 @@ bool CoverageCell::add(uint32_t id, uint32_t samples) {
             count.samples += samples;
             return false;
         }
+    if (!room.take(size())) return false;
     _more->push_back({id, samples});
     return true;
 }
 
-void CoverageCell::add(const CoverageCell& other) {
+void CoverageCell::add(const CoverageCell& other, CoverageRoom& room) {
     for (size_t i = 0; i < other.size(); ++i)
-        add(other[i].id, other[i].samples);
+        add(other[i].id, other[i].samples, room);
 }
 
 std::vector<CoverageCount> CoverageCell::ranked() const {

@@ -17,7 +17,7 @@ namespace patina {
 namespace {
 
 constexpr int maxSide = 1 << 20;
-constexpr int64_t maxPixels = int64_t(1) << 32;
+constexpr int64_t maxPixels = int64_t(1) << 28; // some 100 bytes each; as of --imageWidth
 constexpr float farAway = std::numeric_limits<float>::infinity();
 
 double luminanceOf(double r, double g, double b) {
@@ -88,6 +88,7 @@ void Film::clearPlane(const AovSpec& spec, size_t pixels, Plane& plane) {
         return fill(plane.sums, (2 * size_t(spec.components) + 1) * pixels, 0.0);
     if (spec.kind == AovKind::Coverage) {
         plane.names = CoverageNames();
+        plane.room = CoverageRoom();
         return plane.cells.assign(pixels, CoverageCell());
     }
     const size_t stride = size_t(spec.components) + 1;
@@ -221,7 +222,17 @@ void Film::addAov(int aov, int x, int y, const float* values, float distance) {
 void Film::addCoverage(int aov, int x, int y, const std::string& name) {
     Plane& plane = _planes[size_t(aov)];
     const uint32_t id = cryptomatteId(name);
-    if (plane.cells[index(x, y)].add(id)) plane.names.add(id, name);
+    if (plane.cells[index(x, y)].add(id, 1, plane.room)) plane.names.add(id, name);
+}
+
+bool Film::leftOutCoverage() const {
+    return std::any_of(_planes.begin(), _planes.end(),
+                       [](const Plane& plane) { return plane.room.leftOut(); });
+}
+
+void Film::limitCoverage(uint64_t most) {
+    for (Plane& plane : _planes)
+        plane.room.limit(most);
 }
 
 CoverageNames::Map Film::coverageNames(const std::string& aov) const {

@@ -44,6 +44,9 @@ void checkAovSpec(const AovSpec& spec);
 /// @param cryptomatteLevels ids per pixel that images hold, 1 to 16
 /// @throws std::invalid_argument naming an unknown AOV.
 std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names, int cryptomatteLevels = 6);
+/// Takes those AOVs of light paths out that a render has no room for beside those before them.
+/// @returns why, one line for each, which names the AOV
+std::vector<std::string> leaveOutLightPaths(std::vector<std::string>& names);
 
 /// Accumulates what a renderer finds. Row 0 is the top row. One thread writes one pixel at a time;
 /// different pixels may be written at once. Sums are kept in double and in a fixed order, span by
@@ -55,6 +58,11 @@ public:
     /// @throws std::invalid_argument for a negative or absurd size or number of components, or an
     /// AOV of the table (aovs.def) that is unlike its row
     void reset(int width, int height, const std::vector<AovSpec>& aovs, bool keep = false);
+
+    /// Renderers say so while they write to the film.
+    void beginRender() { ++_renders.count; }
+    void endRender() { --_renders.count; }
+    bool isRendered() const { return _renders.count > 0; }
 
     int width() const { return _width; }
     int height() const { return _height; }
@@ -88,6 +96,11 @@ public:
     /// Counts a sample of a pixel for an AOV of AovKind::Coverage.
     /// @param name that cryptomatteId() made the id of
     void addCoverage(int aov, int x, int y, const std::string& name);
+    /// Whether some pixel met more ids than there was room for: see CoverageRoom. Files hold no
+    /// such thing.
+    bool leftOutCoverage() const;
+    /// After reset(): sets how many ids beyond the first of each pixel an AOV has room for.
+    void limitCoverage(uint64_t most);
     /// The names of the ids that such an AOV has met.
     CoverageNames::Map coverageNames(const std::string& aov) const;
 
@@ -147,6 +160,12 @@ public:
 private:
     friend class FilmStream;
 
+    struct Renders { ///< of this film, and not of its copies
+        std::atomic<int> count{0};
+        Renders() = default;
+        Renders(const Renders&) {}
+        Renders& operator=(const Renders&) { return *this; }
+    };
     struct Sums {
         double color[3] = {0, 0, 0};
         double alpha = 0;
@@ -170,6 +189,7 @@ private:
         std::vector<double> sums;
         std::vector<float> nearest;
         std::vector<CoverageCell> cells;
+        CoverageRoom room; ///< of the cells
         CoverageNames names;
     };
 
@@ -183,6 +203,7 @@ private:
     void drop() { _dropped.fetch_add(1, std::memory_order_relaxed); }
     static void clearPlane(const AovSpec& spec, size_t pixels, Plane& plane);
 
+    Renders _renders;
     int _width = 0, _height = 0;
     std::vector<AovSpec> _aovs;
     std::vector<Pixel> _pixels;

@@ -103,19 +103,19 @@ void FilmStream::eachRow(FilmType& film, const Tile& tile, const Act& act) {
     }
 }
 
-/// @param act called with each pixel's cell of each AOV that has them
+/// @param act called with each AOV that has cells, and each pixel's
 template <class FilmType, class Act>
 void FilmStream::eachCell(FilmType& film, const Tile& tile, const Act& act) {
     for (auto& plane : film._planes)
         for (int y = tile.y0; !plane.cells.empty() && y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x)
-                act(plane.cells[film.index(x, y)]);
+                act(plane, plane.cells[film.index(x, y)]);
 }
 
 void FilmStream::writePixels(FilmFileWriter& file, const Film& film, const Tile& tile) {
     static_assert(sizeof(Film::Pixel) == 96, "pixels are written as bytes, without padding");
     eachRow(film, tile, [&](const void* data, size_t size) { file.bytes(data, size); });
-    eachCell(film, tile, [&](const CoverageCell& cell) {
+    eachCell(film, tile, [&](const auto&, const CoverageCell& cell) {
         file.value(uint32_t(cell.size()));
         for (size_t i = 0; i < cell.size(); ++i)
             file.value(cell[i]);
@@ -124,10 +124,10 @@ void FilmStream::writePixels(FilmFileWriter& file, const Film& film, const Tile&
 
 void FilmStream::readPixels(FilmFileReader& file, Film& film, const Tile& tile) {
     eachRow(film, tile, [&](void* data, size_t size) { file.bytes(data, size); });
-    eachCell(film, tile, [&](CoverageCell& cell) {
+    eachCell(film, tile, [&](auto& plane, CoverageCell& cell) {
         for (uint32_t left = file.value<uint32_t>(); left > 0; --left) {
             const auto count = file.value<CoverageCount>();
-            cell.add(count.id, count.samples);
+            cell.add(count.id, count.samples, plane.room);
         }
     });
 }
@@ -169,7 +169,7 @@ void FilmStream::appendPlane(const AovSpec& spec, Film::Plane& plane, size_t to,
                              const Film::Plane& part, size_t from) {
     const size_t n = size_t(spec.components);
     if (!plane.cells.empty()) {
-        plane.cells[to].add(part.cells[from]);
+        plane.cells[to].add(part.cells[from], plane.room);
     } else if (!plane.nearest.empty()) {
         float* values = &plane.nearest[to * (n + 1)];
         const float* other = &part.nearest[from * (n + 1)];

@@ -75,6 +75,25 @@ AovSpec standardAov(const std::string& name) {
     return spec;
 }
 
+std::vector<std::string> leaveOutLightPaths(std::vector<std::string>& names) {
+    LightPathRoom room;
+    std::vector<std::string> kept, problems;
+    for (const std::string& name : names) {
+        const AovId id = aovIdOf(name);
+        std::string expression = lightPathAovOf(name).expression;
+        if (id != AovId::unknown && aovRows()[size_t(id)].expression)
+            expression = aovRows()[size_t(id)].expression;
+        try {
+            if (!expression.empty()) room.add(expression);
+            kept.push_back(name);
+        } catch (const std::invalid_argument& error) {
+            problems.push_back("AOV '" + channelsOfAov(name) + "' is left out: " + error.what());
+        }
+    }
+    names = std::move(kept);
+    return problems;
+}
+
 std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names, int cryptomatteLevels) {
     std::vector<AovSpec> aovs;
     for (const std::string& name : names) {

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <random>
 #include <unordered_map>
 
 namespace patina {
@@ -23,12 +25,22 @@ vec3 unitOr(const vec3& v, const vec3& fallback) {
     return length > 0.0f && std::isfinite(length) ? v / length : fallback;
 }
 
+/// A hash that nobody can make points for which share a bucket: it differs from process to process.
 struct PlaceHash {
     size_t operator()(const vec3& p) const {
+        static const uint64_t seed =
+            uint64_t(std::random_device()()) << 32 | std::random_device()();
         uint32_t bits[3];
         const vec3 q = p + 0.0f; // one zero only
         std::memcpy(bits, &q, sizeof bits);
-        return (bits[0] * 73856093u) ^ (bits[1] * 19349663u) ^ (bits[2] * 83492791u);
+        uint64_t h = seed;
+        for (const uint32_t b : bits) { // the finalizer of splitmix64
+            h = (h ^ b) + 0x9e3779b97f4a7c15u;
+            h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
+            h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
+            h ^= h >> 31;
+        }
+        return size_t(h);
     }
 };
 

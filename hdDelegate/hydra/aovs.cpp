@@ -6,6 +6,7 @@
 #include <pxr/base/gf/vec2f.h>
 #include <pxr/base/gf/vec3f.h>
 #include <pxr/base/gf/vec4f.h>
+#include <pxr/base/tf/diagnostic.h>
 
 #include <stdexcept>
 
@@ -25,6 +26,14 @@ std::string filmAovOf(const TfToken& hydraName) {
         TF_WARN("%s", error.what());
         return "";
     }
+}
+
+std::string bufferAovOf(const TfToken& hydraName) {
+    const std::string name = filmAovOf(hydraName);
+    // Their components follow from a setting, and are more than the four of a buffer.
+    if (name.empty() || standardAov(name).kind != AovKind::Coverage) return name;
+    TF_WARN("AOV %s is written to files alone; its buffer stays empty", hydraName.GetText());
+    return "";
 }
 
 HdAovDescriptor aovDescriptor(const TfToken& hydraName) {

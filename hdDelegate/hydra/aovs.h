@@ -14,6 +14,10 @@ namespace patina {
 /// film's depth); the other names are the same, primvars:NAME and lpe:EXPR among them.
 std::string filmAovOf(const TfToken& hydraName);
 
+/// The same of an AOV that a buffer is bound to: empty, with a warning, for one that no buffer
+/// holds.
+std::string bufferAovOf(const TfToken& hydraName);
+
 /// The buffer that a host should allocate for an AOV; of format HdFormatInvalid when it is not
 /// known.
 HdAovDescriptor aovDescriptor(const TfToken& hydraName);

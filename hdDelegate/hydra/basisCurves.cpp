@@ -32,13 +32,16 @@ void HdPatinaBasisCurves::syncShape(HdSceneDelegate& delegate, HdPatinaRenderPar
                                     HdDirtyBits dirtyBits, bool all, const TfToken&,
                                     Curves& curves) {
     const SdfPath& id = GetId();
-    if (!all && !HdChangeTracker::IsTopologyDirty(dirtyBits, id)) return;
-    const HdBasisCurvesTopology topology = delegate.GetBasisCurvesTopology(id);
-    curves.curveVertexCounts = toVector(topology.GetCurveVertexCounts());
-    curves.basis = basisOf(topology, param, id);
-    curves.wrap = wrapOf(topology);
-    _indices = toVector(topology.GetCurveIndices());
-    expandPoints(curves);
+    if (all || HdChangeTracker::IsTopologyDirty(dirtyBits, id)) {
+        const HdBasisCurvesTopology topology = delegate.GetBasisCurvesTopology(id);
+        curves.curveVertexCounts = toVector(topology.GetCurveVertexCounts());
+        curves.basis = basisOf(topology, param, id);
+        curves.wrap = wrapOf(topology);
+        _indices = toVector(topology.GetCurveIndices());
+        _isStale = true;
+    }
+    if (_isStale) expandPoints(param, curves);
+    _isStale = false;
 }
 
 std::shared_ptr<const Geometry>
@@ -49,22 +52,28 @@ HdPatinaBasisCurves::shownAs(HdSceneDelegate& delegate, HdPatinaRenderParam& par
     return bezier ? std::shared_ptr<const Geometry>(bezier) : curves;
 }
 
-void HdPatinaBasisCurves::setPoints(Curves& curves, Sampled<std::vector<vec3>> points) {
+void HdPatinaBasisCurves::setPoints(Curves&, Sampled<std::vector<vec3>> points) {
     _points = std::move(points);
-    expandPoints(curves);
+    _isStale = true; // syncShape() follows
 }
 
-void HdPatinaBasisCurves::expandPoints(Curves& curves) const {
+void HdPatinaBasisCurves::expandPoints(HdPatinaRenderParam& param, Curves& curves) const {
     curves.points = _points;
     if (_indices.empty()) return;
+    bool broken = false;
     for (std::vector<vec3>& sample : curves.points.values) {
         std::vector<vec3> ordered;
         ordered.reserve(_indices.size());
-        for (const int index : _indices)
-            ordered.push_back(index >= 0 && size_t(index) < sample.size() ? sample[size_t(index)]
-                                                                          : vec3(0.0f));
+        for (const int index : _indices) {
+            const bool isPoint = index >= 0 && size_t(index) < sample.size();
+            broken |= !isPoint;
+            if (!sample.empty()) ordered.push_back(sample[isPoint ? size_t(index) : 0]);
+        }
         sample = std::move(ordered);
     }
+    if (broken)
+        param.warn(GetId(), "curveIndices",
+                   "has an index out of range; the first point is used there");
 }
 
 } // namespace patina

@@ -22,10 +22,11 @@ protected:
             const std::shared_ptr<const Curves>& curves) const override;
 
 private:
-    void expandPoints(Curves& curves) const;
+    void expandPoints(HdPatinaRenderParam& param, Curves& curves) const;
 
     std::vector<int> _indices;          ///< into the points; empty: they are in order
     Sampled<std::vector<vec3>> _points; ///< as authored, with _indices
+    bool _isStale = false;              ///< these have changed since the curves were made of them
 };
 
 } // namespace patina

@@ -61,7 +61,7 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
         values.push_back(m);
     }
     if (values.empty()) return MotionTransform(mat4(1.0f));
-    return sampledOf(std::move(times), std::move(values));
+    return inOrder(std::move(times), std::move(values), param, id, "transform");
 }
 
 /// The lens of cameraInputs.def; a name of its own is stronger than a primvar.
@@ -84,6 +84,7 @@ void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     auto& param = *static_cast<HdPatinaRenderParam*>(renderParam);
     HdCamera::Sync(delegate, renderParam, dirtyBits);
     if (param.widenShutter(GetShutterOpen(), GetShutterClose())) {
+        // What is no rprim is sampled again by readAgain().
         HdChangeTracker& tracker = delegate->GetRenderIndex().GetChangeTracker();
         tracker.MarkAllRprimsDirty(HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyPoints |
                                    HdChangeTracker::DirtyPrimvar | HdChangeTracker::DirtyInstancer);

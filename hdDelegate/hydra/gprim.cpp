@@ -31,7 +31,7 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
         values.push_back(m);
     }
     if (values.empty()) return MotionTransform(mat4(1.0f));
-    return sampledOf(std::move(times), std::move(values));
+    return inOrder(std::move(times), std::move(values), param, id, "transform");
 }
 
 } // namespace

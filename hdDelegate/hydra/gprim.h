@@ -63,7 +63,10 @@ public:
         if (all || HdChangeTracker::IsAnyPrimvarDirty(*dirtyBits, id) ||
             (*dirtyBits & HdChangeTracker::DirtyComputationPrimvarDesc)) {
             PrimvarUpdate update = updatePrimvars(*delegate, param, id, *dirtyBits, all, *prim);
-            if (update.pointsChanged) setPoints(*prim, std::move(update.points));
+            // Points that are listed no more are gone, though nothing marks them.
+            if (update.pointsChanged || (_hasPoints && !update.pointsListed))
+                setPoints(*prim, std::move(update.points));
+            _hasPoints = update.pointsListed;
             readMarks(*delegate, param, id, *prim);
         }
         syncShape(*delegate, param, *dirtyBits, all, reprToken, *prim);
@@ -118,6 +121,7 @@ protected:
 
 private:
     std::shared_ptr<const Prim> _prim; ///< as Hydra has it
+    bool _hasPoints = false;           ///< Hydra lists points of it
 };
 
 } // namespace patina

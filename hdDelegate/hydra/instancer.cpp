@@ -2,6 +2,7 @@
 #include "hdDelegate/hydra/instancer.h"
 
 #include "hdDelegate/hydra/instancerTransforms.h"
+#include "hdDelegate/hydra/primvars.h"
 #include "hdDelegate/hydra/renderParam.h"
 #include "hdDelegate/hydra/values.h"
 
@@ -39,10 +40,8 @@ void HdPatinaInstancer::Sync(HdSceneDelegate* delegate, HdRenderParam* renderPar
     auto data = _data ? std::make_shared<HdPatinaInstanceData>(*_data)
                       : std::make_shared<HdPatinaInstanceData>();
     if (!_data || HdChangeTracker::IsTransformDirty(*dirtyBits, id) ||
-        HdChangeTracker::IsAnyPrimvarDirty(*dirtyBits, id)) {
-        data->transforms = readInstanceTransforms(*delegate, id, param);
-        readPrimvars(*delegate, *data);
-    }
+        HdChangeTracker::IsAnyPrimvarDirty(*dirtyBits, id))
+        readInstances(*delegate, param, *data);
     data->visible = delegate->GetVisible(id);
     data->categories = categoriesOf(*delegate, id);
     {
@@ -80,20 +79,51 @@ void HdPatinaInstancer::updateCategories(HdPatinaRenderParam& param) {
     place(param);
 }
 
+void HdPatinaInstancer::updateTransforms(HdPatinaRenderParam& param) {
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        if (!_data || _shutter == param.shutter()) return;
+        auto data = std::make_shared<HdPatinaInstanceData>(*_data);
+        readInstances(*GetDelegate(), param, *data);
+        _data = data;
+    }
+    place(param);
+}
+
 void HdPatinaInstancer::Finalize(HdRenderParam* renderParam) {
     static_cast<HdPatinaRenderParam*>(renderParam)->instances().removeInstancer(GetId());
 }
 
-void HdPatinaInstancer::readPrimvars(HdSceneDelegate& delegate, HdPatinaInstanceData& data) const {
+void HdPatinaInstancer::readInstances(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                                      HdPatinaInstanceData& data) {
+    _shutter = param.shutter();
+    data.transforms = readInstanceTransforms(delegate, GetId(), param);
+    readPrimvars(delegate, param, data);
+}
+
+void HdPatinaInstancer::readPrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                                     HdPatinaInstanceData& data) const {
+    const size_t instances = data.transforms.size();
     data.primvars.clear();
+    if (instances == 0) return; // nothing is drawn, and readInstanceTransforms() has said why
     for (const auto& descriptor :
          delegate.GetPrimvarDescriptors(GetId(), HdInterpolationInstance)) {
         if (TfStringStartsWith(descriptor.name.GetString(), "hydra:")) continue;
         Primvar primvar;
         primvar.name = descriptor.name.GetString();
         primvar.interpolation = Interpolation::Vertex;
-        primvar.values = floatsOf(delegate.Get(GetId(), descriptor.name), primvar.components);
-        if (primvar.components > 0 && primvar.components <= 16)
+        const VtValue value = delegate.Get(GetId(), descriptor.name);
+        primvar.values = floatsOf(value, primvar.components);
+        if (primvar.components < 1 || primvar.components > 16) {
+            warnOfType(param, GetId(), primvar.name, value);
+            continue;
+        }
+        const size_t count = primvar.values.size() / size_t(primvar.components);
+        if (count != instances)
+            param.warn(GetId(), "primvars:" + primvar.name,
+                       "has " + std::to_string(count) + " values for " + std::to_string(instances) +
+                           " instances; it is left out");
+        else
             data.primvars.push_back(std::move(primvar));
     }
 }

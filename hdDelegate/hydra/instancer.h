@@ -4,6 +4,7 @@
 #include "hdDelegate/hydra/compat.h"
 #include "hdDelegate/hydra/instances.h"
 
+#include <pxr/base/gf/vec2f.h>
 #include <pxr/imaging/hd/instancer.h>
 
 namespace patina {
@@ -24,13 +25,20 @@ public:
 
     /// Reads the light links of the instances again.
     void updateCategories(HdPatinaRenderParam& param);
+    /// Samples the instances again where the shutter has become longer since. Host's thread, while
+    /// nothing syncs.
+    void updateTransforms(HdPatinaRenderParam& param);
 
 private:
-    void readPrimvars(HdSceneDelegate& delegate, HdPatinaInstanceData& data) const;
+    void readInstances(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                       HdPatinaInstanceData& data);
+    void readPrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                      HdPatinaInstanceData& data) const;
 
     std::mutex _mutex;
     std::shared_ptr<const HdPatinaInstanceData> _data, _placed;
     std::string _group;
+    GfVec2f _shutter{0.0f}; ///< over which the instances were sampled
 };
 
 } // namespace patina

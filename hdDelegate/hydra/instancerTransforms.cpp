@@ -88,31 +88,54 @@ struct Part {
         const double f = (time - times[a]) / double(times[b] - times[a]);
         return first * (1.0 - f) + second * f;
     }
-    size_t count() const {
-        size_t maximum = 0;
-        for (const Matrices& value : values)
-            maximum = std::max(maximum, value.size());
-        return maximum;
-    }
+    size_t count() const { return values.empty() ? 0 : values[0].size(); }
 
 private:
     const GfMatrix4d& element(size_t sample, size_t instance) const {
-        static const GfMatrix4d identity(1.0);
-        return instance < values[sample].size() ? values[sample][instance] : identity;
+        return values[sample][instance];
     }
 };
 
-Part read(HdSceneDelegate& delegate, const HdPatinaRenderParam& param, const SdfPath& id,
-          const TfToken& name, Matrices (*convertAll)(const VtValue&)) {
+/// Keeps the samples that have as many instances as that of the frame, or the first where all come
+/// later. Instances have no names by which those of other counts could be told.
+void keepCount(HdPatinaRenderParam& param, const SdfPath& id, const char* input, Part& part) {
+    size_t frame = 0;
+    for (size_t i = 0; i < part.times.size(); ++i)
+        if (part.times[i] <= 0.0f) frame = i;
+    const size_t count = part.values.empty() ? 0 : part.values[frame].size();
+    Part kept;
+    for (size_t i = 0; i < part.times.size(); ++i) {
+        if (part.values[i].size() != count) {
+            param.warn(id, input,
+                       "has " + std::to_string(part.values[i].size()) + " values for " +
+                           std::to_string(count) + " instances; that sample is left out");
+            continue;
+        }
+        kept.times.push_back(part.times[i]);
+        kept.values.push_back(std::move(part.values[i]));
+    }
+    part = std::move(kept);
+}
+
+/// @param input the name that users know
+Part read(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
+          const TfToken& name, const char* input, Matrices (*convertAll)(const VtValue&)) {
     ValueSamples samples;
     samplePrimvar(delegate, param, id, name, samples);
     Part part;
     for (size_t i = 0; i < samples.count; ++i) {
-        Matrices matrices = convertAll(samples.values[i]);
-        if (matrices.empty()) continue;
+        const VtValue& value = samples.values[i];
+        Matrices matrices = convertAll(value);
+        if (matrices.empty()) {
+            if (!value.IsEmpty() && !(value.IsArrayValued() && value.GetArraySize() == 0))
+                param.warn(id, input,
+                           "is of type " + value.GetTypeName() + ", which is not read here");
+            continue;
+        }
         part.times.push_back(samples.times[i]);
         part.values.push_back(std::move(matrices));
     }
+    keepCount(param, id, input, part);
     return part;
 }
 
@@ -122,11 +145,13 @@ std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, c
                                                     HdPatinaRenderParam& param) {
     const Part parts[] = {
         // Gf multiplies row vectors: what is applied first stands first.
-        read(delegate, param, id, HdInstancerTokens->instanceTransforms, transforms),
-        read(delegate, param, id, HdInstancerTokens->instanceScales, scales),
-        read(delegate, param, id, HdInstancerTokens->instanceRotations, rotations),
-        read(delegate, param, id, HdInstancerTokens->instanceTranslations, translations),
+        read(delegate, param, id, HdInstancerTokens->instanceTransforms, "transforms", transforms),
+        read(delegate, param, id, HdInstancerTokens->instanceScales, "scales", scales),
+        read(delegate, param, id, HdInstancerTokens->instanceRotations, "orientations", rotations),
+        read(delegate, param, id, HdInstancerTokens->instanceTranslations, "positions",
+             translations),
     };
+    const char* const inputs[] = {"transforms", "scales", "orientations", "positions"};
     MatrixSamples own;
     sampleInstancerTransform(delegate, param, id, own);
     Part instancer;
@@ -135,21 +160,38 @@ std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, c
         instancer.values.push_back({own.values[i]});
     }
 
+    // Instances are as many as their positions, or as what stands in for these.
     size_t count = 0;
+    for (const Part& part : parts)
+        if (part.count() > 0) count = part.count();
     std::set<float> times;
     for (const Part& part : parts) {
-        count = std::max(count, part.count());
+        if (part.count() > 0 && part.count() != count) {
+            // As of stages that are read without Hydra.
+            param.warn(id, inputs[&part - parts],
+                       "has " + std::to_string(part.count()) + " values for " +
+                           std::to_string(count) + " instances; nothing is drawn of the instancer");
+            return {};
+        }
         if (part.times.size() > 1) times.insert(part.times.begin(), part.times.end());
     }
     if (instancer.times.size() > 1) times.insert(instancer.times.begin(), instancer.times.end());
     if (times.empty()) times.insert(0.0f);
+
+    std::vector<float> kept(times.begin(), times.end());
+    if (kept.size() > maxTimeSamples) {
+        warnOfSamples(param, id, "transforms", times.size());
+        for (size_t i = 0; i < maxTimeSamples; ++i)
+            kept[i] = kept[keptSample(i, times.size())];
+        kept.resize(maxTimeSamples);
+    }
 
     std::vector<MotionTransform> result;
     result.reserve(count);
     bool broken = false;
     for (size_t i = 0; i < count; ++i) {
         std::vector<dmat4> values;
-        for (const float time : times) {
+        for (const float time : kept) {
             GfMatrix4d m(1.0);
             for (const Part& part : parts)
                 m *= part.at(i, time);
@@ -162,7 +204,7 @@ std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, c
                         values.back() = dmat4(0.0); // drawn by none
                     }
         }
-        result.push_back(sampledOf({times.begin(), times.end()}, std::move(values)));
+        result.push_back(sampledOf(kept, std::move(values)));
     }
     if (broken)
         param.warn(id, "transforms", "of some instances are not finite; these are not drawn");

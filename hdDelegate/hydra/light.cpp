@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/light.h"
 
-#include "hdDelegate/hydra/instancer.h"
 #include "hdDelegate/hydra/instances.h"
 #include "hdDelegate/hydra/lightParams.h"
-#include "hdDelegate/hydra/linkedPrim.h"
 #include "hdDelegate/hydra/sampling.h"
 #include "hdDelegate/hydra/values.h"
 
@@ -47,19 +45,7 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
         values.push_back(m);
     }
     if (values.empty()) return MotionTransform(toMat4(turn));
-    return sampledOf(std::move(times), std::move(values));
-}
-
-/// Neither UsdImagingDelegate nor Hydra's light linking tells all prims whose links have changed.
-void readLinksAgain(HdRenderIndex& index, HdPatinaRenderParam& param) {
-    for (const SdfPath& path : param.instances().instancers())
-        if (HdInstancer* instancer = index.GetInstancer(path))
-            static_cast<HdPatinaInstancer*>(instancer)->updateCategories(param);
-    for (const SdfPath& path : index.GetRprimIds()) {
-        auto* prim = dynamic_cast<HdPatinaLinkedPrim*>(const_cast<HdRprim*>(index.GetRprim(path)));
-        HdSceneDelegate* delegate = index.GetSceneDelegateForRprim(path);
-        if (prim && delegate) prim->updateCategories(*delegate, param);
-    }
+    return inOrder(std::move(times), std::move(values), param, id, "transform");
 }
 
 } // namespace
@@ -74,7 +60,11 @@ void HdPatinaLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     const bool all = !_light;
     auto light = all ? std::make_shared<Light>() : std::make_shared<Light>(*_light);
     light->path = id.GetString();
-    if (all || (*dirtyBits & DirtyTransform)) light->transform = transformOf(*delegate, param, id);
+    _delegate = delegate;
+    if (all || (*dirtyBits & DirtyTransform)) {
+        _shutter = param.shutter();
+        light->transform = transformOf(*delegate, param, id);
+    }
     // Hosts mark params dirty for visibility, collections and resources alike.
     if (all || (*dirtyBits & ~HdDirtyBits(DirtyTransform)))
         readLightParams(*delegate, param, id, _type, *light);
@@ -92,13 +82,22 @@ void HdPatinaLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     const bool links = !light->lightLink.empty() || !light->shadowLink.empty();
     const bool linked = _light && (!_light->lightLink.empty() || !_light->shadowLink.empty());
     if ((all || (*dirtyBits & (DirtyCollection | DirtyParams))) && (links || linked))
-        readLinksAgain(delegate->GetRenderIndex(), param);
+        param.setLinksChanged(); // of any number of lights the prims are read once: readAgain()
     _light = light;
     if (_light->visible)
         param.set(_light);
     else
         param.removeLight(light->path);
     *dirtyBits = Clean;
+}
+
+void HdPatinaLight::updateTransform(HdPatinaRenderParam& param) {
+    if (!_light || _shutter == param.shutter()) return;
+    _shutter = param.shutter();
+    auto light = std::make_shared<Light>(*_light);
+    light->transform = transformOf(*_delegate, param, GetId());
+    _light = light;
+    if (_light->visible) param.set(_light);
 }
 
 void HdPatinaLight::Finalize(HdRenderParam* renderParam) {

@@ -22,9 +22,15 @@ public:
     void Finalize(HdRenderParam* renderParam) override;
     HdDirtyBits GetInitialDirtyBitsMask() const override { return AllDirty; }
 
+    /// Samples the transform again where the shutter has become longer since. Host's thread, while
+    /// nothing syncs.
+    void updateTransform(HdPatinaRenderParam& param);
+
 private:
     TfToken _type;
     std::shared_ptr<const Light> _light;
+    HdSceneDelegate* _delegate = nullptr; ///< of the last sync; render indices tell none of sprims
+    GfVec2f _shutter{0.0f};               ///< over which the transform was sampled
 };
 
 } // namespace patina

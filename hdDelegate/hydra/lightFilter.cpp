@@ -4,10 +4,12 @@
 #include "hdDelegate/hydra/values.h"
 
 #include <pxr/imaging/hd/material.h>
+#include <pxr/imaging/hd/renderIndex.h>
 #include <pxr/imaging/hd/tokens.h>
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 
 namespace patina {
@@ -58,10 +60,16 @@ public:
     void read(const char* names, std::string& field) const {
         const VtValue value = get(names);
         double number = 0.0;
-        if (numberOf(value, number))
-            field = std::to_string(int(number));
-        else if (!textOf(value).empty())
+        if (numberOf(value, number)) {
+            if (std::abs(number) <= std::numeric_limits<int>::max()) // not of NaN
+                field = std::to_string(int(number));
+            else
+                _param.warn(_light, "light:filters",
+                            _id.GetString() + " has an input " + names +
+                                " that is not a number of the schema; the fallback is used");
+        } else if (!textOf(value).empty()) {
             field = textOf(value);
+        }
     }
     void read(const char* names, std::vector<float>& field) const {
         int components = 0;
@@ -187,6 +195,13 @@ std::vector<LightFilter> readLightFilters(HdSceneDelegate& delegate, HdPatinaRen
                 param.warn(light, "light:filters",
                            path.GetString() + " is a light filter of unknown type '" + given +
                                "'; it is left out");
+            continue;
+        }
+        // Edits of a filter reach the light by a dependency. Of a light on itself, or of lights on
+        // each other, it would have no end.
+        if (!delegate.GetRenderIndex().GetSprim(HdPrimTypeTokens->lightFilter, path)) {
+            param.warn(light, "light:filters",
+                       path.GetString() + " is no light filter; it is left out");
             continue;
         }
         LightFilter filter;

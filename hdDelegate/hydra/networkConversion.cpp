@@ -10,7 +10,7 @@
 #include <pxr/usd/sdf/assetPath.h>
 
 #include <algorithm>
-#include <set>
+#include <unordered_map>
 
 namespace patina {
 
@@ -116,19 +116,21 @@ Network networkOf(const VtValue& resource, const SdfPath& material, HdPatinaRend
         return network;
     }
     const HdMaterialNetworkMap& map = resource.UncheckedGet<HdMaterialNetworkMap>();
-    std::set<SdfPath> known;
+    std::unordered_map<std::string, size_t> places; // in network.nodes, by path
     for (const auto& terminal : map.map) {
         const HdMaterialNetwork& part = terminal.second;
         if (part.nodes.empty()) continue;
         // Terminals may share nodes.
         for (const HdMaterialNode& node : part.nodes)
-            if (known.insert(node.path).second) addNode(node, material, param, network);
-        for (const HdMaterialRelationship& relation : part.relationships)
-            for (NetworkNode& node : network.nodes)
-                if (node.path == nodePath(relation.outputId, material))
-                    // Hydra's input is where a value comes from.
-                    node.connections[relation.outputName.GetString()] = {
-                        nodePath(relation.inputId, material), relation.inputName.GetString()};
+            if (places.emplace(nodePath(node.path, material), network.nodes.size()).second)
+                addNode(node, material, param, network);
+        for (const HdMaterialRelationship& relation : part.relationships) {
+            const auto place = places.find(nodePath(relation.outputId, material));
+            if (place == places.end()) continue;
+            // Hydra's input is where a value comes from.
+            network.nodes[place->second].connections[relation.outputName.GetString()] = {
+                nodePath(relation.inputId, material), relation.inputName.GetString()};
+        }
         // The last node is the terminal's. Which of its outputs is not told.
         const std::string name = terminal.first.GetString();
         const NodeDef* def = findNodeDef(part.nodes.back().identifier.GetString());

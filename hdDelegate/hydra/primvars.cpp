@@ -9,6 +9,7 @@
 #include <pxr/imaging/hd/changeTracker.h>
 #include <pxr/imaging/hd/extComputationUtils.h>
 #include <pxr/imaging/hd/tokens.h>
+#include <pxr/usd/sdf/assetPath.h>
 
 #include <algorithm>
 #include <set>
@@ -57,6 +58,7 @@ void setPrimvar(HdPatinaRenderParam& param, const SdfPath& id, const TfToken& na
     primvar.interpolation = interpolationOf(interpolation);
     primvar.values = floatsOf(value, primvar.components);
     if (primvar.components == 0 || primvar.components > 16) {
+        warnOfType(param, id, primvar.name, value);
         erase(prim, primvar.name);
         return;
     }
@@ -88,7 +90,7 @@ Sampled<std::vector<vec3>> pointsFrom(const HdTimeSampleArray<VtValue, CAPACITY>
         times.push_back(samples.times[i]);
         values.push_back(std::move(points));
     }
-    return sampledOf(std::move(times), std::move(values));
+    return inOrder(std::move(times), std::move(values), param, id, "points");
 }
 
 constexpr char lightGroup[] = "lightGroup"; // a label in light path expressions
@@ -111,7 +113,21 @@ bool isLeftOut(const std::string& name) {
            name == "accelerations";
 }
 
+bool isText(const VtValue& value) {
+    return value.IsHolding<std::string>() || value.IsHolding<TfToken>() ||
+           value.IsHolding<SdfAssetPath>() || value.IsHolding<VtStringArray>() ||
+           value.IsHolding<VtTokenArray>() || value.IsHolding<VtArray<SdfAssetPath>>();
+}
+
 } // namespace
+
+void warnOfType(HdPatinaRenderParam& param, const SdfPath& id, const std::string& primvar,
+                const VtValue& value) {
+    if (value.IsEmpty() || isText(value) || (value.IsArrayValued() && value.GetArraySize() == 0))
+        return;
+    param.warn(id, "primvars:" + primvar,
+               "is of type " + value.GetTypeName() + ", which holds no numbers; it is left out");
+}
 
 PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                              const SdfPath& id, HdDirtyBits dirtyBits, bool all, Geometry& prim) {
@@ -171,6 +187,7 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
             }
         }
     }
+    update.pointsListed = listed.count(HdTokens->points.GetString()) != 0;
     if (!listed.count(lightGroup)) prim.lightGroup.clear();
     prim.primvars.erase(std::remove_if(prim.primvars.begin(), prim.primvars.end(),
                                        [&](const Primvar& p) { return !listed.count(p.name); }),

@@ -12,9 +12,15 @@ namespace patina {
 
 /// The values of a prim's dirty primvars.
 struct PrimvarUpdate {
+    bool pointsListed = false; ///< the prim has points, dirty or not
     bool pointsChanged = false;
     Sampled<std::vector<vec3>> points;
 };
+
+/// Warns of a primvar that is left out because its type holds no numbers; not of texts, which marks
+/// and names are, nor of values that are empty.
+void warnOfType(HdPatinaRenderParam& param, const SdfPath& id, const std::string& primvar,
+                const VtValue& value);
 
 /// Brings the primvars of a scene prim up to date: removes those that Hydra no longer lists, and
 /// fetches the dirty ones, authored or computed (skinning), indexed or not. They are kept sorted by

@@ -88,7 +88,12 @@ bool HdPatinaRenderBuffer::Allocate(const GfVec3i& dimensions, HdFormat format, 
 
 void HdPatinaRenderBuffer::_Deallocate() {
     std::lock_guard<std::mutex> lock(_mutex);
-    if (_mappers > 0) TF_WARN("render buffer %s is freed while it is mapped", GetId().GetText());
+    if (_mappers > 0) {
+        TF_WARN("render buffer %s is freed while it is mapped", GetId().GetText());
+        // What a host has a pointer to stays. Of one that forgets its maps that is one image.
+        _mappedBytes = std::move(_bytes);
+        _mappersBefore = _mappers;
+    }
     _width = 0;
     _height = 0;
     _format = HdFormatInvalid;
@@ -106,7 +111,11 @@ void* HdPatinaRenderBuffer::Map() {
 
 void HdPatinaRenderBuffer::Unmap() {
     std::lock_guard<std::mutex> lock(_mutex);
-    if (_mappers > 0) --_mappers;
+    if (_mappersBefore > 0)
+        --_mappersBefore;
+    else if (_mappers > 0)
+        --_mappers;
+    if (_mappersBefore == 0) std::vector<uint8_t>().swap(_mappedBytes);
 }
 
 bool HdPatinaRenderBuffer::write(bool isInteger, const Row& row) {

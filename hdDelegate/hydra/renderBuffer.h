@@ -35,6 +35,8 @@ public:
     bool IsMultiSampled() const override { return false; }
 
     void* Map() override;
+    /// Ends the oldest map. Pixels that were allocated anew while they were mapped stay until no
+    /// map is left.
     void Unmap() override;
     bool IsMapped() const override { return _mappers > 0; }
     void Resolve() override {} // the pass writes finished pixels
@@ -60,6 +62,8 @@ private:
     std::atomic<unsigned int> _width{0}, _height{0};
     HdFormat _format = HdFormatInvalid;
     std::vector<uint8_t> _bytes;
+    std::vector<uint8_t> _mappedBytes; ///< of before, and perhaps read by a host still
+    int _mappersBefore = 0;            ///< maps of these that were not ended
     mutable std::mutex _mutex;
     std::atomic<int> _mappers{0};
     std::atomic<bool> _converged{false};

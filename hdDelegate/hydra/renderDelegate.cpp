@@ -114,23 +114,26 @@ void HdPatinaRenderDelegate::applySettings() {
 void HdPatinaRenderDelegate::SetRenderSetting(const TfToken& name, const VtValue& value) {
     const TfToken key = settingKey(name);
     if (key.IsEmpty()) { // hosts keep things of their own here
-        if (name == "stageMetersPerUnit")
-            _state->param.setMetersPerUnit(
-                VtValue::Cast<double>(value).GetWithDefault<double>(0.01));
+        if (name == "stageMetersPerUnit") {
+            const VtValue number = VtValue::Cast<double>(value);
+            if (!number.IsHolding<double>() && !value.IsEmpty()) {
+                TF_WARN("render setting %s has a value of the wrong type; it is left as it was",
+                        name.GetText());
+                return;
+            }
+            _state->param.setMetersPerUnit(number.GetWithDefault<double>(0.01));
+        }
         HdRenderDelegate::SetRenderSetting(name, value);
         return;
     }
-    const VtValue converted = settingValue(key, value);
     HdPatinaSettings scratch;
-    const std::string problem = converted.IsEmpty()
-                                    ? "has a value of the wrong type; it is left as it was"
-                                    : applySetting(key, converted, scratch);
+    const std::string problem = applySetting(key, value, scratch);
     if (!problem.empty()) {
         TF_WARN("render setting %s %s", name.GetText(), problem.c_str());
         return;
     }
     const unsigned int before = _settingsVersion;
-    HdRenderDelegate::SetRenderSetting(key, converted);
+    HdRenderDelegate::SetRenderSetting(key, settingValue(key, value));
     if (_settingsVersion != before) applySettings();
 }
 

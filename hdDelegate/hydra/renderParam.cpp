@@ -69,7 +69,9 @@ bool HdPatinaRenderParam::widenShutter(double open, double close) {
     const bool first = !(_shutter[1] > _shutter[0]);
     _shutter[0] = first ? float(open) : std::min(_shutter[0], float(open));
     _shutter[1] = first ? float(close) : std::max(_shutter[1], float(close));
-    return _shutter != before;
+    if (_shutter == before) return false;
+    _shutterWidened = true;
+    return true;
 }
 
 void HdPatinaRenderParam::warn(const SdfPath& prim, const std::string& input,

@@ -7,6 +7,7 @@
 #include <pxr/base/gf/vec2f.h>
 #include <pxr/imaging/hd/renderDelegate.h>
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -45,6 +46,13 @@ public:
     GfVec2f shutter() const;
     /// @returns whether that made the interval longer, so that prims have to be sampled anew
     bool widenShutter(double open, double close);
+    /// @returns whether it did since the last call, so that readAgain() has to
+    bool takeShutterWidened() { return _shutterWidened.exchange(false); }
+
+    /// The links of a light changed: those of all prims are to be read again. Any thread.
+    void setLinksChanged() { _linksChanged = true; }
+    /// @returns whether some did since the last call
+    bool takeLinksChanged() { return _linksChanged.exchange(false); }
 
     /// A warning that names prim and input. Any thread.
     void warn(const SdfPath& prim, const std::string& input, const std::string& message);
@@ -69,6 +77,7 @@ private:
     SceneEdit _edit;
     std::unique_ptr<HdPatinaInstances> _instances;
     GfVec2f _shutter{0.0f};
+    std::atomic<bool> _shutterWidened{false}, _linksChanged{false};
     std::map<SdfPath, std::set<SdfPath>> _volumes; ///< by field
     size_t _reported = 0;                          ///< diagnostics that the host was told
 };

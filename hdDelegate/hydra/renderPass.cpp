@@ -5,6 +5,7 @@
 
 #include "hdDelegate/hydra/aovs.h"
 #include "hdDelegate/hydra/clearValue.h"
+#include "hdDelegate/hydra/readAgain.h"
 
 #include <pxr/base/tf/diagnostic.h>
 #include <pxr/imaging/hd/rprim.h>
@@ -25,7 +26,7 @@ bool HdPatinaRenderPass::Target::operator==(const Target& other) const {
 HdPatinaRenderPass::HdPatinaRenderPass(HdRenderIndex* index, const HdRprimCollection& collection,
                                        std::shared_ptr<HdPatinaDelegateState> state)
     : HdRenderPass(index, collection), _state(std::move(state)), _session(_state->makeSession()),
-      _products(*_state), _cameraPath("/patinaView" + std::to_string(_state->nextPass())) {}
+      _products(*_state), _cameraPath("patinaView:" + std::to_string(_state->nextPass())) {}
 
 HdPatinaRenderPass::~HdPatinaRenderPass() {
     _session->stop();
@@ -40,7 +41,7 @@ bool HdPatinaRenderPass::IsConverged() const {
 }
 
 std::vector<HdPatinaRenderPass::Target>
-HdPatinaRenderPass::targetsOf(const HdRenderPassAovBindingVector& bindings) const {
+HdPatinaRenderPass::targetsOf(const HdRenderPassAovBindingVector& bindings) {
     std::vector<Target> targets;
     for (const HdRenderPassAovBinding& binding : bindings) {
         HdPatinaRenderBuffer* own = HdPatinaRenderBuffer::known(binding.renderBuffer);
@@ -50,12 +51,11 @@ HdPatinaRenderPass::targetsOf(const HdRenderPassAovBindingVector& bindings) cons
                     HdPrimTypeTokens->renderBuffer, binding.renderBufferId)));
         if (!own) continue;
         // What is wrong with a name is said once, not with each repaint.
-        const auto before = std::find_if(_targets.begin(), _targets.end(), [&](const Target& t) {
-            return t.aovName == binding.aovName;
-        });
-        targets.push_back({binding.aovName,
-                           before == _targets.end() ? filmAovOf(binding.aovName) : before->filmAov,
-                           own, own->allocation(), binding.clearValue});
+        auto known = _filmAovs.find(binding.aovName);
+        if (known == _filmAovs.end())
+            known = _filmAovs.emplace(binding.aovName, bufferAovOf(binding.aovName)).first;
+        targets.push_back(
+            {binding.aovName, known->second, own, own->allocation(), binding.clearValue});
     }
     return targets;
 }
@@ -81,8 +81,10 @@ HdPatinaSettings HdPatinaRenderPass::settingsFor(const HdPatinaView& view,
 
 void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
                                   const TfTokenVector& renderTags) {
+    readAgain(*GetRenderIndex(), _state->param);
     if (_products.wanted()) {
-        _converged = _products.update();
+        // A host that stopped, or pauses, wants no product more.
+        if (!_state->stopped() && !_state->paused()) _converged = _products.update();
         for (const Target& target : targetsOf(passState->GetAovBindings()))
             target.buffer->setConverged(_converged);
         _state->param.reportWarnings();
@@ -172,6 +174,9 @@ void HdPatinaRenderPass::show(const HdPatinaFrame& frame) {
         const bool isColor = spec.name == "color";
         const ClearValue clear = clearValueOf(target.clearValue);
         const std::vector<float>& pixels = found->second;
+        const size_t pixelCount = size_t(frame.width) * size_t(frame.height);
+        // Rows of a buffer have four floats a pixel.
+        if (spec.components > 4 || pixels.size() < pixelCount * size_t(spec.components)) continue;
         const bool replaced =
             !isColor && !clear.empty && clear.isInteger == spec.isInteger && spec.components == 1;
         written &= target.buffer->write(spec.isInteger, [&](int y, unsigned width, float* out) {

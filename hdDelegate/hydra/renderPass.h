@@ -8,6 +8,8 @@
 
 #include <pxr/imaging/hd/renderPass.h>
 
+#include <map>
+
 namespace patina {
 
 /// Keeps one renderer busy with the view that a host wants, and copies finished frames into the
@@ -40,7 +42,7 @@ private:
 
     void _Execute(const HdRenderPassStateSharedPtr& passState,
                   const TfTokenVector& renderTags) override;
-    std::vector<Target> targetsOf(const HdRenderPassAovBindingVector& bindings) const;
+    std::vector<Target> targetsOf(const HdRenderPassAovBindingVector& bindings);
     HdPatinaSettings settingsFor(const HdPatinaView& view, const TfTokenVector& renderTags) const;
     void readRenderTags();
     void show(const HdPatinaFrame& frame);
@@ -49,7 +51,8 @@ private:
     std::shared_ptr<HdPatinaDelegateState> _state;
     std::shared_ptr<HdPatinaSession> _session;
     HdPatinaRenderProducts _products;
-    std::string _cameraPath; ///< of a camera of its own
+    std::string _cameraPath;                  ///< of a camera of its own; no path of a stage
+    std::map<TfToken, std::string> _filmAovs; ///< of each name that was bound
 
     // what the running render was started with
     std::vector<Target> _targets;

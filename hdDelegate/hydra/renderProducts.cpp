@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace patina {
 
@@ -56,6 +57,24 @@ std::string problemOf(const std::string& aov) {
     }
 }
 
+/// The place between two pixels of an edge of [0,1].
+int edgeOf(double edge, int size) {
+    return int(std::clamp(std::round(edge * size), 0.0, std::max(double(size), 0.0)));
+}
+
+/// The pixels, first and last, whose centres lie in a rectangle of [0,1], y up; all of them where a
+/// host gives none. @returns nullopt where there is no such pixel
+std::optional<PixelWindow> pixelsOf(const GfRange2f& ndc, int width, int height) {
+    if (ndc == GfRange2f() || ndc == GfRange2f(GfVec2f(0.0f), GfVec2f(1.0f))) return allPixels;
+    const GfVec2f &least = ndc.GetMin(), &most = ndc.GetMax();
+    for (int i = 0; i < 2; ++i)
+        if (!std::isfinite(least[i]) || !std::isfinite(most[i])) return std::nullopt;
+    const PixelWindow window = {edgeOf(least[0], width), edgeOf(1.0 - most[1], height),
+                                edgeOf(most[0], width) - 1, edgeOf(1.0 - least[1], height) - 1};
+    if (window[2] < window[0] || window[3] < window[1]) return std::nullopt;
+    return window;
+}
+
 bool flagOf(const VtDictionary& settings, const char* name, bool initial) {
     const auto found = settings.find(name);
     if (found == settings.end()) return initial;
@@ -96,15 +115,12 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
     s.pixelAspectRatio = product.pixelAspectRatio > 0.0f ? product.pixelAspectRatio : 1.0;
     if (!product.aspectRatioConformPolicy.IsEmpty())
         s.aspectRatioConformPolicy = product.aspectRatioConformPolicy.GetString();
-    // A rectangle of [0,1], y up; pixels whose centres lie inside belong to it.
-    const GfRange2f& window = product.dataWindowNDC;
-    if (!window.IsEmpty() && window != GfRange2f(GfVec2f(0.0f), GfVec2f(1.0f))) {
-        s.dataWindow[0] = std::max(0, int(std::lround(window.GetMin()[0] * s.width)));
-        s.dataWindow[2] = std::min(s.width, int(std::lround(window.GetMax()[0] * s.width))) - 1;
-        s.dataWindow[1] = std::max(0, int(std::lround((1.0f - window.GetMax()[1]) * s.height)));
-        s.dataWindow[3] =
-            std::min(s.height, int(std::lround((1.0f - window.GetMin()[1]) * s.height))) - 1;
-    }
+    const auto window = pixelsOf(product.dataWindowNDC, s.width, s.height);
+    if (window)
+        std::copy(window->begin(), window->end(), s.dataWindow.begin());
+    else
+        param.warn(product.productPath, "dataWindowNDC",
+                   "holds no pixel; the whole image is rendered");
     s.enableMotionBlur = s.enableMotionBlur && !product.disableMotionBlur;
 #if PATINA_HAS_PRODUCT_DEPTH_OF_FIELD
     s.enableDepthOfField = s.enableDepthOfField && !product.disableDepthOfField;

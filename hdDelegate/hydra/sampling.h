@@ -3,18 +3,44 @@
 
 #include "hdDelegate/hydra/compat.h"
 #include "hdDelegate/hydra/renderParam.h"
+#include "hdDelegate/hydra/values.h"
 
 #include <pxr/imaging/hd/sceneDelegate.h>
 #include <pxr/imaging/hd/timeSampleArray.h>
 
+#include <string>
+
 namespace patina {
 
+/// As many samples over the shutter as the scene takes. Of instances each sample is a matrix more
+/// for each of them.
 constexpr unsigned int maxTimeSamples = 32;
 using MatrixSamples = HdTimeSampleArray<GfMatrix4d, maxTimeSamples>;
 using ValueSamples = HdTimeSampleArray<VtValue, maxTimeSamples>;
 
-// Samples over the shutter. Newer releases have to be told when that is open: left to themselves
-// scene indices give one sample.
+/// Which of so many samples is kept as the one of a number below maxTimeSamples: evenly spaced
+/// ones, the first and the last among them.
+inline size_t keptSample(size_t number, size_t count) {
+    return number * (count - 1) / (maxTimeSamples - 1);
+}
+
+/// Warns that not all of so many samples are kept.
+void warnOfSamples(HdPatinaRenderParam& param, const SdfPath& id, const std::string& input,
+                   size_t count);
+
+/// Hosts give all samples that are authored, however many.
+template <class Samples> void limitSamples(HdPatinaRenderParam& param, const SdfPath& id,
+                                           const std::string& input, Samples& samples) {
+    const size_t count = samples.count;
+    if (count <= maxTimeSamples) return;
+    for (size_t i = 1; i < maxTimeSamples; ++i) {
+        const size_t kept = keptSample(i, count); // at or behind i: what is read is still there
+        samples.times[i] = samples.times[kept];
+        samples.values[i] = samples.values[kept];
+    }
+    samples.Resize(maxTimeSamples);
+    warnOfSamples(param, id, input, count);
+}
 
 /// \return whether no camera opens a shutter. Then nothing is sampled: it would be time lost, and
 /// UsdImaging never returns from it on stages of 0 time codes per second.
@@ -28,39 +54,52 @@ inline void takeOne(MatrixSamples& samples, const GfMatrix4d& value) {
     samples.values[0] = value;
 }
 
-#if PATINA_HAS_SAMPLE_INTERVAL
-inline void sampleTransform(HdSceneDelegate& delegate, const HdPatinaRenderParam& param,
+// Samples over the shutter. Newer releases have to be told when that is open: left to themselves
+// scene indices give one sample.
+
+inline void sampleTransform(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                             const SdfPath& id, MatrixSamples& samples) {
     if (isStill(param)) return takeOne(samples, delegate.GetTransform(id));
+#if PATINA_HAS_SAMPLE_INTERVAL
     const GfVec2f shutter = param.shutter();
     delegate.SampleTransform(id, shutter[0], shutter[1], &samples);
+#else
+    delegate.SampleTransform(id, &samples);
+#endif
+    limitSamples(param, id, "transform", samples);
 }
-inline void sampleInstancerTransform(HdSceneDelegate& delegate, const HdPatinaRenderParam& param,
+
+inline void sampleInstancerTransform(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                                      const SdfPath& id, MatrixSamples& samples) {
     if (isStill(param)) return takeOne(samples, delegate.GetInstancerTransform(id));
+#if PATINA_HAS_SAMPLE_INTERVAL
     const GfVec2f shutter = param.shutter();
     delegate.SampleInstancerTransform(id, shutter[0], shutter[1], &samples);
+#else
+    delegate.SampleInstancerTransform(id, &samples);
+#endif
+    limitSamples(param, id, "transform", samples);
 }
-inline void samplePrimvar(HdSceneDelegate& delegate, const HdPatinaRenderParam& param,
-                          const SdfPath& id, const TfToken& name, ValueSamples& samples) {
+
+inline void samplePrimvar(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
+                          const TfToken& name, ValueSamples& samples) {
+#if PATINA_HAS_SAMPLE_INTERVAL
     const GfVec2f shutter = param.shutter();
     delegate.SamplePrimvar(id, name, shutter[0], shutter[1], &samples);
-}
 #else
-inline void sampleTransform(HdSceneDelegate& delegate, const HdPatinaRenderParam& param,
-                            const SdfPath& id, MatrixSamples& samples) {
-    if (isStill(param)) return takeOne(samples, delegate.GetTransform(id));
-    delegate.SampleTransform(id, &samples);
-}
-inline void sampleInstancerTransform(HdSceneDelegate& delegate, const HdPatinaRenderParam& param,
-                                     const SdfPath& id, MatrixSamples& samples) {
-    if (isStill(param)) return takeOne(samples, delegate.GetInstancerTransform(id));
-    delegate.SampleInstancerTransform(id, &samples);
-}
-inline void samplePrimvar(HdSceneDelegate& delegate, const HdPatinaRenderParam&, const SdfPath& id,
-                          const TfToken& name, ValueSamples& samples) {
     delegate.SamplePrimvar(id, name, &samples);
-}
 #endif
+    limitSamples(param, id, name.GetString(), samples);
+}
+
+/// sampledOf(), with a warning where the times of a host are out of order.
+template <class T> Sampled<T> inOrder(std::vector<float> times, std::vector<T> values,
+                                      HdPatinaRenderParam& param, const SdfPath& id,
+                                      const char* input) {
+    bool mistaken = false;
+    Sampled<T> result = sampledOf(std::move(times), std::move(values), &mistaken);
+    if (mistaken) param.warn(id, input, "sample times do not ascend; only the first is used");
+    return result;
+}
 
 } // namespace patina

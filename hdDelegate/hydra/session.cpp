@@ -74,7 +74,14 @@ void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& s
         for (const char* guide : {denoisingAlbedoAov, denoisingNormalAov})
             if (std::find(asked.aovs.begin(), asked.aovs.end(), guide) == asked.aovs.end())
                 asked.aovs.push_back(guide);
-    current->start(_scene, camera, asked, _film);
+    try {
+        current->start(_scene, camera, asked, _film);
+    } catch (const std::exception& error) { // no thread is to be had
+        RenderProgress failed;
+        failed.failed = true;
+        failed.error = error.what();
+        return present(*_film, failed, serial);
+    }
     if (_paused) current->pause();
 }
 

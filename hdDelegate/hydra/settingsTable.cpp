@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -22,6 +23,7 @@ struct Row {
     std::string label;
     VtValue initial;
     std::function<bool(HdPatinaSettings&, const VtValue&)> set; ///< false: out of range
+    bool isUnsigned = false; ///< hosts' integers hold the same bits
 };
 
 std::optional<double> numberOf(const VtValue& value) {
@@ -48,7 +50,7 @@ std::optional<std::string> textOf(const VtValue& value) {
 
 /// A row for a setting of the renderer: Hydra knows booleans, integers, floats and texts.
 Row rowFor(const SettingRow& setting) {
-    Row row{TfToken(setting.name), setting.shown, {}, {}};
+    Row row{TfToken(setting.name), setting.shown, {}, {}, false};
     const auto numeric = [&](auto member, auto as) {
         using Shown = decltype(as);
         row.initial = VtValue(Shown(HdPatinaSettings().*member));
@@ -73,9 +75,10 @@ Row rowFor(const SettingRow& setting) {
             using T = std::decay_t<decltype(RenderSettings().*member)>;
             if constexpr (std::is_same_v<T, bool>)
                 numeric(member, bool());
-            else if constexpr (std::is_same_v<T, int> || std::is_same_v<T, uint32_t>)
+            else if constexpr (std::is_same_v<T, int> || std::is_same_v<T, uint32_t>) {
                 numeric(member, int());
-            else if constexpr (std::is_floating_point_v<T>)
+                row.isUnsigned = std::is_same_v<T, uint32_t>;
+            } else if constexpr (std::is_floating_point_v<T>)
                 numeric(member, float());
             else if constexpr (std::is_same_v<T, std::string>)
                 text(member);
@@ -171,14 +174,24 @@ VtValue settingValue(const TfToken& key, const VtValue& value) {
     const auto number = numberOf(value);
     if (!number) return VtValue();
     if (row->initial.IsHolding<bool>()) return VtValue(*number != 0.0);
-    if (row->initial.IsHolding<float>()) return VtValue(float(*number));
-    if (std::abs(*number) > 4294967295.0) return VtValue();
+    if (row->initial.IsHolding<float>()) {
+        if (std::abs(*number) > std::numeric_limits<float>::max()) return VtValue();
+        return VtValue(float(*number));
+    }
+    const double most = row->isUnsigned ? double(std::numeric_limits<uint32_t>::max())
+                                        : double(std::numeric_limits<int>::max());
+    if (*number < double(std::numeric_limits<int>::min()) || *number > most) return VtValue();
     return VtValue(int(int64_t(*number)));
 }
 
 std::string applySetting(const TfToken& key, const VtValue& value, HdPatinaSettings& settings) {
     const VtValue converted = settingValue(key, value);
-    if (converted.IsEmpty()) return "has a value of the wrong type; it is left as it was";
+    if (converted.IsEmpty()) {
+        const Row* row = rowOf(key);
+        const bool isNumber = row && !row->initial.IsHolding<std::string>() && numberOf(value);
+        return isNumber ? "has a value that is not allowed; it is left as it was"
+                        : "has a value of the wrong type; it is left as it was";
+    }
     if (isMethod(key.GetString())) {
         const MethodChoices chosen = {
             {key.GetString().substr(7), converted.UncheckedGet<std::string>()}};

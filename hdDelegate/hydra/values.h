@@ -36,14 +36,18 @@ template <class T> std::vector<T> toVector(const VtArray<T>& array) {
 
 /// Samples as the scene takes them: ascending times, one sample when all are equal. Times that do
 /// not ascend, or are no numbers, are a host's mistake: the first sample stands for all.
-template <class T> Sampled<T> sampledOf(std::vector<float> times, std::vector<T> values) {
+/// @param mistaken receives whether there are times that descend, or are no numbers
+template <class T>
+Sampled<T> sampledOf(std::vector<float> times, std::vector<T> values, bool* mistaken = nullptr) {
     bool moves = false;
     for (size_t i = 1; i < values.size(); ++i)
         moves |= !(values[i] == values[0]);
     Sampled<T> result;
     if (values.empty()) return result;
-    for (size_t i = 1; i < values.size(); ++i)
+    for (size_t i = 1; i < values.size(); ++i) {
+        if (mistaken && moves && i < times.size()) *mistaken |= !(times[i] >= times[i - 1]);
         moves &= i < times.size() && times[i] > times[i - 1];
+    }
     if (!moves) return Sampled<T>(std::move(values[0]));
     result.times = std::move(times);
     result.values = std::move(values);

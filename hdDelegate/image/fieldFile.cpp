@@ -100,6 +100,14 @@ std::shared_ptr<const FieldGrid> take(Program& program) {
                 std::abs(int64_t(header.firstVoxel[axis])) <= fieldStreamFar + fieldStreamEdge;
     }
     if (!good) throw std::runtime_error("the program that reads it is another than it should be");
+    uint64_t held = 0;
+    const auto hold = [&](uint64_t bytes) {
+        held += bytes;
+        if (held > limitOf(Limit::textureBytes))
+            throw std::runtime_error("its voxels take more bytes than " +
+                                     limitText(Limit::textureBytes));
+    };
+    hold(uint64_t(places) * sizeof(int));
     std::shared_ptr<FieldGrid> grid;
     if (places > 0)
         grid = std::make_shared<FieldGrid>(
@@ -108,17 +116,13 @@ std::shared_ptr<const FieldGrid> take(Program& program) {
             header.components, transformOf(header));
     std::vector<float> values(size_t(FieldGrid::voxels) * size_t(header.components));
     FieldStreamBrick brick;
-    uint64_t held = 0;
     for (program.read(&brick, sizeof brick); brick.place[0] >= 0;
          program.read(&brick, sizeof brick)) {
         for (int axis = 0; axis < 3; ++axis)
             if (brick.place[axis] < 0 || brick.place[axis] >= header.brickCount[axis])
                 throw std::runtime_error("a brick lies outside of the grid");
         program.read(values.data(), values.size() * sizeof(float));
-        held += values.size() * sizeof(float);
-        if (held > limitOf(Limit::textureBytes))
-            throw std::runtime_error("its voxels take more bytes than " +
-                                     limitText(Limit::textureBytes));
+        hold(values.size() * sizeof(float));
         grid->setBrick(ivec3(brick.place[0], brick.place[1], brick.place[2]), values);
     }
     std::string problem(size_t(std::clamp<int64_t>(brick.place[1], 0, fieldStreamText)), ' ');

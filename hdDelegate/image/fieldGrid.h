@@ -4,6 +4,7 @@
 #include "hdDelegate/scene/types.h"
 #include "base/diagnostics.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ public:
     vec3 boundsMin() const { return _boundsMin; }
     vec3 boundsMax() const { return _boundsMax; }
     ivec3 brickCount() const { return _count; }
+    uint64_t bytes() const { return _bricks.size() * sizeof(int) + _values.size() * sizeof(float); }
 
     vec3 sample(const vec3& objectPosition) const;
 

@@ -89,6 +89,19 @@ ImageHeader headerOf(const TextureFile& image) {
     return header;
 }
 
+/// Lights hold their images as floats, and number the texels by 32 bits.
+std::string tooLargeForALight(const std::string& name) {
+    const TextureFile image(name);
+    if (!image.input) return {};
+    const uint64_t texels = uint64_t(image.spec.width) * uint64_t(image.spec.height);
+    if (texels <= std::min<uint64_t>(limitOf(Limit::textureBytes) / 4, INT32_MAX)) return {};
+    return "an image of " + std::to_string(image.spec.width) + "x" +
+           std::to_string(image.spec.height) +
+           " texels is too large for a light: it takes more "
+           "bytes than " +
+           limitText(Limit::textureBytes);
+}
+
 } // namespace
 
 ImageHeader probeImage(const std::string& file) {
@@ -197,8 +210,13 @@ ImageRGB loadImageLinear(const std::string& file, const std::string& colorSpace,
                          Diagnostics& diagnostics, const std::string& prim,
                          const std::string& input) {
     ImageRGB result;
-    std::shared_ptr<ImageTexture> texture =
-        loadImageTexture({file, colorSpace, prim, input}, ColorSpaces::shared(), diagnostics);
+    std::shared_ptr<ImageTexture> texture;
+    const ImageSource source{file, colorSpace, prim, input};
+    const std::string problem = tooLargeForALight(file);
+    if (problem.empty())
+        texture = loadImageTexture(source, ColorSpaces::shared(), diagnostics);
+    else
+        unreadable(source, problem, diagnostics);
     if (!texture) {
         result.width = result.height = 1;
         result.pixels = {glm::vec3(1, 0, 1)};

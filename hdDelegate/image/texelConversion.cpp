@@ -52,11 +52,14 @@ float toFloat(float v) {
     return v;
 }
 
+// Interpolation adds texels and weights them: the largest leave room for that.
+constexpr float largestTexel = 1e30f;
+
 void assign(float v, half& to) {
     to = half(std::min(std::max(v, -largestHalf), largestHalf));
 }
 void assign(float v, float& to) {
-    to = v;
+    to = std::min(std::max(v, -largestTexel), largestTexel);
 }
 
 /// Converts one row; source and target may be the same memory when their types are.
@@ -78,9 +81,12 @@ template <class From, class To> void convertRow(const From* from, To* to, int wi
         }
     transform.apply(row.data(), size_t(width), 4);
     for (size_t x = 0; x < size_t(width); ++x)
-        for (size_t c = 0; c < n; ++c)
+        for (size_t c = 0; c < n; ++c) {
             // of a grey image green, which every transform that keeps white carries through
-            assign(row[x * 4 + (c < colors ? (grey ? 1 : c) : 3)], to[x * n + c]);
+            float v = row[x * 4 + (c < colors ? (grey ? 1 : c) : 3)];
+            if (!std::isfinite(v)) v = 0.0f, ++bad; // the transform overflowed
+            assign(v, to[x * n + c]);
+        }
 }
 
 template <class To> size_t convertTo(TexelType type, const void* from, void* target, int width,

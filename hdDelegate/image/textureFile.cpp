@@ -75,7 +75,9 @@ TextureFile::TextureFile(const std::string& file) {
         return;
     }
     spec = input->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1) {
+    constexpr int longest = 1 << 28; // twice a side, and one more, are numbers of 32 bits
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1 ||
+        spec.width > longest || spec.height > longest) {
         error = "an image of " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
                 "x" + std::to_string(spec.depth) + " is not a texture";
         input.reset();

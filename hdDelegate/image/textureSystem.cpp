@@ -19,8 +19,17 @@ const glm::vec4 magenta(1, 0, 1, 1);
 const std::string udimToken = "<UDIM>";
 constexpr int firstTile = 1001, lastTile = 9999;
 
+constexpr int mostTokens = 16; ///< in a name; no tile of others is looked for
+
+int tokensIn(const std::string& pattern) {
+    int count = 0;
+    for (size_t at = 0; (at = pattern.find(udimToken, at)) != std::string::npos; ++count)
+        at += udimToken.size();
+    return count;
+}
+
 std::string withTile(std::string file, int tile) {
-    for (size_t at; (at = file.find(udimToken)) != std::string::npos;)
+    for (size_t at = 0; (at = file.find(udimToken, at)) != std::string::npos;)
         file.replace(at, udimToken.size(), std::to_string(tile));
     return file;
 }
@@ -28,6 +37,7 @@ std::string withTile(std::string file, int tile) {
 /// The tiles of a UDIM name that exist, in order.
 std::vector<int> existingTiles(const std::string& pattern) {
     std::vector<int> tiles;
+    if (tokensIn(pattern) > mostTokens) return tiles;
     fs::path path(pattern);
     std::string name = path.filename().string();
     size_t at = name.find(udimToken);

@@ -53,10 +53,12 @@ private:
 };
 
 VolumeMedium::VolumeMedium(const Volume& prim, std::shared_ptr<const MaterialProgram> program,
-                           Diagnostics& diagnostics)
+                           Diagnostics& diagnostics, FieldGrids* grids)
     : _program(std::move(program)) {
     for (const VolumeField& f : prim.fields) {
-        auto grid = f.grid ? f.grid : readFieldGrid(f.file, f.field, prim.path, diagnostics);
+        auto grid = f.grid  ? f.grid
+                    : grids ? grids->read(f.file, f.field, prim.path, diagnostics)
+                            : readFieldGrid(f.file, f.field, prim.path, diagnostics);
         if (grid) _fields.push_back({f.name, std::move(grid)});
     }
     const auto find = [&](const std::string& name) {
@@ -86,11 +88,13 @@ Medium VolumeMedium::evaluate(const vec3& objectPosition, const std::vector<vec3
     point.primvars = &reader;
     Medium medium = _program->interior(point);
     if (_density < 0) return medium;
+    constexpr float largest = 1e15f; // as of the coefficients of materials
     const vec3 scale = glm::max(values[size_t(_density)], vec3(0.0f));
-    medium.absorption *= scale;
-    medium.emission *= scale;
+    const auto scaled = [&](const vec3& v) { return glm::min(v * scale, vec3(largest)); };
+    medium.absorption = scaled(medium.absorption);
+    medium.emission = scaled(medium.emission);
     for (int i = 0; i < medium.phaseCount; ++i)
-        medium.phases[i].scattering *= scale;
+        medium.phases[i].scattering = scaled(medium.phases[i].scattering);
     return medium;
 }
 
@@ -103,7 +107,9 @@ Medium VolumeMedium::at(const vec3& objectPosition) const {
 }
 
 /// The majorant of a cell is the extinction at all combinations of the least and largest values of
-/// the fields there: right for materials that rise or fall with each field.
+/// the fields there: right for materials that rise or fall with each field. Where a material
+/// differs from place to place as well, it is asked at 27 places. What lies between them, and
+/// fields beyond the sixth, may be denser: VolumeScene takes it as thin as the majorant.
 void VolumeMedium::measure() {
     _min = vec3(INFINITY);
     _max = vec3(-INFINITY);
@@ -133,10 +139,18 @@ void VolumeMedium::measure() {
         for (int corner = 0; corner < 1 << combined; ++corner) {
             for (size_t f = 0; f < _fields.size(); ++f)
                 values[f] = int(f) >= combined || (corner >> f & 1) ? maximum[f] : minimum[f];
-            const Medium m = evaluate(0.5f * (lower + upper), values);
-            // A medium that only glows needs points along the ray, too.
-            const float glow = m.emission == vec3(0.0f) ? 0.0f : 2.0f / glm::length(size);
-            majorant = std::max({majorant, largest(m.extinction()), glow});
+            const auto ask = [&](const vec3& place) {
+                const Medium m = evaluate(lower + place * size, values);
+                // A medium that only glows needs points along the ray, too.
+                const float glow = m.emission == vec3(0.0f) ? 0.0f : 2.0f / glm::length(size);
+                majorant = std::max({majorant, largest(m.extinction()), glow});
+                return m.extinction();
+            };
+            const vec3 middle = ask(vec3(0.5f));
+            if (ask(vec3(0.1f, 0.35f, 0.8f)) == middle && ask(vec3(0.7f, 0.9f, 0.2f)) == middle)
+                continue;
+            for (int place = 0; place < 27; ++place)
+                ask(vec3(float(place % 3), float(place / 3 % 3), float(place / 9)) * 0.5f);
         }
         cells[i] = majorant;
     });

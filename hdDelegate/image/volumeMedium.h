@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/image/fieldGrid.h"
+#include "hdDelegate/image/fieldGrids.h"
 #include "hdDelegate/scene/geometry.h"
 #include "materialNetwork/cpu/materialProgram.h"
 
@@ -17,8 +17,9 @@ Network plainVolume();
 /// The medium of a volume prim: fields, the material that reads them, and how dense it can get.
 class VolumeMedium {
 public:
+    /// @param grids of the scene; null: the fields are read for this medium alone
     VolumeMedium(const Volume& prim, std::shared_ptr<const MaterialProgram> program,
-                 Diagnostics& diagnostics);
+                 Diagnostics& diagnostics, FieldGrids* grids = nullptr);
 
     bool empty() const { return _cells.empty(); }
     Medium at(const vec3& objectPosition) const;

@@ -124,7 +124,9 @@ vec3 EnvironmentMap::radiance(const vec3& d) const {
 std::vector<vec3> EnvironmentMap::latlongGrid(int width, int height) const {
     std::vector<vec3> grid(size_t(width) * size_t(height), vec3(0.0f));
     const bool latlong = _format == EnvironmentFormat::Latlong;
-    const int factor = latlong ? _image->width / width : 1;
+    const auto texel = [](int cell, int cells, int texels) {
+        return int(int64_t(cell) * texels / cells);
+    };
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             vec3& cell = grid[size_t(y) * size_t(width) + size_t(x)];
@@ -134,10 +136,11 @@ std::vector<vec3> EnvironmentMap::latlongGrid(int width, int height) const {
                 continue;
             }
             int count = 0;
-            for (int k = 0; k < factor && y * factor + k < _image->height; ++k)
-                for (int i = 0; i < factor; ++i, ++count)
-                    cell += _image->pixels[size_t(y * factor + k) * size_t(_image->width) +
-                                           size_t(x * factor + i)];
+            const int bottom = texel(y + 1, height, _image->height);
+            const int right = texel(x + 1, width, _image->width);
+            for (int k = texel(y, height, _image->height); k < bottom; ++k)
+                for (int i = texel(x, width, _image->width); i < right; ++i, ++count)
+                    cell += _image->pixels[size_t(k) * size_t(_image->width) + size_t(i)];
             cell /= float(std::max(count, 1));
         }
     return grid;
@@ -146,13 +149,17 @@ std::vector<vec3> EnvironmentMap::latlongGrid(int width, int height) const {
 void EnvironmentMap::build() {
     int width = _image->width, height = _image->height;
     if (_format == EnvironmentFormat::Latlong) {
-        // Only whole factors, so that cells and texels share their edges.
+        // Whole factors where there are any, so that cells and texels share their edges.
+        constexpr int leastGridWidth = 256;
         int factor = 1;
-        while (width / factor > largestGridWidth || width % factor || height % factor) {
-            if (++factor > width) {
-                factor = 1;
-                break;
-            }
+        while (width / factor > largestGridWidth || width % factor || height % factor)
+            if (++factor > width / leastGridWidth) break;
+        if (width <= largestGridWidth) {
+            factor = 1;
+        } else if (width % factor || height % factor || width / factor > largestGridWidth) {
+            height = std::max(1, int(int64_t(height) * largestGridWidth / width));
+            width = largestGridWidth;
+            factor = 1;
         }
         width /= factor;
         height /= factor;

@@ -29,6 +29,14 @@ struct EmitterDraw {
     vec3 direction{0.0f};
 };
 
+/// What a light reads from files, once for all places that it is drawn in.
+struct LightFiles {
+    bool read = false;
+    std::shared_ptr<const IesProfile> profile;
+    std::shared_ptr<const ImageRGB> texture;
+    vec3 mean{1.0f}; ///< of the texture's pixels
+};
+
 /// One light made ready for sampling. Area lights sample points on their shape; points, lines and
 /// distant lights of angle 0 are delta emitters that no ray can hit, see ResolvedLight.
 class LightEmitter {
@@ -39,8 +47,9 @@ public:
     /// A light that gives no light, for whatever reason, becomes Kind::None. Reasons that look
     /// like mistakes are warned about.
     /// @param origin of the space that the light's own transform is wanted in, see seenFrom()
+    /// @param files of this light, read here unless another of its places has read them
     LightEmitter(const Light& light, const mat4& groupToWorld, const dvec3& origin,
-                 float shutterOpen, float shutterClose, LightImages& images,
+                 float shutterOpen, float shutterClose, LightFiles& files, LightImages& images,
                  Diagnostics& diagnostics);
 
     Kind kind() const { return _resolved.kind; }

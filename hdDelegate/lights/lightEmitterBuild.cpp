@@ -12,9 +12,27 @@
 
 namespace patina {
 
+namespace {
+
+void readFiles(const Light& light, LightFiles& files, LightImages& images,
+               Diagnostics& diagnostics) {
+    if (files.read) return;
+    files.read = true;
+    files.profile = lightProfile(light, diagnostics);
+    if (light.type != LightType::Rect || light.textureFile.empty()) return;
+    files.texture =
+        images.image(light.textureFile, light.textureColorSpace, light.path, "inputs:texture:file");
+    glm::dvec3 sum(0.0);
+    for (const vec3& pixel : files.texture->pixels)
+        sum += glm::dvec3(pixel);
+    files.mean = vec3(sum / double(files.texture->pixels.size()));
+}
+
+} // namespace
+
 LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const dvec3& origin,
-                           float shutterOpen, float shutterClose, LightImages& images,
-                           Diagnostics& diagnostics)
+                           float shutterOpen, float shutterClose, LightFiles& files,
+                           LightImages& images, Diagnostics& diagnostics)
     : _light(light), _group(groupToWorld), _origin(origin) {
     if (!light.visible || light.type == LightType::Mesh) return;
     const auto warn = [&](const std::string& input, const char* message) {
@@ -45,19 +63,14 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
         _irradiance =
             _resolved.power() * float(_resolved.delta ? 1.0 : lightSizeFactor(like, toWorld));
     }
-    _profile = lightProfile(light, diagnostics);
+    readFiles(light, files, images, diagnostics);
+    _profile = files.profile;
     _filters = LightFilters(light, groupToWorld, origin, shutterOpen, images, diagnostics);
-    const bool usesTexture = !light.textureFile.empty();
     if (_resolved.kind == Kind::Dome && !setUpDome(images)) _resolved.kind = Kind::None;
-    if (_resolved.kind == Kind::Area && light.type == LightType::Rect && usesTexture) {
-        _texture = images.image(light.textureFile, light.textureColorSpace, light.path,
-                                "inputs:texture:file");
-        glm::dvec3 sum(0.0);
-        for (const vec3& pixel : _texture->pixels)
-            sum += glm::dvec3(pixel);
-        const vec3 mean(sum / double(_texture->pixels.size()));
-        _meanTexture =
-            luminance(mean * glm::abs(_resolved.radiance)) / std::max(_resolved.power(), 1e-30f);
+    if (_resolved.kind == Kind::Area && files.texture) {
+        _texture = files.texture;
+        _meanTexture = luminance(files.mean * glm::abs(_resolved.radiance)) /
+                       std::max(_resolved.power(), 1e-30f);
     }
     _pose = makePose(toWorldAt(shutterOpen));
     for (size_t i = 1; i < _times.size(); ++i)

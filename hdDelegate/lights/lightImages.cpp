@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/lights/lightImages.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace patina {
@@ -30,7 +31,8 @@ std::shared_ptr<const ImageRGB> LightImages::image(const std::string& file,
     // A single broken pixel must not spoil the sums that sampling is built from.
     for (vec3& pixel : image->pixels)
         for (int c = 0; c < 3; ++c)
-            if (!(pixel[c] > 0.0f) || !std::isfinite(pixel[c])) pixel[c] = 0.0f;
+            pixel[c] =
+                pixel[c] > 0.0f && std::isfinite(pixel[c]) ? std::min(pixel[c], 1e30f) : 0.0f;
     if (!image->valid) {
         // Not kept: the file may be there the next time.
         std::shared_ptr<const ImageRGB> result = std::move(image);
@@ -60,6 +62,17 @@ std::shared_ptr<const EnvironmentMap> LightImages::environment(const std::string
         _environments[key] = map;
     }
     return map;
+}
+
+void LightImages::forgetUnused() {
+    const std::lock_guard<std::mutex> building(_building);
+    const std::lock_guard<std::mutex> lock(_mutex);
+    const auto forget = [](auto& known) {
+        for (auto it = known.begin(); it != known.end();)
+            it = it->second.use_count() > 1 ? std::next(it) : known.erase(it);
+    };
+    forget(_environments); // which use images
+    forget(_images);
 }
 
 } // namespace patina

@@ -31,6 +31,9 @@ public:
     environment(const std::string& file, const std::string& colorSpace, EnvironmentFormat format,
                 const std::string& prim, const std::string& input);
 
+    /// Lets go of what no light holds any more. For a back end that has built its lights.
+    void forgetUnused();
+
 private:
     Loader _loader;
     std::mutex _mutex;

@@ -12,12 +12,17 @@ LightSet::LightSet(LightSetInput input, LightImages& images, Diagnostics& diagno
     : _input(std::move(input)), _lightCount(int(_input.lights.size())) {
     std::vector<LightTreeLeaf> leaves;
     _emitters.resize(_input.lights.size());
+    LightFiles files;
+    const Light* ofFiles = nullptr; // places of a light follow each other
     for (int i = 0; i < _lightCount; ++i) {
         const LightInstance& instance = _input.lights[i];
         if (!instance.light) continue;
+        if (instance.light.get() != ofFiles) files = LightFiles();
+        ofFiles = instance.light.get();
         const dvec3 origin = instance.light->group.empty() ? _input.origin : dvec3(0.0);
-        _emitters[i] = LightEmitter(*instance.light, instance.groupToWorld, origin,
-                                    _input.shutterOpen, _input.shutterClose, images, diagnostics);
+        _emitters[i] =
+            LightEmitter(*instance.light, instance.groupToWorld, origin, _input.shutterOpen,
+                         _input.shutterClose, files, images, diagnostics);
         const LightEmitter& emitter = _emitters[i];
         if (emitter.kind() == LightEmitter::Kind::None) continue;
         if (emitter.atInfinity()) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 namespace patina {
 
@@ -36,6 +37,20 @@ std::vector<std::string> methodsByLength() {
     return names;
 }
 
+/// Rows of a method. The table is long, and asked for each surface.
+const std::vector<const MeasuredMethod*>& rowsOf(const std::string& method, const char* kind) {
+    using Rows = std::map<std::pair<std::string, std::string>, std::vector<const MeasuredMethod*>>;
+    static const Rows rows = [] {
+        Rows found;
+        for (const MeasuredMethod& row : methodTable())
+            if (point == row.point) found[{row.method, row.kind}].push_back(&row);
+        return found;
+    }();
+    static const std::vector<const MeasuredMethod*> none;
+    const auto at = rows.find({method, kind});
+    return at == rows.end() ? none : at->second;
+}
+
 /// Error of a method on the worst of the measured shapes.
 /// @param size pixels across
 double rowError(const std::string& method, const char* kind, double roughness, double size) {
@@ -50,8 +65,8 @@ double rowError(const std::string& method, const char* kind, double roughness, d
                           : size < sizes[0] ? std::pow(sizes[0] / std::max(size, 0.1), 3.0)
                                             : 1.0;
     double worst = 0.0;
-    for (const MeasuredMethod& row : methodTable()) {
-        if (point != row.point || method != row.method || std::string(kind) != row.kind) continue;
+    for (const MeasuredMethod* found : rowsOf(method, kind)) {
+        const MeasuredMethod& row = *found;
         const auto cell = [&](int b, int c) { return double(row.errors[b * methodCosines + c]); };
         const auto at = [&](int b) {
             return cell(b, column) * (1.0 - across) + cell(b, column + 1) * across;
@@ -68,9 +83,12 @@ SubdivisionPlan::SubdivisionPlan(const RenderSettings& settings, const ScreenSca
       _active(settings.tolerance >= 0.0 && settings.edgeLength < 0.0f) {}
 
 void SubdivisionPlan::add(const PrimExtent& cage, const std::vector<mat4>& places,
-                          const MethodPlan& material) {
+                          const MethodPlan& material, double each) {
     if (places.empty() || !(cage.across > 0.0f)) return;
     _any = true;
+    // Sizes of many places are told apart by an eighth of an octave.
+    constexpr size_t many = 1000;
+    std::map<int, double> shares;
     const vec3 center = cage.center();
     for (const mat4& m : places) {
         const double scale = largestScale(m);
@@ -83,9 +101,16 @@ void SubdivisionPlan::add(const PrimExtent& cage, const std::vector<mat4>& place
         // A closed surface shows a quarter of its area, a sheet half at most.
         const double pixels = std::min(0.5 * double(cage.area) / (unit * unit),
                                        0.7854 * std::pow(cage.across / unit, 2.0));
-        _seen.push_back({std::min(pixels / _screen.pixels, 1.0), double(cage.round) / unit,
-                         material.microfacetShare, material.smoothest});
+        const double share = each * std::min(pixels / _screen.pixels, 1.0);
+        const double size = double(cage.round) / unit;
+        if (places.size() <= many)
+            _seen.push_back({share, size, material.microfacetShare, material.smoothest});
+        else
+            shares[int(std::lround(8.0 * std::clamp(std::log2(size), -100.0, 100.0)))] += share;
     }
+    for (const auto& [octave, share] : shares)
+        _seen.push_back(
+            {share, std::exp2(octave / 8.0), material.microfacetShare, material.smoothest});
 }
 
 double SubdivisionPlan::error(const std::string& method) const {

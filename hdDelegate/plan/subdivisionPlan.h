@@ -27,7 +27,9 @@ public:
     /// @param cage of a subdivision surface
     /// @param places from object to world
     /// @param material of the surface, as planned
-    void add(const PrimExtent& cage, const std::vector<mat4>& places, const MethodPlan& material);
+    /// @param each places that one of them stands for
+    void add(const PrimExtent& cage, const std::vector<mat4>& places, const MethodPlan& material,
+             double each = 1.0);
 
     /// Of the choice point `subdivision`; without a name where no surface was added.
     PlannedMethod chosen() const;

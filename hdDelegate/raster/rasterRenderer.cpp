@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 namespace patina {
@@ -32,14 +33,20 @@ public:
 
     ~RasterRenderer() override {
         stop();
-        onOwnThread([this] {
-            {
-                const EglContext::Use use(*_context);
-                release();
-                _compiler.reset();
-            }
-            _context.reset();
-        });
+        try {
+            onOwnThread([this] {
+                {
+                    const EglContext::Use use(*_context);
+                    release();
+                    _compiler.reset();
+                }
+                _context.reset();
+            });
+        } catch (const std::system_error&) {
+            // Without a thread to make the context current on, the driver keeps what it holds.
+            (void)_lights.release(), (void)_passes.release(), (void)_raster.release();
+            (void)_domes.release(), (void)_compiler.release(), (void)_context.release();
+        }
     }
 
 private:
@@ -123,6 +130,7 @@ private:
             state, _settings, places, camera.timeCode(0.5f), domeSamples, _raster->domeMethods(),
             _compiled->lightImages(), *_domes, *_raster->parts().links, _scene->diagnostics(),
             plan.needsChoice());
+        _compiled->lightImages().forgetUnused();
     }
 
     /// Threads that compile beside this one.
@@ -377,7 +385,11 @@ bool hasGpu() {
 
 std::unique_ptr<Renderer> makeRasterRenderer(std::string& error) {
     std::unique_ptr<EglContext> context;
-    onOwnThread([&] { context = EglContext::create(error); });
+    try {
+        onOwnThread([&] { context = EglContext::create(error); });
+    } catch (const std::system_error& failure) {
+        error = failure.what();
+    }
     if (!context) {
         error = "the rasterizer cannot run: " + error;
         return nullptr;

@@ -2,6 +2,7 @@
 #include "hdDelegate/renderer/renderLoop.h"
 
 #include "hdDelegate/film/temporaryFailure.h"
+#include "hdDelegate/renderer/startedThread.h"
 #include "hdDelegate/scene/instancerCheck.h"
 
 #include <new>
@@ -26,9 +27,10 @@ void RenderLoop::start(std::shared_ptr<Scene> scene, const std::string& camera,
                        const RenderSettings& settings, std::shared_ptr<Film> film) {
     stop();
     const std::lock_guard<std::mutex> control(_control);
-    if (!_thread.joinable()) _thread = std::thread(&RenderLoop::work, this);
+    if (!_thread.joinable()) _thread = startedThread([this] { work(); });
     _scene = std::move(scene);
     _film = std::move(film);
+    _film->beginRender();
     _settings = settings;
     _stop = _interrupt = _pause = false;
     _deviceFailed = _notified = false;
@@ -104,7 +106,13 @@ void RenderLoop::run(const Job& job) {
     std::string failure;
     bool temporary = false;
     try {
+        for (const std::string& problem : leaveOutLightPaths(_settings.aovs))
+            _scene->diagnostics().warn("", "aovs", problem);
         prepareAndRender(*job.state, job.camera);
+        if (_film->leftOutCoverage())
+            _scene->diagnostics().warn("", "aovs",
+                                       "the least ids of some pixels are left out of Cryptomatte: "
+                                       "there are too many for its memory");
     } catch (const std::bad_alloc&) {
         failure = "out of memory";
         temporary = true;
@@ -167,6 +175,7 @@ void RenderLoop::finish(const std::string& failure, bool temporary) {
             tellFailure(last);
         }
     }
+    _film->endRender();
     {
         const std::lock_guard<std::mutex> lock(_mutex);
         _progress = last;

@@ -5,6 +5,7 @@
 #include "materialNetwork/network/geomprop.h"
 #include "materialNetwork/nodes/nodeTable.h"
 #include "materialNetwork/network/value.h"
+#include "base/limits.h"
 
 #include <algorithm>
 #include <vector>
@@ -13,10 +14,17 @@ namespace patina {
 
 namespace {
 
-// The builder follows connections by recursion; a chain this long is no material.
-constexpr int maxChain = 1000;
+// The builder follows connections by recursion.
+int maxChain() {
+    return int(limitOf(Limit::chain));
+}
 // What was built before makes a chain longer; conversions stand between its nodes.
-constexpr int maxHeight = 3 * maxChain;
+int maxHeight() {
+    return 3 * maxChain();
+}
+std::string tooLong() {
+    return "more nodes follow each other than " + limitText(Limit::chain);
+}
 
 class GraphBuilder {
 public:
@@ -57,8 +65,8 @@ private:
     bool follow(const Connection& c, Operand& out, std::string& problem) {
         const int node = build(c.node, problem);
         if (node < 0) return false;
-        if (heightOf(node) > maxHeight) {
-            problem = "the chain of nodes is too long";
+        if (heightOf(node) > maxHeight()) {
+            problem = tooLong();
             return false;
         }
         const NodeDef& def = *_graph.nodes[size_t(node)].def;
@@ -93,8 +101,8 @@ private:
             _built[path] = unusable;
             return unusable;
         }
-        if (_depth > maxChain) {
-            problem = "the chain of nodes is too long";
+        if (_depth > maxChain()) {
+            problem = tooLong();
             return unusable;
         }
         _built[path] = inProgress;

@@ -140,9 +140,21 @@ Value Value::makeFilename(const std::string& s, const std::string& colorSpace) {
 }
 
 const NetworkNode* Network::find(const std::string& nodePath) const {
+    const auto found = _places.find(nodePath);
+    if (found != _places.end() && found->second < nodes.size() &&
+        nodes[found->second].path == nodePath)
+        return &nodes[found->second];
     for (const NetworkNode& node : nodes)
         if (node.path == nodePath) return &node;
     return nullptr;
+}
+
+bool Network::add(NetworkNode node) {
+    const bool all = _places.size() == nodes.size();
+    if (all ? _places.count(node.path) > 0 : find(node.path) != nullptr) return false;
+    if (all) _places.emplace(node.path, nodes.size());
+    nodes.push_back(std::move(node));
+    return true;
 }
 
 } // namespace patina

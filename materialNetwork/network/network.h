@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace patina {
@@ -75,7 +76,13 @@ struct Network {
     std::map<std::string, Connection> terminals;
 
     const NetworkNode* find(const std::string& nodePath) const;
+    /// Adds a node. Where all are added so, find() takes a step for each, and none grow longer.
+    /// @returns false, and adds nothing, where there is one of that path
+    bool add(NetworkNode node);
     bool empty() const { return terminals.empty(); }
+
+private:
+    std::unordered_map<std::string, size_t> _places; ///< of nodes that add() added
 };
 
 } // namespace patina

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugin/hydra/meshLightSceneIndex.h"
 
+#include <pxr/base/tf/diagnostic.h>
 #include <pxr/imaging/hd/lightSchema.h>
 #include <pxr/imaging/hd/tokens.h>
+
+#include <algorithm>
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -33,9 +36,24 @@ HdPatinaMeshLightSceneIndex::HdPatinaMeshLightSceneIndex(const HdSceneIndexBaseR
 }
 
 void HdPatinaMeshLightSceneIndex::populate(const SdfPath& path) {
-    if (isMeshLight(_GetInputSceneIndex()->GetPrim(path))) _lights.insert(path);
+    if (isMeshLight(_GetInputSceneIndex()->GetPrim(path))) addLight(path);
     for (const SdfPath& child : _GetInputSceneIndex()->GetChildPrimPaths(path))
         populate(child);
+}
+
+void HdPatinaMeshLightSceneIndex::addLight(const SdfPath& mesh) {
+    _lights.insert(mesh);
+    warnOfHidden(childOf(mesh));
+}
+
+void HdPatinaMeshLightSceneIndex::warnOfHidden(const SdfPath& child) {
+    if (!isOfStage(child) || !_hidden.insert(child).second) return;
+    TF_WARN("%s is hidden by the light of its mesh; give it another name", child.GetText());
+}
+
+bool HdPatinaMeshLightSceneIndex::isOfStage(const SdfPath& child) const {
+    const HdSceneIndexPrim prim = _GetInputSceneIndex()->GetPrim(child);
+    return prim.dataSource || !prim.primType.IsEmpty();
 }
 
 HdSceneIndexPrim HdPatinaMeshLightSceneIndex::GetPrim(const SdfPath& path) const {
@@ -50,7 +68,9 @@ HdSceneIndexPrim HdPatinaMeshLightSceneIndex::GetPrim(const SdfPath& path) const
 
 SdfPathVector HdPatinaMeshLightSceneIndex::GetChildPrimPaths(const SdfPath& path) const {
     SdfPathVector children = _GetInputSceneIndex()->GetChildPrimPaths(path);
-    if (_lights.count(path)) children.push_back(childOf(path));
+    if (_lights.count(path) &&
+        std::find(children.begin(), children.end(), childOf(path)) == children.end())
+        children.push_back(childOf(path));
     return children;
 }
 
@@ -60,8 +80,11 @@ void HdPatinaMeshLightSceneIndex::_PrimsAdded(
     HdSceneIndexObserver::RemovedPrimEntries removed;
     for (const auto& entry : entries) {
         const bool is = isMeshLight(_GetInputSceneIndex()->GetPrim(entry.primPath));
+        if (entry.primPath.GetNameToken() == childName() &&
+            _lights.count(entry.primPath.GetParentPath()))
+            warnOfHidden(entry.primPath);
         if (is) {
-            _lights.insert(entry.primPath);
+            addLight(entry.primPath);
             added.emplace_back(childOf(entry.primPath), HdPrimTypeTokens->meshLight);
         } else if (_lights.erase(entry.primPath)) {
             removed.emplace_back(childOf(entry.primPath));
@@ -75,9 +98,10 @@ void HdPatinaMeshLightSceneIndex::_PrimsRemoved(
     const HdSceneIndexBase&, const HdSceneIndexObserver::RemovedPrimEntries& entries) {
     // Removal takes descendants with it, the lights of meshes among them.
     for (const auto& entry : entries)
-        for (auto it = _lights.lower_bound(entry.primPath);
-             it != _lights.end() && it->HasPrefix(entry.primPath);)
-            it = _lights.erase(it);
+        for (std::set<SdfPath>* paths : {&_lights, &_hidden})
+            for (auto it = paths->lower_bound(entry.primPath);
+                 it != paths->end() && it->HasPrefix(entry.primPath);)
+                it = paths->erase(it);
     _SendPrimsRemoved(entries);
 }
 
@@ -96,7 +120,7 @@ void HdPatinaMeshLightSceneIndex::_PrimsDirtied(
         if (is && was) {
             dirtied.emplace_back(child, entry.dirtyLocators);
         } else if (is) {
-            _lights.insert(entry.primPath);
+            addLight(entry.primPath);
             added.emplace_back(child, HdPrimTypeTokens->meshLight);
         } else if (was) {
             _lights.erase(entry.primPath);

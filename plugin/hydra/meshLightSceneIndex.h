@@ -33,8 +33,13 @@ protected:
 private:
     explicit HdPatinaMeshLightSceneIndex(const HdSceneIndexBaseRefPtr& input);
     void populate(const SdfPath& path);
+    void addLight(const SdfPath& mesh);
+    /// Warns once of a child of the stage's own that the light of its mesh stands in for.
+    void warnOfHidden(const SdfPath& child);
+    bool isOfStage(const SdfPath& child) const;
 
     std::set<SdfPath> _lights; ///< meshes that observers know to have a light
+    std::set<SdfPath> _hidden; ///< children that were warned of
 };
 
 PXR_NAMESPACE_CLOSE_SCOPE

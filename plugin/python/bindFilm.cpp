@@ -2,6 +2,7 @@
 // Film, image files and colour of the Python module. Names are PEP 8's; options of images are the
 // fields of ImageOptions in snake case.
 
+#include "plugin/python/filmAtRest.h"
 #include "hdDelegate/film/atomicFile.h"
 #include "hdDelegate/film/denoiser.h"
 #include "hdDelegate/film/imageFile.h"
@@ -54,6 +55,7 @@ std::vector<std::string> aovNames(const Film& film) {
 }
 
 void reset(Film& film, int width, int height, const std::vector<std::string>& aovs, bool keep) {
+    mustRest(film);
     std::vector<AovSpec> specs;
     for (const std::string& name : aovs)
         specs.push_back(standardAov(name));
@@ -63,6 +65,7 @@ void reset(Film& film, int width, int height, const std::vector<std::string>& ao
 bool addColor(Film& film, int x, int y, std::array<float, 3> c, float alpha) {
     if (x < 0 || y < 0 || x >= film.width() || y >= film.height())
         throw py::index_error("there is no such pixel");
+    mustRest(film);
     return film.addColor(x, y, {c[0], c[1], c[2]}, alpha);
 }
 
@@ -227,9 +230,14 @@ void bindFilm(py::module_& m) {
         .def("save_checkpoint", &Film::saveCheckpoint, py::arg("file"),
              py::call_guard<py::gil_scoped_release>(),
              "Writes the samples to a file; RuntimeError says in one line why not.")
-        .def("load_checkpoint", &Film::loadCheckpoint, py::arg("file"),
-             py::call_guard<py::gil_scoped_release>(),
-             "Reads what save_checkpoint() wrote; RuntimeError where it is something else.");
+        .def(
+            "load_checkpoint",
+            [](Film& film, const std::string& file) {
+                mustRest(film);
+                film.loadCheckpoint(file);
+            },
+            py::arg("file"), py::call_guard<py::gil_scoped_release>(),
+            "Reads what save_checkpoint() wrote; RuntimeError where it is something else.");
 
     py::class_<ImageData>(m, "ImageData", "An image as it is in its file.")
         .def_readonly("width", &ImageData::width)
@@ -266,11 +274,16 @@ void bindFilm(py::module_& m) {
           "Which Open Image Denoise to load; empty for $PATINA_OIDN_LIBRARY or the system's.");
     m.def("denoiser_missing", &denoiserMissing, py::call_guard<py::gil_scoped_release>(),
           "Why images cannot be denoised here, in one line; empty where they can.");
-    m.def("denoise", &denoise, py::arg("film"), py::arg("threads") = 0,
-          py::call_guard<py::gil_scoped_release>(),
-          "Replaces the film's colour by what Open Image Denoise makes of it, led by the AOVs "
-          "denoisingAlbedo and denoisingNormal where both are there; the noisy one is color.noisy "
-          "then. RuntimeError says in one line why not.");
+    m.def(
+        "denoise",
+        [](Film& film, int threads) {
+            mustRest(film);
+            denoise(film, threads);
+        },
+        py::arg("film"), py::arg("threads") = 0, py::call_guard<py::gil_scoped_release>(),
+        "Replaces the film's colour by what Open Image Denoise makes of it, led by the AOVs "
+        "denoisingAlbedo and denoisingNormal where both are there; the noisy one is color.noisy "
+        "then. RuntimeError says in one line why not.");
     m.def("check_output", &checkOutput, py::arg("path"),
           "RuntimeError says early why a file could not be written; its folder is not touched.");
 

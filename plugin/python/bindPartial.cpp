@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of cut frames: the tiles and spans that they are made of, and their files.
 
+#include "plugin/python/filmAtRest.h"
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/film/partial.h"
 #include "hdDelegate/film/spans.h"
@@ -56,6 +57,7 @@ void bindPartial(py::module_& m) {
     m.def(
         "merge_partial",
         [](Film& film, const std::string& file, double tolerance, int minSamples) {
+            mustRest(film);
             return mergePartial(film, file, {tolerance, minSamples});
         },
         py::arg("film"), py::arg("file"), py::arg("tolerance") = 0.0, py::arg("min_samples") = 0,

@@ -35,8 +35,10 @@ struct RasterProbe {
     RasterProbe(const Network& network, const MethodChoices& methods,
                 const std::vector<const RasterProbe*>& like) {
         std::vector<const RasterBsdf*> others;
-        for (const RasterProbe* probe : like)
+        for (const RasterProbe* probe : like) {
+            if (!probe) throw py::type_error("`like` holds None");
             others.push_back(probe->bsdf.get());
+        }
         std::string error;
         {
             const py::gil_scoped_release release;

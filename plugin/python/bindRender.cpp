@@ -4,6 +4,7 @@
 #include "hdDelegate/renderer/renderer.h"
 #include "hdDelegate/backends/backends.h"
 #include "hdDelegate/scene/settingRows.h"
+#include "plugin/python/filmAtRest.h"
 #include "plugin/python/plans.h"
 
 #include <pybind11/pybind11.h>
@@ -67,6 +68,8 @@ void start(Renderer& renderer, std::shared_ptr<Scene> scene, const std::string& 
     if (!scene || !film) throw py::value_error("a render needs a scene and a film");
     const RenderSettings s = settingsFrom(settings);
     py::gil_scoped_release release;
+    renderer.stop(); // of this film, too
+    mustRest(*film);
     renderer.start(std::move(scene), camera, s, std::move(film));
 }
 

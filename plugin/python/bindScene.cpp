@@ -225,7 +225,10 @@ void bindScene(py::module_& m) {
         .def(py::init<>())
         .def(
             "edit",
-            [](std::shared_ptr<Scene> s) { return std::make_unique<PythonEdit>(std::move(s)); },
+            [](std::shared_ptr<Scene> s) {
+                if (!s) throw py::type_error("there is no scene to edit");
+                return std::make_unique<PythonEdit>(std::move(s));
+            },
             "A new batch of changes, which commits at the end of a `with` block.")
         .def_property_readonly(
             "version", [](const Scene& s) { return s.snapshot()->version; },

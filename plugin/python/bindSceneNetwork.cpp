@@ -39,17 +39,16 @@ Value valueFrom(const std::string& type, py::handle from, const std::string& col
 }
 
 NetworkNode& nodeOf(Network& network, const std::string& path) {
-    for (NetworkNode& node : network.nodes)
-        if (node.path == path) return node;
+    if (const NetworkNode* node = network.find(path)) return const_cast<NetworkNode&>(*node);
     throw py::key_error("the network has no node " + path);
 }
 
 void addNode(Network& network, const std::string& path, const std::string& id) {
-    if (network.find(path)) throw py::value_error("the network already has a node " + path);
     NetworkNode node;
     node.path = path;
     node.id = id;
-    network.nodes.push_back(std::move(node));
+    if (!network.add(std::move(node)))
+        throw py::value_error("the network already has a node " + path);
 }
 
 py::object numbersOf(const Value& value) {

@@ -215,7 +215,8 @@ void addLight(const Scene& scene, const std::string& path, const Light& light, W
         py::dict dome;
         dome["path"] = path;
         dome["texture"] = light.textureFile;
-        dome["pixels"] = latlongOf(light, out);
+        constexpr size_t most = 64; // beyond what a page shows, images are not worth their memory
+        dome["pixels"] = out.domes.size() < most ? py::object(latlongOf(light, out)) : py::none();
         dome["radiance"] =
             triple(notNegative(light, resolveLight(light, toWorld, out.diagnostics).radiance, out));
         dome["axes"] = std::vector<std::array<float, 3>>{

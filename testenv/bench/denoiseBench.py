@@ -8,7 +8,6 @@ which have seeds of their own. Between two numbers of samples the error is taken
 its build can do that.
 """
 import argparse
-import json
 import math
 import os
 import statistics
@@ -20,6 +19,7 @@ import numpy as np
 import pathBench
 import pathScenes
 import pathWorker
+from patina.cli import outputs
 
 
 def commands(without):
@@ -122,6 +122,7 @@ def main(arguments):
     parser.add_argument("--without", action="append", default=[], choices=["Cycles"], help="leaves a renderer out")
     parser.add_argument("--json", help="writes the figures to this file")
     options = parser.parse_args(arguments)
+    outputs.check_all([options.json])
     options.size = tuple(map(int, options.size.split("x")))
     options.samples = sorted(map(int, options.samples.split(",")))
     options.targets = sorted(map(float, options.targets.split(",")), reverse=True)
@@ -137,9 +138,7 @@ def main(arguments):
             heads = [who + (", denoised" if who == "Patina" else " (ratio)") for who in results[name]]
             print("| scene | mean FLIP | " + " | ".join(heads) + " |\n|---|---|" + "---|" * len(heads))
         show(name, results[name], options)
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump({"size": options.size, "reference": options.reference, "scenes": results}, file, indent=1)
+    outputs.write_json(options.json, {"size": options.size, "reference": options.reference, "scenes": results})
     return 0
 
 

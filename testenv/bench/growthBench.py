@@ -18,6 +18,8 @@ import subprocess
 import sys
 import tempfile
 
+from patina.cli import outputs
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 TEXTURE_MEMORY = 32  # MiB
@@ -97,6 +99,7 @@ def main(arguments):
     parser.add_argument("--most", type=float, default=math.inf, help="of a thing: leaves larger stages out")
     parser.add_argument("--json", help="writes the figures to this file")
     options = parser.parse_args(arguments)
+    outputs.check_all([options.json])
     unknown = [name for name in options.axes if name not in growthStages.AXES]
     if unknown or options.runs < 1 or options.samples < 2:
         parser.error(f"there is nothing called {unknown[0]}" if unknown else "--runs takes at least 1, --samples at least 2")
@@ -104,9 +107,7 @@ def main(arguments):
     for name in options.axes or growthStages.AXES:
         results[name] = axis(name, options)
         show(name, results[name])
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump({"size": options.size, "samples": options.samples, "runs": options.runs, "axes": results}, file, indent=1)
+    outputs.write_json(options.json, {"size": options.size, "samples": options.samples, "runs": options.runs, "axes": results})
     return 0
 
 

@@ -19,6 +19,7 @@ sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "
 
 import benchStages  # noqa: E402
 import hydraBuild  # noqa: E402
+from patina.cli import outputs  # noqa: E402
 
 RENDERERS = {  # plugin, how it calls the settings of the workload
     "Patina": ("HdPatinaRendererPlugin", {"samples": "samples", "occlusion": ["integrator=ambientOcclusion",
@@ -98,6 +99,7 @@ def main(arguments):
     parser.add_argument("--samples", type=int, default=32)
     parser.add_argument("--json", help="writes the figures to this file")
     options = parser.parse_args(arguments)
+    outputs.check_all([options.json])
     reason = hydraBuild.missing()
     if reason:
         print(reason)
@@ -114,9 +116,7 @@ def main(arguments):
                 found["Storm"] = storm
             results[name] = found
             show({name: found})
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump({"size": size, "samples": options.samples, "stages": results}, file, indent=1)
+    outputs.write_json(options.json, {"size": size, "samples": options.samples, "stages": results})
     return 0
 
 

@@ -10,7 +10,6 @@ nanoseconds.
 Renderers and materials take turns, image by image; times are of processors; a row is the median of the runs.
 """
 import argparse
-import json
 import os
 import statistics
 import sys
@@ -19,6 +18,7 @@ import tempfile
 import pathBench
 import pathScenes
 import pathWorker
+from patina.cli import outputs
 
 DEPTHS = (2, 6)  # few, for some paths end where a sample goes below the surface
 SIZE = (64, 64)
@@ -80,6 +80,7 @@ def main(arguments):
     parser.add_argument("--samples", type=int, default=64, help="of a pixel (default: 64)")
     parser.add_argument("--json", help="writes the figures to this file")
     options = parser.parse_args(arguments)
+    outputs.check_all([options.json])
     if options.runs < 1 or options.samples < 1:
         parser.error("--runs and --samples take 1 or more")
     commands = {who: command for who, command in pathBench.peers().items() if not who.startswith("Cycles")}
@@ -95,9 +96,7 @@ def main(arguments):
         own = own or more
         print(f"{who:<24}" + "".join(f"{ns:12.0f}" for ns in more.values()) + f"{statistics.median(plain):19.0f}"
               + ("" if more is own else "   Patina: " + ", ".join(f"x{own[name] / more[name]:.2f}" for name in more)))
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump(found, file, indent=1)
+    outputs.write_json(options.json, found)
     return 0
 
 

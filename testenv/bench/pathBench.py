@@ -23,6 +23,7 @@ import numpy as np
 
 import pathScenes
 import pathWorker
+from patina.cli import outputs
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -172,6 +173,7 @@ def main(arguments):
     parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew")
     parser.add_argument("--json", help="writes the figures to this file")
     options = parser.parse_args(arguments)
+    outputs.check_all([options.json])
     options.size = tuple(map(int, options.size.split("x")))
     options.samples = tuple(map(int, options.samples.split(",")))
     options.method = dict(word.split("=", 1) if "=" in word else parser.error("--method takes CHOICE=METHOD")
@@ -189,10 +191,8 @@ def main(arguments):
     for name in options.scenes or pathScenes.SCENES:
         results[name] = measure(name, commands, options, options.images)
         show(name, results[name], options)
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump({"size": options.size, "samples": options.samples, "depth": options.depth, "scenes": results}, file,
-                      indent=1)
+    outputs.write_json(options.json, {"size": options.size, "samples": options.samples, "depth": options.depth,
+                                      "scenes": results})
     return 0
 
 

@@ -8,7 +8,6 @@ of its runs. Quadrature may take minutes for a pass, so renders end after --seco
 ratio is a bound ("at most"). Where both end early, by seconds or by samples, the ratio is that of the time of a sample.
 """
 import argparse
-import json
 import os
 import statistics
 import sys
@@ -18,6 +17,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, ".."))
 
 import inProcess  # noqa: E402
+from patina.cli import outputs  # noqa: E402
 
 # Below the folder of assets: public stages of others, of all kinds. The standard shader ball is ASWF's, the others are of the
 # USD working group.
@@ -119,6 +119,7 @@ def main(arguments):
     parser.add_argument("--threads", type=int, default=0, help="(default: all)")
     parser.add_argument("--json", help="writes the figures to this file")
     options = parser.parse_args(arguments)
+    outputs.check_all([options.json])
     if options.runs < 1 or options.tolerance <= 0.0:
         parser.error("--runs takes at least 1, --tolerance more than 0")
     results = {}
@@ -132,9 +133,7 @@ def main(arguments):
               f"{row['without']['samples']:.0f} |", flush=True)
     ratios = [row["ratio"] for row in results.values()]
     print(f"median {statistics.median(ratios):.2f} (target: at most 0.5), largest {max(ratios):.2f} (target: 1.05)")
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump({"tolerance": options.tolerance, "width": options.width, "stages": results}, file, indent=1)
+    outputs.write_json(options.json, {"tolerance": options.tolerance, "width": options.width, "stages": results})
     return 0
 
 

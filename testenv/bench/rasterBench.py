@@ -18,6 +18,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, "..", "hydra"))
 
 import hydraBuild  # noqa: E402
+from patina.cli import outputs  # noqa: E402
 
 SCENES = os.path.normpath(os.path.join(HERE, "..", "scenes"))
 CAMERA = "/World/camera"
@@ -89,6 +90,7 @@ def main(arguments):
     parser.add_argument("--noStorm", action="store_true")
     parser.add_argument("--json", help="writes the figures to this file")
     options = parser.parse_args(arguments)
+    outputs.check_all([options.json])
     size = tuple(map(int, options.size.split("x")))
     results = {}
     for name in options.stages or STAGES:
@@ -99,9 +101,7 @@ def main(arguments):
             found["Storm"] = storm
         results[name] = found
         show(name, found)
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump({"size": size, "repeats": options.repeats, "stages": results}, file, indent=1)
+    outputs.write_json(options.json, {"size": size, "repeats": options.repeats, "stages": results})
     return 0
 
 

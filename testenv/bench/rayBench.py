@@ -16,6 +16,7 @@ import tempfile
 
 import pathScenes
 import pathWorker
+from patina.cli import outputs
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -65,6 +66,7 @@ def main(arguments):
     parser.add_argument("--depth", type=int, default=8, help="bounces (default: 8)")
     parser.add_argument("--json", help="writes the figures to this file")
     options = parser.parse_args(arguments)
+    outputs.check_all([options.json])
     options.size = tuple(map(int, options.size.split("x")))
     unknown = [name for name in options.scenes if name not in pathScenes.SCENES]
     if unknown or options.runs < 1 or options.samples < 1:
@@ -82,9 +84,7 @@ def main(arguments):
             shadows = 100 * found["occluded"] / rays
             print(f"| {name} | {rays / 1e6:.2f} M, {shadows:.0f} % | {frame / 1e6:.2f} M | {bare / 1e6:.2f} M | "
                   f"{statistics.median(ratios):.2f} ({ratios[0]:.2f} to {ratios[-1]:.2f}) |", flush=True)
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump({"size": options.size, "samples": options.samples, "scenes": results}, file, indent=1)
+    outputs.write_json(options.json, {"size": options.size, "samples": options.samples, "scenes": results})
     return 0
 
 

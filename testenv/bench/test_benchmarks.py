@@ -14,12 +14,37 @@ import inProcess
 import planBench
 import rayBench
 import viewportBench
+from patina.cli import bench as command
+from patina.cli.errors import CommandError
 
 
 def found(bench, *arguments, folder):
     file = folder / "figures.json"
     assert bench.main([*map(str, arguments), "--runs", "1", "--json", str(file)]) == 0
     return json.loads(file.read_text())
+
+
+@pytest.mark.parametrize("name", sorted(set(command.BENCHMARKS) - {"features"}))  # which writes charts
+def test_figures_that_cannot_be_written_are_told_first(name, tmp_path):
+    """Not after hours. What is no file stays what it is."""
+    main = command._load(command.BENCHMARKS[name][0]).main
+    for path, reason in (("/dev/zero", "a device"), (tmp_path / "none" / "figures.json", "does not exist")):
+        with pytest.raises(CommandError, match=reason):
+            main(["--json", str(path)])
+
+
+def test_figures_go_where_they_are_sent(monkeypatch, tmp_path, capsys):
+    """Over a file as a whole, and - is standard output."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(growthBench, "axis", lambda *_: [])
+    monkeypatch.setattr(growthBench, "show", lambda *_: None)
+    assert growthBench.main(["prims", "--json", "-"]) == 0
+    shown = json.loads(capsys.readouterr().out)
+    kept = tmp_path / "kept.json"
+    kept.write_text("old")
+    (tmp_path / "figures.json").hardlink_to(kept)  # whoever has the old file open reads on
+    assert found(growthBench, "prims", folder=tmp_path) == {**shown, "runs": 1} and shown["axes"] == {"prims": []}
+    assert kept.read_text() == "old" and sorted(p.name for p in tmp_path.iterdir()) == ["figures.json", "kept.json"]
 
 
 @pytest.mark.parametrize("power", [0.0, 1.0, 2.0])

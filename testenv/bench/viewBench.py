@@ -4,7 +4,6 @@ and to all 64 samples, in headless Chromium at 256 x 256 pixels. Without a GPU C
 most of the time until the first picture is then the compiling of shaders.
 """
 import argparse
-import json
 import os
 import sys
 import tempfile
@@ -14,6 +13,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, "..", "view"))
 
 import browser  # noqa: E402
+from patina.cli import outputs  # noqa: E402
 
 SCENES = os.path.normpath(os.path.join(HERE, "..", "scenes"))
 # Name -> arguments of patina view.
@@ -47,6 +47,7 @@ def main(arguments):
     parser = argparse.ArgumentParser(prog="patina bench view", description=__doc__)
     parser.add_argument("--json", metavar="FILE", help="also write the figures as JSON")
     options = parser.parse_args(arguments)
+    outputs.check_all([options.json])
     if browser.missing():
         print("patina bench view: " + browser.missing(), file=sys.stderr)
         return 1
@@ -62,7 +63,5 @@ def main(arguments):
     for row in rows:
         print(f"| {row['page']} | {row['megabytes']:.2f} | {row['secondsToMake']:.1f} s | {row['secondsToFirstPicture']:.1f} s "
               f"| {row['secondsFor64Samples']:.1f} s |")
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump(rows, file, indent=2)
+    outputs.write_json(options.json, rows)
     return 0

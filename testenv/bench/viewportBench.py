@@ -19,6 +19,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path += [HERE, os.path.join(HERE, "..", "hydra")]
 
 import hydraBuild  # noqa: E402
+from patina.cli import outputs  # noqa: E402
 
 SCENES = os.path.normpath(os.path.join(HERE, "..", "scenes"))
 RENDERERS = {  # plugin, settings
@@ -148,6 +149,7 @@ def main(arguments):
     parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew last")
     parser.add_argument("--json", help="writes the figures to this file")
     options = parser.parse_args(arguments)
+    outputs.check_all([options.json])
     reason = hydraBuild.missing() or hydraBuild.missing_engine()
     if reason:
         print(reason)
@@ -172,9 +174,7 @@ def main(arguments):
                 found["Cycles"] = peer
         results[name] = found
         show(name, found)
-    if options.json:
-        with open(options.json, "w", encoding="utf-8") as file:
-            json.dump({"size": options.size, "cold": options.cold, "stages": results}, file, indent=1)
+    outputs.write_json(options.json, {"size": options.size, "cold": options.cold, "stages": results})
     return 0
 
 

@@ -168,6 +168,32 @@ def "material" (prepend references = @{material}@) {{ }}
     return np.array(found.pixels)[..., [found.channels.index(c) for c in "RGB"]]
 
 
+RING = """#usda 1.0
+def Material "M" {
+    token outputs:mtlx:surface.connect = </M/S.outputs:out>
+    def Shader "S" {
+        uniform token info:id = "ND_standard_surface_surfaceshader"
+        token inputs:surfaceshader.connect = </M/%s.outputs:out>
+        token outputs:out
+    }
+    def Shader "T" {
+        uniform token info:id = "ND_standard_surface_surfaceshader"
+        token inputs:surfaceshader.connect = </M/S.outputs:out>
+        token outputs:out
+    }
+}
+"""
+
+
+@pytest.mark.parametrize("source", ["S", "T"])
+def test_a_surface_that_leads_back_to_itself_ends(tmp_path, source, capsys):
+    stage = tmp_path / "ring.usda"
+    stage.write_text(RING % source)
+    assert main.main(["bake", str(stage), str(tmp_path / "out.usda"), "--to", "standard_surface"]) == 1
+    assert "/M: more than 8 connections of surfaceshader follow each other" in capsys.readouterr().err
+    assert not (tmp_path / "out.usda").exists()
+
+
 @pytest.mark.parametrize("arguments, status", [
     (["--to", "nothing"], 2), (["--to", "gltf_pbr", "--resolution", "0"], 2), ([], 2)])
 def test_wrong_usage(document, tmp_path, arguments, status, capsys):

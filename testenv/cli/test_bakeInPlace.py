@@ -10,7 +10,7 @@ pytest.importorskip("pxr.Usd")
 
 from pxr import Sdf, Usd, UsdShade  # noqa: E402
 
-from patina.cli import main, materials  # noqa: E402
+from patina.cli import main, materials, tryStage  # noqa: E402
 
 STAGE = """#usda 1.0
 (
@@ -159,3 +159,112 @@ def test_a_disk_that_is_full_for_textures_names_the_texture(stage, tmp_path, cap
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     said = capsys.readouterr().err
     assert f"cannot write '{tmp_path / 'out_world_looks_one_base_color.png'}'" in said and len(said.splitlines()) == 1
+
+
+MATERIAL = """
+        def Material "{}"
+        {{
+            token outputs:surface.connect = <{}/s.outputs:surface>
+            def Shader "s"
+            {{
+                uniform token info:id = "UsdPreviewSurface"
+                color3f inputs:diffuseColor.connect = <{}/t.outputs:rgb>
+                token outputs:surface
+            }}
+            def Shader "t"
+            {{
+                uniform token info:id = "UsdUVTexture"
+                asset inputs:file = @./{}@
+                float3 outputs:rgb
+            }}
+        }}
+"""
+
+
+def _of_materials(folder, paths, file="paint.png"):
+    """:returns: a stage of such materials; the second one's texture is darker"""
+    text = "#usda 1.0\n"
+    for i, path in enumerate(paths):
+        scope, name = path.strip("/").split("/")
+        text += f'def Scope "{scope}"\n{{{MATERIAL.format(name, path, path, f"{i}{file}")}}}\n'
+        _patina.write_image(str(folder / f"{i}{file}"), [[[0.5 - 0.2 * i, 0.2, 0.1], [0.1, 0.2, 0.5]]] * 2)
+    (folder / "pair.usda").write_text(text.replace('}\ndef Scope "looks"\n{', "") if paths[0][:7] == paths[1][:7] else text)
+    return str(folder / "pair.usda")
+
+
+def _textures(folder):
+    return {name: (folder / name).read_bytes() for name in os.listdir(folder) if name.endswith("_base_color.png")}
+
+
+@pytest.mark.parametrize("pair", [("/looks/a_b", "/looks_a/b"), ("/looks/é", "/looks/ü")])
+@pytest.mark.parametrize("name", ["pair.usda", "new.usda"])
+def test_materials_whose_textures_have_one_name_keep_theirs(pair, name, tmp_path):
+    if not Sdf.Path.IsValidPathString(pair[0]):
+        pytest.skip("this OpenUSD has ASCII names alone")
+    stage, out = _of_materials(tmp_path, pair), str(tmp_path / name)
+    assert bake(stage, pair[0], out) == 0
+    first = _textures(tmp_path)
+    assert len(first) == 1
+    assert bake(stage, pair[1], out) == 0
+    both = _textures(tmp_path)
+    assert len(both) == 2 and len(set(both.values())) == 2 and both.items() >= first.items()
+    assert bake(stage, pair[1], out) == 0 and _textures(tmp_path) == both, "it takes its own name once more"
+    if name == "pair.usda":
+        assert bake(stage, pair[0], out) == 0 and _textures(tmp_path).keys() == both.keys()
+
+
+def test_a_texture_that_another_material_reads_is_not_replaced(stage, tmp_path, capsys):
+    """By whatever name: the material was moved, and both names that the texture could have are taken."""
+    assert bake(stage, "/world/looks/one") == 0
+    plain = "stage_world_looks_one"
+    layer = Sdf.Layer.FindOrOpen(stage)
+    Sdf.CopySpec(layer, "/world/looks/one", layer, "/world/looks/moved")
+    layer.Save()
+    before = (tmp_path / f"{plain}_base_color.png").read_bytes()
+    assert bake(stage, "/world/looks/one") == 0
+    (second,) = set(_textures(tmp_path)) - {f"{plain}_base_color.png"}
+    assert second.startswith(plain + "_") and len(second) == len(f"{plain}_12345678_base_color.png")
+    layer.Reload(True)
+    shader = layer.GetPrimAtPath("/world/looks/moved/base_color_texture")
+    more = Sdf.AttributeSpec(shader, "inputs:more", Sdf.ValueTypeNames.AssetArray)
+    more.default = Sdf.AssetPathArray([Sdf.AssetPath("./" + second)])
+    layer.Save()
+    assert bake(stage, "/world/looks/one") == 1
+    assert f"{second}': /world/looks/moved of {stage} reads it" in capsys.readouterr().err
+    assert (tmp_path / f"{plain}_base_color.png").read_bytes() == before
+
+
+def test_a_texture_that_the_material_reads_from_elsewhere_is_not_replaced(stage, tmp_path, capsys):
+    """OUT is another file, whose texture would have the name of what the material of the stage reads."""
+    texture = tmp_path / "out_world_looks_one_base_color.png"
+    (tmp_path / "paint.png").rename(texture)
+    (tmp_path / "stage.usda").write_text(STAGE.replace("paint.png", texture.name))
+    before = texture.read_bytes()
+    (tmp_path / "out.usda").write_text("#usda 1.0\n")
+    assert bake(stage, "/world/looks/one", str(tmp_path / "out.usda")) == 1
+    assert "this command reads" in capsys.readouterr().err and texture.read_bytes() == before
+
+
+def test_a_pipe_is_not_waited_for(stage, tmp_path, capsys):
+    os.mkfifo(tmp_path / "out.usda")
+    assert bake(stage, "/world/looks/one", str(tmp_path / "out.usda")) == 1
+    assert "out.usda'" in capsys.readouterr().err
+    assert sorted(os.listdir(tmp_path)) == ["below.usda", "out.usda", "paint.png", "stage.usda"]
+
+
+def test_a_file_that_kills_its_reader_is_refused(stage, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(tryStage, "_READ",
+                        "import os, sys\nif sys.argv[1].endswith('out.usda'):\n    os.kill(os.getpid(), 11)")
+    out = tmp_path / "out.usda"
+    out.write_text("#usda 1.0\n")
+    assert bake(stage, "/world/looks/one", str(out), "--limit", "untriedBytes=0") == 1
+    assert f"{out} makes OpenUSD fail (Segmentation fault): the file is damaged" in capsys.readouterr().err
+    assert out.read_text() == "#usda 1.0\n"
+
+
+def test_a_file_that_is_no_stage_is_told_in_one_line(stage, tmp_path, capsys):
+    out = tmp_path / "out.usda"
+    out.write_text("no stage")
+    assert bake(stage, "/world/looks/one", str(out)) == 1
+    said = capsys.readouterr().err
+    assert f"{out} cannot be opened: " in said and len(said.splitlines()) == 1 and out.read_text() == "no stage"

@@ -166,3 +166,22 @@ def test_explain_and_check_tell_causes(stage, capsys):
 def test_long_names_in_messages_take_no_time_without_end(text):
     warning = {"prim": "/a", "input": "basis", "message": f"'{text}' is unknown; bezier is used", "count": 1}
     assert causes.Causes([warning]).groups[0]["message"] == warning["message"]
+
+
+def test_printable_text_stays_in_its_line():
+    assert causes.printable("a \n b") == "a b"
+    assert causes.printable(" \t\r\n \na  b\v\n\u2003c \n") == " a  b c "
+    assert causes.printable("a\tb\x1b\udcff") == "a\\tb\\x1b\\udcff"
+
+
+@pytest.mark.parametrize("text, last", [(" " * 10 ** 6 + "x", "x"), (("\t" * 999 + "\n") * 1000, " "),
+                                        ((" " * 10 ** 6 + "\n") + "\v" * 10 ** 6 + "y", " y")])
+def test_long_blanks_take_no_time_without_end(text, last):
+    assert causes.printable(text) == (text if "\n" not in text else last)
+
+
+def test_a_long_warning_shows_its_ends():
+    message = "'" + "a" * 10 ** 6 + "' is unknown; box is used"
+    shown, = Causes([warning(message)]).lines()
+    assert len(shown) < 2100 and shown.startswith("warning: /p: 'aaa") and shown.endswith("aaa' is unknown; box is used")
+    assert Causes([warning(message)]).groups[0]["message"] == message

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from patina.chart import (front, png, sceneCharts, sceneCommand, sceneLadder, sceneMeasures, scenePage, sceneReference,
-                          sceneResults, svg)
+                          sceneRenders, sceneResults, svg)
 from patina.chart.plot import Axis, Plot
-from patina.cli import chart, compiled, main
+from patina.cli import chart, compiled, errors, main
 
 STAGE = """#usda 1.0
 (
@@ -149,6 +149,78 @@ def test_a_black_stage(charted, capsys):
     assert main.main(["chart", str(stage), "--imageWidth", "16", "--maxSamples", "4", "--quiet",
                       "--out", str(charted[0].parent / "black")]) == 0
     assert "the reference is black" in capsys.readouterr().out
+
+
+def _not_json(text):
+    pytest.fail(f"{text} is no JSON")
+
+
+@pytest.fixture
+def small(tmp_path):
+    """:returns: a chart's command, the reference that it keeps, and the size of its images"""
+    stage, out = tmp_path / "stage.usda", tmp_path / "out"
+    stage.write_text(STAGE)
+    command = ["chart", str(stage), "--imageWidth", "8", "--maxSamples", "4", "--tolerances", "none", "--quiet",
+               f"--json={tmp_path / 'rows.json'}", f"--out={out}"]
+    assert main.main([*command, "--backend", "embree"]) == 0
+    kept, = (out / "references").iterdir()
+    found = json.loads((tmp_path / "rows.json").read_text())["stages"][0]
+    return command, str(kept), (found["height"], found["width"], 3)
+
+
+@pytest.mark.parametrize("backend", ["both", "embree"])
+def test_a_reference_has_numbers(backend, small, tmp_path, capsys):
+    command, path, image = [*small[0], "--backend", backend], str(tmp_path / "mine.exr"), np.full(small[2], np.nan, np.float32)
+    compiled.load().write_image(path, image)
+    capsys.readouterr()
+    assert main.main([*command, "--reference", path]) == 1
+    said = [line for line in capsys.readouterr().err.splitlines() if "FLIP" not in line and "no rasterizer" not in line]
+    assert len(said) == 1 and said[0].endswith(f"{path} has no pixel that is a number")
+    image[-1, 0] = -0.01  # of the ground; where 0.01 is added, the sum is 0
+    compiled.load().write_image(path, image)
+    main.main([*command, "--reference", path])  # a rasterizer may be missing
+    found = json.loads((tmp_path / "rows.json").read_text(), parse_constant=_not_json)["stages"][0]
+    assert not found["problem"] and all(row["relative"] > 0.0 for row in found["rows"])
+
+
+def test_a_reference_is_told_by_its_name_before_it_is_read(tmp_path):
+    (tmp_path / "stage.usda").write_text(STAGE)
+    with pytest.raises(errors.CommandError, match="stage.usda: a reference has linear values"):
+        sceneReference.brought(str(tmp_path / "stage.usda"), None)
+
+
+def test_renders_without_numbers_have_no_errors(tmp_path):
+    """The light that the others are compared with is one that can be compared with."""
+    nothing, grey = np.full((4, 4, 3), np.nan, np.float32), np.full((4, 4, 3), 0.5, np.float32)
+    found = sceneMeasures.errors(nothing, grey)
+    assert {found[name] for name in ("relMSE", "rmse", "flip", "meanError", "relative")} == {None}
+    renders = [sceneRenders.Render(grey + 0.1 / n, 0.1, 0.1, 1.0, n, n, 0.0) for n in (1, 4)]
+    rungs = [sceneLadder.Rung("raster", r.samples, 0.0, True, [r]) for r in renders]
+    references = {name: sceneReference.Reference(image, "", 0.0, 0.0, 0.0)
+                  for name, image in (("all", nothing), ("direct", grey))}
+    ladder = sceneLadder.Ladder(None, rungs, references=references)
+    assert sceneResults._slopes(ladder, "raster")["against"] == "direct"
+    table = tmp_path / "scenes.csv"
+    row = {**dict.fromkeys(sceneResults.COLUMNS, ""), "stage": "a", "backend": "raster", "seconds": 1.0, "samples": 4.0}
+    sceneResults.write_csv([sceneResults.StageResult("a", rows=[row])], table)
+    found, = sceneResults.read_csv(table)
+    found.rows[0]["tolerance"] = 0.5
+    assert found.rows[0]["relative"] is None and "<td>-</td>" in scenePage._tolerances(found)[-2]
+
+
+@pytest.mark.parametrize("value, shape, samples, noise", [
+    (0.5, (1, 1, 3), 1e6, 0.0), (0.5, (5, 3, 3), 1e6, 0.0), (0.5, None, "inf", 0.0), (0.5, None, 1e6, "nan"),
+    (math.nan, None, 1e6, 0.0)])
+def test_a_kept_reference_is_one_of_these_images(value, shape, samples, noise, small, tmp_path):
+    """Any other is rendered anew."""
+    command, kept, size = small
+    compiled.load().write_image(kept, np.full(shape or size, value, np.float32), ["R", "G", "B"], {},
+                                {"patina:samples": samples, "patina:noise": noise})
+    assert main.main([*command, "--backend", "embree"]) == 0
+    image = compiled.load().read_image(kept)
+    assert image.pixels.shape[:2] == size[:2] and float(image.metadata["patina:samples"]) == 64.0
+    found = json.loads((tmp_path / "rows.json").read_text(), parse_constant=_not_json)["stages"][0]
+    assert found["references"]["all"]["samples"] == 64.0
 
 
 def test_counts():

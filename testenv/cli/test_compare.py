@@ -7,7 +7,7 @@ import pytest
 
 _patina = pytest.importorskip("_patina")
 
-from patina.cli import main  # noqa: E402
+from patina.cli import imageMetrics, main  # noqa: E402
 
 
 @pytest.fixture
@@ -62,3 +62,17 @@ def test_display_images(tmp_path, capsys):
     path = str(tmp_path / "a.png")
     _patina.write_image(path, np.full((8, 8, 3), 0.5, np.float32))
     assert numbers(capsys, path, path)["rmse"] == 0.0
+
+
+@pytest.mark.parametrize("metric", ["flip", "rmse"])
+def test_images_without_a_number_are_not_alike(tmp_path, capsys, monkeypatch, metric):
+    """Nothing is measured before that is seen, so that it does not matter whether flip-evaluator is there."""
+    monkeypatch.setattr(imageMetrics, "flip_missing", lambda: "")
+    path = str(tmp_path / "nan.exr")
+    _patina.write_image(path, np.full((8, 8, 3), np.nan, np.float32))
+    assert imageMetrics.mean_flip(np.full((8, 8, 3), np.nan), np.ones((8, 8, 3)), True) is None
+    assert main.main(["compare", path, path, "--fail", f"{metric}=0.1"]) == 1
+    said = capsys.readouterr()
+    assert said.err == f"patina: {metric} could not be measured: no pixel is a number in both images\n"
+    assert "no pixel is a number" in said.out
+    assert numbers(capsys, path, path)["flip"] is None

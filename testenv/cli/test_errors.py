@@ -2,6 +2,7 @@
 """Whatever goes wrong is one line, and the exit status 1, or 2 for wrong usage."""
 import builtins
 import os
+import re
 import signal
 import sys
 import zipfile
@@ -246,23 +247,41 @@ def test_benchmarks_end_in_one_line_too(monkeypatch, capsys):
     assert run(capsys, "bench")[0] == 1
 
 
-@pytest.mark.parametrize("where", ["subLayers = [@pipe.usda@]", "subLayers = [@between.usda@]", "references = @pipe.usda@"])
+def clips(fields):
+    return f'clips = {{\n dictionary default = {{\n string primPath = "/x"\n {fields}\n }}\n}}'
+
+
+@pytest.mark.parametrize("where", [
+    "subLayers = [@pipe.usda@]", "subLayers = [@between.usda@]", "references = @pipe.usda@", "references = @between.usda@",
+    "payload = @named.usda@</a>", "references = @pipe.usdz[a.usda]@", 'references = @`"pipe.usda"`@',
+    'references = @`"${N}.usda"`@', "references = @folder/apart.usda@</a>",
+    clips("asset[] assetPaths = [@pipe.usda@]\n double2[] active = [(0, 0)]\n double2[] times = [(0, 0)]"),
+    clips("asset[] assetPaths = [@empty.usda@]\n asset manifestAssetPath = @pipe.usda@\n double2[] active = [(0, 0)]"),
+    clips('string templateAssetPath = "./pipe.#.usda"\n double templateStartTime = 1\n double templateEndTime = 1\n '
+          "double templateStride = 1")])
 def test_layers_that_are_pipes_are_not_waited_for(where, tmp_path, capsys):
     pytest.importorskip("_patina")
     pytest.importorskip("pxr.Sdf")
-    os.mkfifo(tmp_path / "pipe.usda")
+    pipes = [tmp_path / name for name in ("pipe.usda", "pipe.usdz", "pipe.1.usda")]
+    for pipe in pipes:
+        os.mkfifo(pipe)
+    (tmp_path / "folder").mkdir()
+    for name, target in (("named", '@`"${N}.usda"`@'), ("folder/apart", "@pipe.usda@"), ("empty", "[]")):
+        (tmp_path / f"{name}.usda").write_text(f'#usda 1.0\ndef "a" (\n    references = {target}\n)\n{{\n}}\n')
     (tmp_path / "between.usda").write_text("#usda 1.0\n(\n    subLayers = [@pipe.usda@]\n)\n")
     of_layer = where.startswith("subLayers")
-    (tmp_path / "stage.usda").write_text("#usda 1.0\n" + (f"(\n    {where}\n)\n" if of_layer else 'def "a" (\n    '
-                                                                                                  f'{where}\n)\n{{\n}}\n'))
+    own = where if of_layer else ""
+    head = f'#usda 1.0\n(\n    expressionVariables = {{\n        string N = "pipe"\n    }}\n    {own}\n)\n'
+    (tmp_path / "stage.usda").write_text(head + ("" if of_layer else f'def "a" (\n    {where}\n)\n{{\n    double v\n}}\n'))
     # Opening a pipe without a writer blocks; with one at hand that says nothing a failing test ends.
-    keeper = os.open(tmp_path / "pipe.usda", os.O_RDWR | os.O_NONBLOCK)
+    keepers = [os.open(pipe, os.O_RDWR | os.O_NONBLOCK) for pipe in pipes]
     try:
         status, said = run(capsys, "record", str(tmp_path / "stage.usda"), str(tmp_path / "a.png"), "-w", "4", "--samples", "1",
                            "--quiet")
     finally:
-        os.close(keeper)
-    assert status == 1 and said.endswith("pipe.usda is no regular file") and len(said.splitlines()) == 1
+        for keeper in keepers:
+            os.close(keeper)
+    assert status == 1 and re.search(r"pipe(\.1)?\.usd[az] is no regular file$", said) and len(said.splitlines()) == 1
 
 
 @pytest.mark.parametrize("arguments, said", [(("--display", "tube"), "--display: there is no display 'tube' (there are: sRGB"),

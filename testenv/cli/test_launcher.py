@@ -143,6 +143,56 @@ def test_a_failed_build_says_why_and_is_tried_again(checkout):
     assert len(builds(checkout.run("record")[1])) == 1
 
 
+# Makes an environment as `python -m venv --clear` does, which removes all that is in the folder.
+VENV = """#!/bin/sh
+case $1-$2 in
+-m-venv) echo "venv $4" >> "$CALLS"; rm -rf "$4"; mkdir -p "$4/bin"; [ -z "$VENV_FAILS" ] || exit 1
+    cp "$ROOT/.venv/bin/python" "$4/bin/python" ;;
+esac
+"""
+
+
+def set_up(checkout, folder, **environment):
+    """:returns: the process, and the folders that environments were made in"""
+    write(checkout.tools / "base", VENV, program=True)
+    process, calls = checkout.run("record", PATINA_VENV=str(folder), PATINA_PYTHON=str(checkout.tools / "base"), **environment)
+    return process, [call[len("venv "):] for call in calls if call.startswith("venv ")]
+
+
+@pytest.mark.parametrize("files", [("keep.txt",), ("keep.txt", "pyvenv.cfg", "bin/python3"), (".hidden",)])
+def test_a_folder_of_others_is_not_made_an_environment(checkout, tmp_path, files):
+    folder = tmp_path / "their folder"
+    for file in files:
+        write(folder / file, "theirs")
+    process, made = set_up(checkout, folder)
+    assert process.returncode == 1 and made == []
+    assert process.stderr.endswith(f"patina: PATINA_VENV ({folder}) is not empty and not Patina's own; name another folder\n")
+    assert all((folder / file).read_text() == "theirs" for file in files) and not (folder / ".patina").exists()
+
+
+@pytest.mark.parametrize("there", [False, True])
+def test_a_new_or_empty_folder_is_made_an_environment_and_once_more_when_it_breaks(checkout, tmp_path, there):
+    folder = tmp_path / "other"
+    if there:
+        folder.mkdir()
+    process, made = set_up(checkout, folder, VENV_FAILS="1")
+    assert process.returncode == 1 and made == [str(folder)] and "cannot make a Python environment" in process.stderr
+    process, made = set_up(checkout, folder)
+    assert process.returncode == 0 and made == [str(folder)], process.stderr
+    (folder / "bin" / "python").unlink()
+    process, made = set_up(checkout, folder)
+    assert process.returncode == 0 and made == [str(folder)], process.stderr
+    assert set_up(checkout, folder)[1] == []
+
+
+def test_the_checkouts_own_environment_is_made_again(checkout):
+    shutil.move(checkout.root / ".venv" / "bin" / "python", checkout.tools / "kept")
+    write(checkout.root / ".venv" / "lib" / "half.py", "")
+    write(checkout.tools / "base", VENV.replace("$ROOT/.venv/bin/python", "${0%/*}/kept"), program=True)
+    process, calls = checkout.run("record", PATINA_PYTHON=str(checkout.tools / "base"))
+    assert process.returncode == 0 and f"venv {checkout.root}/.venv" in calls, process.stderr
+
+
 def test_help_needs_no_build(checkout):
     process, calls = checkout.run("record", "--help")
     assert process.returncode == 0 and calls == [] and "ran -m patina record --help" in process.stdout

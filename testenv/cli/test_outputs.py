@@ -163,6 +163,8 @@ def test_a_full_disk_keeps_the_old_file(name, folder, capsys):
     (["view", "m.mtlx", "-o", "a.html", "--writeControls", "./a.html"], None),
     (["view", "m.mtlx", "-o", "paint.png", "--environment", "paint.png"], "paint.png"),
     (["compare", "paint.png", "link.png", "--no-flip", "--json=paint.png"], "paint.png"),
+    (["chart", "stage.usda", "--reference", "paint.exr", "--json=paint.exr", "-w", "4", "--maxSamples", "1", "--tolerances",
+      "none", "--backend", "embree", "--quiet"], "paint.exr"),
     (["explain", "stage.usda", "--json=looks.usda"], "looks.usda"),
     (["explain", "stage.usda", "--json=paint.png"], "paint.png"),
     (["bsdf", "albedo", "m.mtlx", "--json=m.mtlx"], "m.mtlx"),
@@ -172,6 +174,7 @@ def test_an_output_is_no_input(arguments, kept, folder, capsys):
     os.symlink("paint.png", "link.png")
     os.symlink("stage.usda", "link.usda")
     (folder / "c.json").write_text('{"controls": [], "presets": []}')
+    _patina.write_image("paint.exr", [[[0.5, 0.2, 0.1]] * 2] * 2)
     (folder / "outer.mtlx").write_text('<?xml version="1.0"?><materialx version="1.39" xmlns:xi="x"><xi:include href="m.mtlx"/>'
                                        "</materialx>")
     if kept == "paint_base_color.png":

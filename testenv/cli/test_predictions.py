@@ -103,3 +103,27 @@ def test_states_are_counted_as_they_are(tmp_path):
     for row in rows:
         table.add(row)
     assert predictions.read(str(tmp_path / "predictions.csv")) == rows
+
+
+def test_one_stage_of_several_may_fail(tmp_path, capsys):
+    """Names of files can have any bytes, and what a stage says is its own: a row tells it, and the status."""
+    good = scene("lightSphere")
+    stages = [tmp_path / name for name in ("good.usda", "damaged.usda", "\udcff.usda", "\x1b[2J.usda")]
+    for stage in stages:
+        stage.write_text("#usda 1.0\ndef {" if stage.name == "damaged.usda" else
+                         f"#usda 1.0\n(\n    subLayers = [@{good}@]\n)\n")
+    command = ["chart", "--predictions", *map(str, stages), "--backend", "embree", "-w", "4", "--methodSamples", "4",
+               "--tolerances", "0.5", "--maxSamples", "16", "--out", str(tmp_path / "out")]
+    assert main.main([*command, "--quiet", "--json"]) == 1
+    said = capsys.readouterr()
+    rows = json.loads(said.out)
+    assert [(row["stage"], bool(row["problem"])) for row in rows] == [
+        ("good", False), ("damaged", True), ("?", True), ("?[2J", False)]
+    assert [line.split(":")[0:2] for line in said.err.splitlines()] == [
+        ["patina", " damaged, embree"], ["patina", " ?, embree"]]
+    table = (tmp_path / "out" / "predictions.csv").read_text(encoding="utf-8")
+    assert "\x1b" not in table and len(predictions.read(str(tmp_path / "out" / "predictions.csv"))) == 4
+    assert main.main(command) == 1
+    said = capsys.readouterr()
+    assert (said.out + said.err).replace("\n", "").isprintable() and "?[2J" in said.out and "damaged" in said.out
+    assert main.main(["chart", "--predictions", str(stages[0]), "--set", "nonsense"]) == 2

@@ -276,3 +276,64 @@ def test_a_report_that_fails_is_a_warning(folder, monkeypatch):
     monkeypatch.setattr("patina.report.page.document", fail)
     assert record("a.exr", "--frames", "1", "--samples", 1, "-w", 8, "--report", "p.html") == 0
     assert "no report p.html: odd numbers" in [w["message"] for w in reported()["warnings"]] and os.path.exists("a.exr")
+
+
+def _odd(folder, prim, line):
+    """Writes the stage with one more attribute on a prim."""
+    text = (folder / "stage.usda").read_text()
+    name = line.split(" = ")[0].split()[-1]
+    head, opening, rest = text.partition(f'"{prim}"\n    {{\n')
+    body, end, tail = rest.partition("\n    }\n")
+    kept = "\n".join(one for one in body.split("\n") if f" {name} = " not in one)
+    (folder / "stage.usda").write_text(f"{head}{opening}        {line}\n{kept}{end}{tail}")
+
+
+_BASE = [
+    ("float4 dataWindowNDC = (nan, 0, 1, 1)", "is not 4 finite numbers; it is left out"),
+    ("float4 dataWindowNDC = (0, 0, inf, 1)", "is not 4 finite numbers; it is left out"),
+    ("float dataWindowNDC = 1", "is not 4 finite numbers; it is left out"),
+    ('string dataWindowNDC = "0011"', "is not 4 finite numbers; it is left out"),
+    ('string[] resolution = ["32", "16"]', "is not 2 finite numbers; it is left out"),
+    ("int resolution = 5", "is not 2 finite numbers; it is left out"),
+    ("int3 resolution = (5, 5, 5)", "is not 2 finite numbers; it is left out"),
+    ('string pixelAspectRatio = "x"', "is no finite number; it is left out"),
+    ("float pixelAspectRatio = nan", "is no finite number; it is left out"),
+    ("float pixelAspectRatio = inf", "is no finite number; it is left out"),
+    ("float pixelAspectRatio = 1e7", "1e+07 is not allowed, it is not from 0.001 to 1000; square pixels are used"),
+    ("float pixelAspectRatio = 0", "0 is not allowed, it is not from 0.001 to 1000; square pixels are used")]
+_PURPOSES = [
+    ("int includedPurposes = 3", "is no list of purposes; it is left out"),
+    ("int[] includedPurposes = [3]", "is no list of purposes; it is left out"),
+    ('token materialBindingPurposes = "full"', "is no list of purposes; it is left out")]
+
+
+@pytest.mark.parametrize("prim, line, said", [
+    *(("alone", *row) for row in _BASE + _PURPOSES), *(("beauty", *row) for row in _BASE)])
+def test_values_of_another_type_or_range_are_told(folder, prim, line, said):
+    name = line.split(" = ")[0].split()[-1]
+    _odd(folder, prim, line)
+    path = "/Render/alone" if prim == "alone" else "/Render/main"
+    assert record("a.exr", "--settings", path, "--samples", 1, "--frames", "1", "-w", 8) == 0
+    told = [(w["prim"], w["input"], w["message"]) for w in reported()["warnings"]]
+    assert (f"/Render/{prim}", name, said) in told
+    if name == "pixelAspectRatio":
+        assert image("a.exr").pixel_aspect_ratio == 1.0
+
+
+def test_a_data_window_of_huge_numbers_is_cut(folder):
+    _odd(folder, "alone", "double4 dataWindowNDC = (-1e308, 0.5, 1e308, 1e308)")
+    assert record("a.exr", "--settings", "/Render/alone", "--samples", 1) == 0
+    made = image("a.exr")
+    assert (made.x, made.y, made.width, made.height) == (0, 0, 24, 3)
+
+
+@pytest.mark.parametrize("ratio", ["1e7", "1e308", "1e-30", "0", "inf", "nan"])
+def test_pixel_aspect_ratios_that_no_image_holds_are_refused_as_flags(folder, capsys, ratio):
+    assert record("a.exr", "-w", 8, "--samples", 1, "--pixelAspectRatio", ratio) == 2
+    assert "--pixelAspectRatio" in capsys.readouterr().err and not os.path.exists("a.exr")
+
+
+@pytest.mark.parametrize("ratio", ["0.001", "1000"])
+def test_pixel_aspect_ratios_at_the_ends_of_the_range_are_written(folder, ratio):
+    assert record("a.exr", "-w", 8, "--samples", 1, "--pixelAspectRatio", ratio) == 0
+    assert image("a.exr").pixel_aspect_ratio == pytest.approx(float(ratio))

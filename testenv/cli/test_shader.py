@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import subprocess
+import xml.etree.ElementTree as tree
 
 import inProcess
 import numpy as np
@@ -27,6 +28,11 @@ HOSTILE = """<?xml version="1.0"?>
   <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
 </materialx>
 """
+# A colour space that ends the string literal that it comes to stand in, and a name that no document can hold as it is.
+SPACE = "colorspace='x&quot;}, int evil = 1, string z = &quot;&#10;#include &quot;/etc/passwd&quot;&#10;'"
+HOSTILE_SPACE = HOSTILE.replace('type="filename"', f'type="filename" {SPACE}')
+HOSTILE_NAME = HOSTILE.replace('</image>', '<input name="a&#1;b" type="float" value="1"/></image>')
+INPUT = '<materialx><image name="i"><input name="{}" type="string" value="{}" {}/></image></materialx>'
 
 
 def _materials():
@@ -107,6 +113,47 @@ def test_texts_of_a_material_do_not_reach_code(tmp_path):
     if generators.installed():
         text = inProcess.patina("shader", file, "--target", "osl").stdout
         assert '_); evil(__b.png"' in text and 'evil("' not in text
+
+
+def test_colour_spaces_of_a_material_do_not_reach_code(tmp_path):
+    if not generators.installed():
+        pytest.skip("PyPI's materialx is not installed")
+    file = tmp_path / "hostile.mtlx"
+    file.write_text(HOSTILE_SPACE)
+    for target in ("osl", "mdl", "msl"):
+        told = inProcess.patina("shader", file, "--target", target)
+        assert "int evil" not in told.stdout and "/etc/passwd" not in told.stdout
+        assert ".file: the colour space has characters that no such name has; it is left out" in told.stderr
+
+
+@pytest.mark.parametrize("name, value, more, gone, said", [
+    ("file", "a.png", SPACE, "evil", "the colour space has"),
+    ("file", "a.png", "colorspace='x&#10;y'", "colorspace", "the colour space has"),
+    ("geomprop", "x; } evil() {", "", "evil()", "the primvar's name has more than"),
+    ("a&quot;b", "1", "", "&quot;", "a text has quotes"),
+    ("file", "a.png", "nodename='b&#10;c'", "b&#10;c", "a text has quotes")])
+def test_every_text_of_a_document_is_made_harmless(name, value, more, gone, said):
+    warnings = []
+    assert gone not in generators.harmless(INPUT.format(name, value, more), warnings)
+    (warning,) = warnings
+    assert warning["prim"] == "i" and warning["message"].startswith(said) and '"' not in warning["input"]
+
+
+@pytest.mark.parametrize("name, more", [
+    ("file", ""), ("file", "colorspace='srgb_texture'"), ("file", "colorspace='Utility - Linear (v1.0) Rec.709/a:b+c'"),
+    ("geomprop", "")])
+def test_harmless_texts_stay(name, more):
+    warnings = []
+    text = INPUT.format(name, "primvars:st", more)
+    made = generators.harmless(text, warnings)
+    assert not warnings and "primvars:st" in made and ("colorspace" in made) == bool(more)
+
+
+def test_names_with_control_characters_give_a_document_that_can_be_read(tmp_path):
+    file = tmp_path / "hostile.mtlx"
+    file.write_text(HOSTILE_NAME)
+    told = inProcess.patina("shader", file, "--target", "mtlx", "--form", "authored")
+    assert [e.get("name") for e in tree.fromstring(told.stdout).iter("input")].count("a?b") == 1
 
 
 def test_json_says_what_the_text_reads(tmp_path):

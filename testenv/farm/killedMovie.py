@@ -53,7 +53,7 @@ def run(folder, frames, cut, workers, every, flags, seed=1):
     while process.poll() is None:
         time.sleep(0.05)
         # Not before workers have begun with parts.
-        begun = killed or glob.glob(os.path.join(farmed, "*.parts", "*"))
+        begun = killed or glob.glob(os.path.join(farmed, "*.parts", "*.log"))
         alive = worker_processes(process) if begun and time.monotonic() - last >= every else []
         if alive:
             victim = chance.choice(alive)

@@ -48,12 +48,13 @@ def test_digests_are_of_regular_files_alone(tmp_path):
 
 
 def test_a_description_holds_tables(tmp_path):
-    values = {"identity": {"files": []}, "part": "1/2", "range": [0, 1], "arguments": {}, "options": {}, "frame": 1,
-              "camera": "/c", "settings": {}, "noiseTolerance": 0, "folder": "", "home": "", "denoise": False, "decimals": 0}
+    values = {"identity": {"files": []}, "part": "1/2", "range": [0, 1], "arguments": {"stage": "a.usda"}, "options": {},
+              "frame": 1, "camera": "/c", "settings": {}, "noiseTolerance": 0, "folder": "", "home": "", "denoise": False,
+              "decimals": 0}
     with pytest.raises(CommandError):
         partial.Description("a.part", values)
     values["identity"] = {"files": {}}
-    for name, value in (("decimals", float("inf")), ("noiseTolerance", 10 ** 400), ("folder", 3)):
+    for name, value in (("decimals", float("inf")), ("noiseTolerance", 10 ** 400), ("folder", 3), ("arguments", {})):
         with pytest.raises(CommandError):
             partial.Description("a.part", {**values, name: value})
     assert partial.Description("a.part", values).part.number == 1

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The files that a job removes, the commands that it sends, and how it tells a failure that may pass."""
 import concurrent.futures
+import errno
+import json
 import os
+import subprocess
+import sys
 import time
 import types
 
@@ -9,8 +13,8 @@ import pytest
 
 import _patina
 import patina
-from patina.cli.errors import CommandError
-from patina.farm import cut, identity, sender, work, worker
+from patina.cli.errors import CommandError, is_temporary
+from patina.farm import cut, identity, job, owner, sender, work, worker
 
 
 def frame(folder, tiles=2):
@@ -19,16 +23,17 @@ def frame(folder, tiles=2):
 
 def test_what_is_not_the_jobs_own_stays(tmp_path):
     one = frame(tmp_path)
-    one.prepare()
+    one.prepare("job")
     own = ["1.part", "12.part", "2.log", "image.log", "3.20250101-101500.77.failed.log", "image.20250101-101500.7.failed.log"]
     others = ["7.2.part", "stage.usda", "notes.log", "kept.failed.log", "1.part.txt"]
     for name in own + others:
         (tmp_path / "a.exr.parts" / name).write_text("")
     one.forget()
-    assert sorted(os.listdir(one.folder)) == sorted(others)
+    assert sorted(os.listdir(one.folder)) == sorted([*others, owner.NAME])
     for name in others:
         os.remove(os.path.join(one.folder, name))
     one.forget()
+    one.leave()
     assert not os.path.exists(one.folder)
     one.forget()  # nothing is there
 
@@ -48,7 +53,7 @@ def test_what_a_job_has_kept_is_known_by_its_files(tmp_path):
     one = frame(tmp_path)
     now = time.time()
     assert not one.kept(now - 60)
-    one.prepare()
+    one.prepare("job")
     (tmp_path / "a.exr.parts" / "2.part").write_text("")
     assert one.kept(now - 60) and not one.kept(now + 60)
 
@@ -84,6 +89,16 @@ def test_reasons_that_may_pass_are_known(tmp_path, passing):
     sent = sender.Sender(Client(*failed), [], str(tmp_path), (), 0)
     sent.run([one], one.tasks(set()), lambda _: None)
     assert [task.passing for task in sent.failed] == [passing] and not sent.lost
+
+
+@pytest.mark.parametrize("error", [worker.PartFailed("why"), worker.Refused("why"), worker.PartFailed(), worker.Refused()])
+def test_workers_that_tell_less_end_no_job(tmp_path, error):
+    one = frame(tmp_path, 1)
+    sent = sender.Sender(Client(*[error] * sender.REFUSALS), [], str(tmp_path), (), 0)
+    sent.run([one], one.tasks(set()), lambda _: None)
+    reasons = {why for task in sent.failed for _, why in task.failures}
+    assert not sent.lost and reasons == {"why" if error.args else type(error).__name__}
+    assert [task.passing for task in sent.failed] == [False]
 
 
 class KilledWorker(Exception):
@@ -169,3 +184,143 @@ def test_logs_follow_no_links_and_wait_for_no_pipes(tmp_path):
     assert (tmp_path / "mine").read_text() == "mine"
     with pytest.raises(worker.PartFailed, match="cannot write .*none"):
         version(tmp_path, tmp_path / "none" / "1.log", "none")
+
+
+@pytest.mark.parametrize("number, passing", [(None, False), (errno.ENOSPC, True), (errno.ESTALE, True), (errno.EEXIST, False)])
+def test_a_log_that_cannot_be_written_fails_one_part(tmp_path, monkeypatch, number, passing):
+    log = tmp_path / "1.log"
+    log.mkdir()
+    if number:
+        def fail(*_):
+            raise OSError(number, os.strerror(number))
+
+        monkeypatch.setattr(worker.os, "remove", fail)
+    with pytest.raises(worker.PartFailed, match=f"cannot write {log}: ") as failed:
+        version(tmp_path, log, "folder")
+    assert failed.value.args[1:] == ("", passing)
+    one = frame(tmp_path, 1)
+    sent = sender.Sender(Client(*[failed.value] * work.TRIES), [], str(tmp_path), (), 0)
+    sent.run([one], one.tasks(set()), lambda _: None)
+    assert [task.passing for task in sent.failed] == [passing] and not sent.lost
+
+
+@pytest.mark.parametrize("status", [0, 1])
+def test_a_log_that_another_has_removed_changes_no_outcome(tmp_path, monkeypatch, status):
+    def call(*_, **__):
+        os.remove(tmp_path / "1.log")
+        return status
+
+    monkeypatch.setattr(worker.subprocess, "call", call)
+    arguments = [], str(tmp_path), str(tmp_path / "1.log"), ("removed", [], [], {})
+    if status == 0:
+        assert worker.run(*arguments)["seconds"] >= 0.0
+    else:
+        with pytest.raises(worker.PartFailed, match="it ended with status 1"):
+            worker.run(*arguments)
+
+
+def prepare(name, *frames, resume=False):
+    """Begins to write as a job of this name does."""
+    job.Job._prepare(types.SimpleNamespace(name=name, arguments=types.SimpleNamespace(resume=resume)), frames)
+
+
+@pytest.fixture(params=["gone", "unnoticed", "later"])
+def dead(request):
+    """What an owner's file says of a process that has ended, which its parent may not have noticed, or whose number another
+    has."""
+    if request.param == "later":
+        yield {"begun": 1}
+        return
+    process = subprocess.Popen([sys.executable, "-c", ""])
+    if request.param == "gone":
+        process.wait()
+    else:
+        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+    yield {"pid": process.pid}
+    process.wait()
+
+
+def owned(one, **changes):
+    """Leaves the folder of a frame to a job. :returns: what its file says"""
+    one.prepare("first")
+    path = owner.path_of(one.folder)
+    with open(path, encoding="utf-8") as file:
+        told = dict(json.load(file), **changes)
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(told, file)
+    return told
+
+
+@pytest.mark.parametrize("resume", [False, True])
+@pytest.mark.parametrize("host", ["", "elsewhere"])
+def test_a_second_job_of_an_image_is_refused(tmp_path, host, resume):
+    first, second = frame(tmp_path), frame(tmp_path)
+    other = work.Frame(None, str(tmp_path / "b.exr"), cut.Cut(2), [])
+    told = owned(first, **({"host": host, "pid": 1} if host else {}))
+    (tmp_path / "a.exr.parts" / "1.part").write_text("")
+    before = sorted(os.listdir(first.folder))
+    with pytest.raises(CommandError) as refused:
+        prepare("second", other, second, resume=resume)
+    path = f"{first.folder}/{owner.NAME}"
+    assert str(refused.value) == (f"process {told['pid']} on {told['host']} renders this image; "
+                                  f"remove {path} if it has ended")
+    for one in (other, second):  # as at the end of a job
+        one.leave()
+    assert sorted(os.listdir(first.folder)) == before and not os.path.exists(other.folder)
+    first.leave()
+    assert os.listdir(first.folder) == ["1.part"]
+    prepare("second", second, resume=resume)
+    assert sorted(os.listdir(first.folder)) == ["1.part", owner.NAME][0 if resume else 1:]
+
+
+@pytest.mark.parametrize("resume", [False, True])
+def test_the_folder_of_a_dead_job_is_taken_over(tmp_path, dead, resume):
+    first, second = frame(tmp_path), frame(tmp_path)
+    told = owned(first, **dead)
+    if told["begun"] is None:
+        pytest.skip("the system does not tell when a process began")
+    (tmp_path / "a.exr.parts" / "1.part").write_text("")
+    prepare("second", second, resume=resume)
+    first.leave()  # what is another's stays
+    with open(owner.path_of(first.folder), encoding="utf-8") as file:
+        assert json.load(file)["job"] == "second"
+    assert os.path.exists(second.part_file(cut.Part(1, second.cut))) is resume
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[]", '{"host": 5, "pid": 1, "job": "a"}', '{"host": "a", "pid": -1, "job": "a"}',
+                                  "pipe", "folder"])
+def test_an_owner_that_cannot_be_told_is_refused(tmp_path, text):
+    one = frame(tmp_path)
+    path = tmp_path / "a.exr.parts" / owner.NAME
+    path.parent.mkdir()
+    if text == "pipe":
+        os.mkfifo(path)
+    elif text == "folder":
+        path.mkdir()
+    else:
+        path.write_text(text)
+    with pytest.raises(CommandError, match=f"{path} does not tell whose it is; remove it"):
+        prepare("second", one)
+    one.leave()
+    assert path.exists()
+
+
+def test_a_job_is_refused_before_workers_are_asked_for(tmp_path):
+    first, second = frame(tmp_path), frame(tmp_path)
+    owned(first)
+    one = types.SimpleNamespace(name="second", _waiting=lambda: ([work.Task(second, None)], [second]),
+                                _on_workers=lambda *_: pytest.fail("workers were asked for"))
+    with pytest.raises(CommandError, match="renders this image"):
+        job.Job.run(one, [])
+
+
+def test_an_owner_that_cannot_be_written_leaves_no_half_of_it(tmp_path, monkeypatch):
+    one = frame(tmp_path)
+
+    def fail(*_):
+        raise OSError(errno.ENOSPC, "no space")
+
+    monkeypatch.setattr(owner.os, "write", fail)
+    with pytest.raises(CommandError, match=f"cannot write .*{owner.NAME}: no space") as failed:
+        prepare("job", one)
+    assert is_temporary(failed.value) and os.listdir(one.folder) == []

@@ -87,3 +87,40 @@ def test_failures_are_one_line(film, tmp_path):
     with pytest.raises(KeyError):
         film.resolve("glitter")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_film_that_is_rendered_into_is_left_alone(film, tmp_path):
+    scene = _patina.Scene()
+    with scene.edit() as edit:
+        edit.set_camera("/c")
+    path = str(tmp_path / "a.checkpoint")
+    film.save_checkpoint(path)
+    first, second = _patina.make_renderer("embree"), _patina.make_renderer("embree")
+    settings = {"width": 64, "height": 64, "samples": 1 << 30}
+    first.start(scene, "/c", settings, film)
+    calls = [lambda: film.reset(9, 9), lambda: film.load_checkpoint(path), lambda: film.add_color(0, 0, (1, 1, 1), 1),
+             lambda: _patina.denoise(film), lambda: _patina.merge_partial(film, path),
+             lambda: second.start(scene, "/c", settings, film)]
+    for call in calls:
+        with pytest.raises(RuntimeError, match="stop"):
+            call()
+    first.start(scene, "/c", settings, film)  # by the same one again
+    first.stop()
+    film.reset(9, 9)
+    film.load_checkpoint(path)
+    assert film.resolve("color").shape == (3, 4, 3)
+
+
+def test_none_is_no_scene():
+    with pytest.raises(TypeError):
+        _patina.Scene.edit(None)
+
+
+def test_networks_of_very_many_nodes(tmp_path):
+    """A look at all nodes before each would take 10^11 steps."""
+    network = _patina.Network("/m")
+    for i in range(300000):
+        network.add_node(f"/m/n{i}", "ND_constant_float")
+        network.set_input(f"/m/n{i}", "value", "float", float(i))
+    with pytest.raises(ValueError, match="already has"):
+        network.add_node("/m/n7", "ND_constant_float")

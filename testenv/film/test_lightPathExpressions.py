@@ -23,6 +23,7 @@ REFUSED = [  # expression, column, what the message says
     ("|CL", 1, "before |"), ("C|", 3, "an event"), ("CxL", 2, "an event"), ("*CL", 1, "an event"),
     ("C<(R)D>L", 3, "an event type"),
     ("C[^D'key']L", 5, "how it scatters"), ("(" * 70 + "C" + ")" * 70 + "L", 66, "fewer groups")]
+LABELS = "".join(f"'{a}{b}'" for a in "abcdefghijklm" for b in ("", *"nopqrstuvwxyz"))  # 182
 HAPPENING = ([("C", "x")] + [(t, s) for t in "RT" for s in "DGS"] + [("V", "D")] + [(t, "x") for t in "LBO"])
 
 
@@ -49,6 +50,19 @@ def test_what_would_need_too_much_is_refused():
         _patina.light_path_states("C((.{64}){64}){64}L")
     with pytest.raises(ValueError, match="too many states"):
         _patina.light_path_states("C.*D.{20}L")  # 2^20 sets of states
+    with pytest.raises(ValueError, match="too many states"):
+        _patina.light_path_states("C((.?){64}){64}<L.[" + LABELS + "]>")
+
+
+def test_labels_in_one_list_need_no_states_of_their_own():
+    long = "C" + ".{64}" * 29
+    assert _patina.light_path_states(long + f"<L.[{LABELS}]>") == _patina.light_path_states(long + "<L.'a'>") == 1860
+
+
+def test_a_render_has_few_labels():
+    assert _patina.light_path_states("C[" + "".join(f"<L.'{k}'>" for k in range(1024)) + "]") == 4
+    with pytest.raises(ValueError, match="at most 1024 labels"):
+        _patina.light_path_states("C[" + "".join(f"<L.'{k}'>" for k in range(1025)) + "]")
 
 
 def path(text):

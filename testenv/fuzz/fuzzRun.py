@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the fuzzers, one after the other, and tells what they found. `patina fuzz` calls it."""
 import importlib
-import json
 import os
 import tempfile
 
@@ -80,9 +79,3 @@ def figures(results):
     return {name: {key: found[key] for key in ("inputs", "seconds", "counts", "lines")} |
             {"findings": [{"kind": kind, "reason": reason} for kind, reason, *_ in found["findings"]]}
             for name, found in results.items()}
-
-
-def write(results, path, more):
-    with open(path, "w", encoding="utf-8") as file:
-        json.dump({**more, "fuzzers": figures(results)}, file, indent=1)
-        file.write("\n")

@@ -119,16 +119,21 @@ def _minimise(program, file, kind, scratch):
 
 
 def _keep_small(program, work, scratch):
-    """Leaves only inputs that reach code that no other of them reaches."""
+    """Leaves only inputs that reach code that no other of them reaches. All that are kept lie there before one is removed."""
     merged = os.path.join(scratch, "merged")
     os.makedirs(merged)
     done = subprocess.run([program, "-merge=1", merged, work], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                           cwd=scratch, env=_environment())
-    if done.returncode == 0 and os.listdir(merged):
-        for name in os.listdir(work):
-            os.remove(os.path.join(work, name))
-        for name in os.listdir(merged):
-            shutil.copy(os.path.join(merged, name), work)
+    kept = set(os.listdir(merged))
+    if done.returncode or not kept:
+        return
+    half = os.path.join(work, ".half")  # a copy that ends early must not stand for a whole input
+    for name in kept:
+        shutil.copy(os.path.join(merged, name), half)
+        os.replace(half, os.path.join(work, name))
+    for file in list(os.scandir(work)):
+        if file.name not in kept and file.is_file(follow_symlinks=False):
+            os.remove(file.path)
 
 
 def _coverage(program, work, sources, scratch, slow):

@@ -5,6 +5,8 @@ A run adds a row to `runs`. The other lists are written by hand: `mended` (defec
 (gaps)."""
 import json
 import os
+import shutil
+import tempfile
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 FILE = os.path.join(FOLDER, "results.json")
@@ -44,8 +46,19 @@ KINDS = {
 
 
 def read(path=FILE):
-    with open(path, encoding="utf-8") as file:
-        return json.load(file)
+    """:raises ValueError: with a one-line reason, where it is no table of runs"""
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise ValueError(f"{path} is no regular file")
+    try:
+        with open(path, encoding="utf-8") as file:
+            table = json.load(file)
+    except OSError as error:
+        raise ValueError(f"{path} cannot be read ({error.strerror})") from error
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"{path} is no JSON ({error})") from error
+    if not isinstance(table, dict) or "runs" not in table or not all(isinstance(rows, list) for rows in table.values()):
+        raise ValueError(f"{path} is no table of runs: an object of lists, one of which is `runs`")
+    return table
 
 
 def row(machine, seed, found):
@@ -58,13 +71,24 @@ def row(machine, seed, found):
 
 
 def append(rows, path=FILE):
-    """Adds rows to the file, which is replaced as a whole."""
+    """Adds rows to the file, which is replaced as a whole; a link to it stays one.
+
+    patina.cli.outputs would need the compiled module, and testenv/hydra/sanitize.sh adds rows by any Python.
+
+    :raises ValueError: as read()"""
     table = read(path)
     table["runs"] += rows
-    with open(path + ".new", "w", encoding="utf-8") as file:
-        lines = {key: ",\n".join("  " + json.dumps(item, ensure_ascii=False) for item in table[key]) for key in table}
-        file.write("{\n" + ",\n".join(f' "{key}": [\n{text}\n ]' for key, text in lines.items()) + "\n}\n")
-    os.replace(path + ".new", path)
+    lines = {key: ",\n".join("  " + json.dumps(item, ensure_ascii=False) for item in table[key]) for key in table}
+    target = os.path.realpath(path)
+    handle, made = tempfile.mkstemp(".new", dir=os.path.dirname(target))
+    try:
+        with open(handle, "w", encoding="utf-8", errors="backslashreplace") as file:
+            file.write("{\n" + ",\n".join(f' {json.dumps(key)}: [\n{text}\n ]' for key, text in lines.items()) + "\n}\n")
+        shutil.copymode(target, made)
+        os.replace(made, target)
+    except BaseException:
+        os.remove(made)
+        raise
 
 
 def sums(table):

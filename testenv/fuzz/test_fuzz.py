@@ -4,6 +4,7 @@
 The kept inputs of the native fuzzers are run by testFuzzCorpus.
 """
 import importlib
+import json
 import os
 import subprocess
 import types
@@ -13,8 +14,10 @@ import pytest
 pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
+import fuzzRun  # noqa: E402
 import generated  # noqa: E402
 import keptFindings  # noqa: E402
+import native  # noqa: E402
 import outcomes  # noqa: E402
 import results  # noqa: E402
 import shrink  # noqa: E402
@@ -181,3 +184,96 @@ def test_rows_hold_no_path_of_a_machine():
     place = os.path.join(os.path.dirname(os.path.abspath(results.FILE)), "generated.py")
     found = {"inputs": 1, "seconds": 1.0, "counts": {}, "findings": [("crash", f'File "{place}", line 7')]}
     assert results.row("edits", 1, found)["findings"] == ['File "testenv/fuzz/generated.py", line 7']
+
+
+@pytest.fixture
+def runs(monkeypatch):
+    """`patina fuzz` without fuzzers: each call notes its names, and finds nothing."""
+    called = []
+
+    def run(names, *_):
+        called.append(names)
+        return {"ies": {"inputs": 3, "seconds": 1.0, "counts": {"fine": 3}, "lines": None, "findings": []}}
+
+    monkeypatch.setattr(fuzzRun, "run", run)
+    return called
+
+
+def fuzz(*arguments):
+    from patina.cli import main
+
+    return main.main(["fuzz", "ies", *arguments])
+
+
+@pytest.mark.parametrize("text, reason", [
+    (None, "cannot be read"), ("{", "is no JSON"), ("[" * 100000, "is no JSON"), ("[]", "no table of runs"),
+    ("{}", "no table of runs"), ('{"runs": 3}', "no table of runs"), ('{"runs": [], "known": 1}', "no table of runs")])
+def test_a_table_is_read_before_the_run(runs, tmp_path, capsys, text, reason):
+    table = tmp_path / "table.json"
+    if text is not None:
+        table.write_text(text)
+    assert fuzz("--results", str(table)) == 1
+    error = capsys.readouterr().err
+    assert reason in error and str(table) in error and error.count("\n") == 1
+    assert runs == [] and os.listdir(tmp_path) == ([] if text is None else ["table.json"])
+
+
+@pytest.mark.parametrize("flag", ["--results", "--json"])
+@pytest.mark.parametrize("kind", ["device", "pipe", "link", "folder"])
+def test_what_is_no_file_is_refused_before_the_run(runs, tmp_path, capsys, flag, kind):
+    path = tmp_path / "target"
+    if kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "folder":
+        path = tmp_path / "none" / "figures.json"
+    else:
+        path.symlink_to({"device": "/dev/zero", "link": "none"}[kind])
+    assert fuzz(f"{flag}={path}") == 1
+    error = capsys.readouterr().err
+    assert str(path) in error and error.count("\n") == 1 and runs == []
+
+
+def test_figures_go_where_they_are_sent(runs, tmp_path, monkeypatch, capsys):
+    """A file is replaced, - is standard output, and the table gets a row."""
+    monkeypatch.chdir(tmp_path)
+    figures, table = tmp_path / "figures.json", tmp_path / "table.json"
+    table.write_text('{"runs": []}')
+    assert fuzz(f"--json={figures}", "--results", str(table)) == 0
+    expected = {"seed": 1, "fuzzers": {"ies": {"inputs": 3, "seconds": 1.0, "counts": {"fine": 3}, "lines": None,
+                                               "findings": []}}}
+    assert json.loads(figures.read_text()) == expected and len(results.read(str(table))["runs"]) == 1
+    capsys.readouterr()
+    assert fuzz("--json") == 0
+    assert json.loads(capsys.readouterr().out) == expected
+    assert fuzz(f"--json={table}", "--results", str(table)) == 1  # one of them would be lost
+    assert "is the same file" in capsys.readouterr().err and runs == [["ies"]] * 2
+    assert sorted(os.listdir(tmp_path)) == ["figures.json", "table.json"]
+
+
+def test_a_corpus_outlives_a_copy_that_fails(tmp_path, monkeypatch):
+    """Nothing is removed before all that is kept has been copied."""
+    program, work = tmp_path / "program", tmp_path / "corpus"
+    program.write_text('#!/bin/sh\ncp "$3/needed" "$2/0a1b"\n')
+    program.chmod(0o755)
+    work.mkdir()
+    (tmp_path / "elsewhere").write_text("of the user")
+    (work / "linked").symlink_to(tmp_path / "elsewhere")
+    (work / "folder").mkdir()
+    for name in ("needed", "spare"):
+        (work / name).write_text(name)
+    copy = native.shutil.copy
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    def keep(name):
+        (tmp_path / name).mkdir()
+        native._keep_small(str(program), str(work), str(tmp_path / name))
+
+    monkeypatch.setattr(native.shutil, "copy", full)
+    with pytest.raises(OSError):
+        keep("first")
+    assert sorted(os.listdir(work)) == ["folder", "linked", "needed", "spare"]
+    monkeypatch.setattr(native.shutil, "copy", copy)
+    keep("second")
+    assert sorted(os.listdir(work)) == ["0a1b", "folder", "linked"] and (work / "0a1b").read_text() == "needed"

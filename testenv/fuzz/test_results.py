@@ -38,3 +38,22 @@ def test_a_row_is_added_and_summed(tmp_path):
     assert read["known"] == ["a gap"]
     killed = results.sums(read)["killed"]
     assert killed["inputs"] == 4 and killed["sums"] == {"kills": 10} and killed["counts"] == {"fine": 4}
+
+
+def test_a_table_is_replaced_where_it_lies(tmp_path):
+    """Through a link to it, and over no file beside it."""
+    (tmp_path / "tables").mkdir()
+    table, link = tmp_path / "tables" / "table.json", tmp_path / "link.json"
+    table.write_text('{"runs": [], "a \\"key": ["x"]}')
+    table.chmod(0o640)
+    link.symlink_to(table)
+    other = tmp_path / "other"
+    other.write_text("other")
+    for beside in (str(link) + ".new", str(table) + ".new"):
+        os.symlink(other, beside)
+    row = results.row("killed", 1, {"inputs": 2, "seconds": 3.0, "counts": {"fine": 2},
+                                    "findings": [("crash", "not UTF-8: \udcff")]})
+    results.append([row], str(link))
+    assert results.read(str(table)) == {"runs": [row], 'a "key': ["x"]} and link.is_symlink()
+    assert other.read_text() == "other" and table.stat().st_mode & 0o777 == 0o640
+    assert sorted(os.listdir(tmp_path / "tables")) == ["table.json", "table.json.new"]

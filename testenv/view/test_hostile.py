@@ -163,7 +163,16 @@ def test_a_huge_texture_is_made_smaller(make, chromium, tmp_path):
 
 @pytest.mark.parametrize("text, reason", [
     ("{", "is no JSON"), ("[]", "needs lists"), ('{"controls": [1]}', "needs a text `input`"),
-    ('{"presets": [{"name": 1}]}', "each preset"), ('{"sentences": 3}', "holds texts")])
+    ('{"presets": [{"name": 1}]}', "each preset"), ('{"sentences": 3}', "holds texts"),
+    ('{"controls": [{"input": "/plain.color", "min": %s}]}' % ("9" * 5000), "is no JSON"),
+    ('{"controls": [{"input": "/plain.color", "min": %s}]}' % ("9" * 400), "`min` of /plain.color"),
+    ('{"controls": [{"input": "/plain.color", "max": 1e999}]}', "`max` of /plain.color"),
+    ('{"presets": [{"name": "a", "values": {"/plain.color": [0, 0, %s]}}]}' % ("9" * 400), "/plain.color needs a list"),
+    ('{"controls": [{"input": "/plain.color", "kind": "switch"}]}', "`kind` of /plain.color does not fit"),
+    ('{"controls": [{"input": "/plain.roughness", "kind": "color"}]}', "`kind` of /plain.roughness does not fit"),
+    ('{"controls": [{"input": "/plain.color"}, {"input": "/plain.color", "label": "again"}]}', "has /plain.color twice"),
+    ('{"controls": [{"input": "none.x"}, {"input": "none.x"}]}', "has none.x twice"),
+    ('{"presets": [%s]}' % ", ".join(['{"name": "a", "values": {}}'] * 1001), "more than the 1000")])
 def test_bad_controls_are_refused(tmp_path, capsys, text, reason):
     from patina.cli import main
 

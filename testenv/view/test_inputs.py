@@ -59,6 +59,21 @@ def test_choices_are_saved_and_linked(page, chromium, tmp_path, capsys):
     assert chromium.messages() == []
 
 
+def test_a_saved_layer_has_numbers_of_its_types(page, chromium, tmp_path, capsys):
+    """OpenUSD refuses a layer that gives a boolean or an integer a fraction, which a link may hold."""
+    from patina.cli import main
+
+    chromium.open(page, "?width=48")
+    chromium.evaluate("""page.paused = true; const at = end => page.state.current.inputs.findIndex(i => i.input.endsWith(end));
+        const values = page.state.values[0]; values[at(".octaves")] = [1e12]; values[at(".thin_walled")] = [0.37];""")
+    path = os.path.join(os.path.dirname(page), "typed.usda")
+    chromium.download("[data-action=layer] button", path)
+    text = open(path, encoding="utf-8").read()
+    assert "int inputs:octaves = 2147483647\n" in text and "bool inputs:thin_walled = 1\n" in text
+    assert main.main(["explain", path + ":/plastic"]) == 0
+    assert capsys.readouterr().err == "" and chromium.messages() == []
+
+
 def test_more_choices_than_programs_are_fixed_with_the_reason():
     from patina.view import choices
 

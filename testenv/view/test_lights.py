@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every kind of direct light on the page beside the path tracer, one at a time. None stands before the
 camera, which sees the path tracer's lights."""
+import urllib.parse
+
 import numpy as np
 import pytest
 
+from materialText import material
 from patina.cli import compiled, imageMetrics, materials
 from patina.view import compareImages, images, reference, shapes
 
@@ -126,3 +129,32 @@ def test_lights_that_cannot_be_shown_are_named(tmp_path, make, chromium, capsys)
     notes = " ".join(chromium.evaluate("return page.data.notes"))
     assert "/tube gives none" in notes and "/profile" in notes and "/picture" in notes
     assert "/tube gives none" in capsys.readouterr().err
+
+
+def test_a_page_has_room_for_so_many_lights(tmp_path, make, chromium, capsys, monkeypatch):
+    """The rest is left out with its number. Domes of one file read it once, and share its texture."""
+    file, read = tmp_path / "many.usda", []
+    compiled.load().write_image(str(tmp_path / "sky.exr"), np.full((4, 8, 3), 0.5, np.float32))
+    domes = [f'def DomeLight "dome{i}"\n{{\n    asset inputs:texture:file = @sky.exr@\n}}\n' for i in range(40)]
+    rects = [f'def RectLight "rect{i}"\n{{\n    double3 xformOp:translate = (0, 0, {3 + i})\n'
+             '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n' for i in range(300)]
+    plain = material("plain", {"mtlx:surface": "surface"}, {
+        "bsdf": ("ND_oren_nayar_diffuse_bsdf", {}), "surface": ("ND_surface", {"token bsdf": "<bsdf>"})})
+    file.write_text("#usda 1.0\n" + plain + "".join(domes + rects))
+    latlong = images.latlong
+    monkeypatch.setattr(images, "latlong", lambda path, largest: read.append(path) or latlong(path, largest))
+    chromium.open(make("many.html", file), "?width=16#" + urllib.parse.quote('{"samples":4}'))
+    assert len(read) == 1
+    texts = ["44 more lights are left out: a page shows at most 256", "24 more domes are left out: a page shows at most 16"]
+    told = capsys.readouterr().err
+    assert all(text in told for text in texts)
+    lights, notes, names, texels, shared = chromium.evaluate("""page.paused = true; const d = page.data, e = d.environments;
+        const textures = viewer.parts.environments.map(x => x.texture);
+        return [d.lights.length, d.notes, e.map(x => x.name), e.map(x => Boolean(x.data)), new Set(textures).size];""")
+    assert lights == 256 and notes == texts and len(names) == 16 + 3 and shared == 1 + 3
+    assert texels == [True] + 15 * [False] + 3 * [True]
+    first, last = (chromium.picture(f"page.state.lights.forEach(l => {{ l.on = false; }}); "
+                                    f"page.state.environment = {at}") for at in (0, 15))
+    assert first.mean() > 0.05 and np.allclose(first, last, atol=1e-4) and chromium.messages() == []
+    scene = compareImages.lit_scene(str(file))
+    assert len(scene.paths("lights")) == 256

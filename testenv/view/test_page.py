@@ -2,6 +2,7 @@
 """One page of one material, in a browser: nothing is complained about, and every part does its work."""
 import json
 import os
+import urllib.parse
 
 import numpy as np
 import pytest
@@ -147,6 +148,42 @@ def test_a_link_holds_the_values(shown, page, chromium):
     assert chromium.evaluate(f"return [{COLOR}[0], page.state.exposure]") == [0.125, 1.5]
     chromium.open(page, SMALL + "#%7B%22material%22%3A1e9%2C%22values%22%3A%22x%22%2C%22eye%22%3A%5B%22a%22%5D%7D")
     assert chromium.evaluate("return page.state.material") == 0
+
+
+HARMFUL = {
+    "no length": '{"values":{"0":{"length":0}}}',
+    "lists of methods": '{"values":{"length":0,"map":{"0":[1]},"-1":{"0":[1]},"0":{"00":[1],"1e0":[1],"map":[1]}}}',
+    "texts": '{"values":"0","choices":"0","lights":"0","methods":"0","wedge":"0"}',
+    "infinite numbers": '{"rotation":1e999,"exposure":-1e999,"environmentGain":1e999,"ambient":[1e999,0,0],"samples":1e999}',
+    "too large numbers": '{"rotation":1e300,"exposure":1e39,"eye":[1e39,0,0],"values":{"0":{"0":[1e39]}}}',
+    "a choice of a method": '{"choices":["toString"]}', "choices in no list": '{"choices":[{"toString":1,"valueOf":1}]}',
+    "choices without end": '{"choices":[[1e999]]}',
+    "a wedge of a method": '{"wedge":{"input":"map","from":0,"to":1,"count":3}}',
+    "a wedge without end": '{"wedge":{"input":0,"from":0,"to":1e999,"count":3}}',
+    "lights without end": '{"lights":[{"on":true,"gain":1e999,"color":[1,1,1]}]}',
+    "a list": "[]",
+    "a length without end": '{"values":{"0":{"length":4294967295}}}',  # last: it stops a page that takes it
+}
+DIFFERS = """viewer.invalidate(); viewer.step();
+    const { eye, ...changed } = JSON.parse(decodeURIComponent(page.state.toText()) || "{}");
+    const { values, choices } = page.state, { inputs, choices: own } = page.state.current;
+    const fits = values.length === 1 && values[0].length === inputs.length && values[0].every(v => Array.isArray(v)) &&
+        choices.length === 1 && choices[0].length === own.length && page.state.eye.every(Number.isFinite);
+    return [changed, fits];"""
+
+
+def test_a_link_does_no_harm(page, chromium):
+    """What does not fit is left out: the page is that of no link."""
+    chromium.open(page, "?width=32#" + urllib.parse.quote(HARMFUL["infinite numbers"]))
+    assert chromium.evaluate(DIFFERS) == [{}, True]
+    for name, text in HARMFUL.items():
+        link = json.dumps(urllib.parse.quote(text))
+        assert chromium.evaluate(f"page.state.reset(); page.state.fromText({link});" + DIFFERS) == [{}, True], name
+    wedge = {"input": 0, "component": {"valueOf": 1, "toString": 1}, "from": 0, "to": 1, "count": 3}
+    link = json.dumps(urllib.parse.quote(json.dumps({"wedge": wedge})))
+    assert chromium.evaluate(f"page.state.fromText({link}); return page.state.wedge") == {**wedge, "component": 0}
+    chromium.open(page, "?width=32#" + urllib.parse.quote(HARMFUL["a length without end"]))
+    assert chromium.evaluate(DIFFERS) == [{}, True] and chromium.messages() == []
 
 
 def test_keys_turn_the_shape_and_change_exposure(shown):

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/caustics/causticCasters.h"
 
+#include "base/limits.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -80,6 +82,11 @@ CausticCasters::CausticCasters(const EmbreeScene& scene) : _placements(scene.sha
             shape.area += area;
         }
         if (shape.triangles.empty()) continue;
+        if (double(_placed.size()) + scene.placeCount(surface->prim->group) >
+            double(limitOf(Limit::lights))) {
+            _complete = false;
+            continue;
+        }
         accumulate(shape.sums);
         for (const GroupPlace& place : scene.groupPlaces(surface->prim->group)) {
             const float size = std::cbrt(std::abs(glm::determinant(glm::mat3(place.toWorld))));

@@ -18,6 +18,18 @@ float mean(const vec3& v) {
     return (v.x + v.y + v.z) / 3.0f;
 }
 
+/// Makes a medium as thin as its majorant, where it is denser than that tells. What it reflects and
+/// how bright it glows stay as they are where it is opaque.
+void thin(Medium& medium, float majorant) {
+    const vec3 extinction = medium.extinction();
+    const float over = std::max({extinction.x, extinction.y, extinction.z}) / majorant;
+    if (!(over > 1.0f)) return;
+    medium.absorption /= over;
+    medium.emission /= over;
+    for (int i = 0; i < medium.phaseCount; ++i)
+        medium.phases[i].scattering /= over;
+}
+
 } // namespace
 
 /// Where a ray may collide with one volume: a walk over the cells of its majorants.
@@ -53,6 +65,7 @@ public:
             const float face = lower[a] + float(_cell[a] + (_step[a] > 0)) * size[a];
             _next[a] = _direction[a] == 0.0f ? INFINITY : (face - _origin[a]) / _direction[a];
         }
+        _mostDense = opaque / std::max(std::min({_delta.x, _delta.y, _delta.z}), 1e-30f);
         _inside = true;
     }
 
@@ -64,7 +77,7 @@ public:
     bool advance(float u) {
         float depth = -std::log(std::max(1.0f - u, 1e-30f));
         while (_inside) {
-            majorant = _medium->majorant(_cell);
+            majorant = std::min(_medium->majorant(_cell), _mostDense);
             const int axis =
                 _next.x < _next.y ? (_next.x < _next.z ? 0 : 2) : (_next.y < _next.z ? 1 : 2);
             const float leave = std::min(_next[axis], _end);
@@ -87,6 +100,9 @@ public:
     float distance = INFINITY, majorant = 0.0f; ///< of the candidate
 
 private:
+    /// Optical depth of a cell beyond which rays would make candidates without end.
+    static constexpr float opaque = 1024.0f;
+    float _mostDense = 0.0f;
     const VolumeMedium* _medium = nullptr;
     vec3 _origin{0.0f}, _direction{0.0f}, _next{0.0f}, _delta{0.0f};
     ivec3 _cell{0}, _step{0};
@@ -149,7 +165,8 @@ VolumeScene::Collision VolumeScene::track(const vec3& origin, const vec3& direct
                 return a.distance < b.distance;
             });
         if (!(nearest->distance < end)) return result;
-        const Medium m = nearest->medium().at(nearest->at(nearest->distance));
+        Medium m = nearest->medium().at(nearest->at(nearest->distance));
+        thin(m, nearest->majorant);
         const float inverse = 1.0f / nearest->majorant;
         if (m.emission != vec3(0.0f)) result.emitted += throughput * m.emission * inverse;
         const vec3 scatter = m.scattering() * inverse;

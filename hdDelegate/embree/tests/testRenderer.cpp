@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/embree/integrator.h"
 #include "hdDelegate/renderer/renderer.h"
 
 #include <gtest/gtest.h>
@@ -68,6 +69,18 @@ TEST(EmbreeRenderer, EmptyImageFails) {
     renderer->start(furnaceScene(), "/camera", settings, std::make_shared<Film>());
     renderer->wait();
     EXPECT_TRUE(renderer->progress().failed);
+}
+
+TEST(Integrator, WeightsOfVeryLargeDensitiesAreNumbers) {
+    const float large = 1e21f, inf = INFINITY;
+    EXPECT_EQ(powerHeuristic(large, 1.0f), 1.0f);
+    EXPECT_EQ(powerHeuristic(1.0f, large), 0.0f);
+    EXPECT_EQ(powerHeuristic(large, large), 0.5f);
+    EXPECT_EQ(powerHeuristic(0.0f, large), 0.0f);
+    EXPECT_EQ(powerHeuristic(1e-30f, large), 0.0f);
+    EXPECT_EQ(powerHeuristic(1.0f, inf), 0.0f);
+    EXPECT_EQ(powerHeuristic(inf, 1.0f), 1.0f);
+    EXPECT_FLOAT_EQ(powerHeuristic(3.0f, 1.0f), 0.9f);
 }
 
 TEST(EmbreeRenderer, UnknownBackendIsNull) {

@@ -55,4 +55,33 @@ private:
     std::vector<std::string> _names;
 };
 
+/// Whether some event has these two.
+inline bool happens(EventType type, EventScatter scatter) {
+    switch (type) {
+    case EventType::Reflect:
+        return scatter != EventScatter::None && scatter != EventScatter::Straight;
+    case EventType::Transmit: return scatter != EventScatter::None;
+    case EventType::Volume: return scatter == EventScatter::Diffuse;
+    case EventType::Camera:
+    case EventType::Light:
+    case EventType::Background:
+    case EventType::Object: return scatter == EventScatter::None;
+    }
+    return false;
+}
+
+/// Whether a path goes on from it.
+inline bool scatters(EventType type) {
+    return type == EventType::Reflect || type == EventType::Transmit || type == EventType::Volume;
+}
+
+/// Events of a render are numbered, from 0 on.
+inline int symbolOf(const LightEvent& event, const LightLabels& labels) {
+    const int kind = int(event.type) * eventScatters + int(event.scatter);
+    return kind * (labels.count() + 1) + event.label + 1;
+}
+inline int symbolCount(const LightLabels& labels) {
+    return eventTypes * eventScatters * (labels.count() + 1);
+}
+
 } // namespace patina

@@ -3,12 +3,16 @@
 
 #include "hdDelegate/film/lightPaths/lightPathExpression.h"
 
+#include <cstdint>
+
 namespace patina {
+
+class EventColumns;
 
 /// The smallest deterministic automaton of a light path expression: of nondeterministic ones by
 /// Thompson (1968, Regular Expression Search Algorithm) the one whose states are their sets (Rabin
-/// and Scott 1959, Finite Automata and Their Decision Problems), with equal states merged (Moore
-/// 1956, Gedanken-Experiments on Sequential Machines). Immutable, so threads share it.
+/// and Scott 1959, Finite Automata and Their Decision Problems), with equal states merged (see
+/// StateClasses). Immutable, so threads share it.
 class LightPathAutomaton {
 public:
     /// @throws std::invalid_argument where the expression is none, needs too many states, or fits
@@ -17,37 +21,52 @@ public:
 
     int size() const { return int(_accepts.size()); }
     int start() const { return 0; }
+    /// @param symbol symbolOf() an event, with the constructor's labels
     int next(int state, int symbol) const {
-        return _next[size_t(state) * size_t(_symbols) + size_t(symbol)];
+        return _next[size_t(state) * _columns + _columnOf[size_t(symbol)]];
     }
     bool accepts(int state) const { return _accepts[size_t(state)]; }
 
-    /// Number of an event, for next(). @param labels the constructor's
-    static int symbol(const LightEvent& event, const LightLabels& labels) {
-        const int kind = int(event.type) * eventScatters + int(event.scatter);
-        return kind * (labels.count() + 1) + event.label + 1;
-    }
-
 private:
     class Nondeterministic;
-    void determinise(const Nondeterministic& from, const LightLabels& labels,
+    void determinise(const Nondeterministic& from, const EventColumns& columns,
                      const std::string& expression);
     void merge();
-    bool fitsSomePath(const LightLabels& labels) const;
+    bool fitsSomePath(const EventColumns& columns) const;
 
-    int _symbols = 0;
-    std::vector<int> _next; ///< by state, then by symbol
+    size_t _columns = 0;
+    std::vector<uint16_t> _columnOf; ///< by symbol
+    std::vector<int> _next;          ///< by state, then by column
     std::vector<bool> _accepts;
+};
+
+/// What the expressions of a render take together is bounded. A path has a weight for each state of
+/// each of them, and each event is looked up by its label.
+class LightPathRoom {
+public:
+    /// @throws std::invalid_argument where there is no room for an expression beside those before,
+    /// which then do not count it; or where it is wrong
+    void add(const std::string& expression);
+
+private:
+    friend class LightPathSet;
+    /// @throws std::invalid_argument
+    void addLabels(const std::string& expression);
+    void addStates(const std::string& expression, const LightPathAutomaton& automaton);
+
+    std::vector<std::string> _labels;
+    size_t _expressions = 0, _states = 0;
 };
 
 /// The expressions of a render with one set of labels.
 class LightPathSet {
 public:
+    /// @throws std::invalid_argument as LightPathRoom
     explicit LightPathSet(const std::vector<std::string>& expressions);
 
     const LightLabels& labels() const { return _labels; }
     const std::vector<LightPathAutomaton>& automata() const { return _automata; }
-    int symbol(const LightEvent& event) const { return LightPathAutomaton::symbol(event, _labels); }
+    int symbol(const LightEvent& event) const { return symbolOf(event, _labels); }
 
 private:
     LightLabels _labels;

@@ -155,6 +155,62 @@ TEST(Cryptomatte, CheckpointsHoldIdsAndNames) {
     }
 }
 
+// The largest ids are there before the room is full, as in a pixel whose samples meet them often.
+void takeTiny(Film& film, int first) {
+    for (int i = first; i < first + 5000; ++i) {
+        film.addCoverage(0, 0, 0, i % 2 ? "large" : "/tiny" + std::to_string(i));
+        film.addCoverage(0, 0, 0, "/smaller" + std::to_string(i));
+        film.addColor(0, 0, glm::vec3(0.5f), 1.0f);
+    }
+}
+
+TEST(Cryptomatte, IdsThatThereIsNoRoomForAreLeftOut) {
+    Film film, roomy, copy;
+    cleared(film, 2).limitCoverage(100);
+    takeTiny(film, 0);
+    EXPECT_EQ(film.coverageNames("cryptoObject").size(), 101u);
+    EXPECT_TRUE(film.leftOutCoverage());
+    const std::vector<float> values = film.resolve("cryptoObject");
+    EXPECT_EQ(values[0], idOf("large"));
+    EXPECT_EQ(values[1], 0.5f) << "ids that are there count on";
+
+    take(film, "abcabb", 1);
+    EXPECT_EQ(film.resolve("cryptoObject")[12], idOf("b")) << "another pixel has few";
+    EXPECT_EQ(film.coverageNames("cryptoObject").size(), 104u);
+
+    takeTiny(cleared(roomy, 2), 0);
+    EXPECT_EQ(roomy.coverageNames("cryptoObject").size(), 7501u);
+    EXPECT_FALSE(roomy.leftOutCoverage());
+
+    copy.copyFrom(film);
+    EXPECT_TRUE(copy.leftOutCoverage());
+    takeTiny(copy, 5000);
+    EXPECT_EQ(copy.coverageNames("cryptoObject").size(), 104u);
+    cleared(copy, 2);
+    EXPECT_FALSE(copy.leftOutCoverage());
+    takeTiny(copy, 0);
+    EXPECT_EQ(copy.coverageNames("cryptoObject").size(), 7501u) << "the room is as at first";
+}
+
+TEST(Cryptomatte, FilesCountTheIdsThatTheyAdd) {
+    const TempFolder temp;
+    Film film, loaded, merged;
+    takeTiny(cleared(film, 1), 0);
+    film.saveCheckpoint(temp.file("c"));
+    loaded.loadCheckpoint(temp.file("c"));
+    loaded.limitCoverage(7600);
+    takeTiny(loaded, 5000);
+    EXPECT_EQ(loaded.coverageNames("cryptoObject").size(), 7601u);
+
+    PartialWriter writer(temp.file("part"), "", {{0, 0, 1, 1}});
+    writer.add(film);
+    writer.commit("");
+    cleared(merged, 1).limitCoverage(100);
+    mergePartial(merged, temp.file("part"), {});
+    EXPECT_EQ(merged.coverageNames("cryptoObject").size(), 101u);
+    EXPECT_TRUE(merged.leftOutCoverage());
+}
+
 TEST(Cryptomatte, OnlyOpenExrWithAllOfItsBitsHoldsIt) {
     const TempFolder temp;
     Film film;

@@ -10,6 +10,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <map>
 
 using namespace patina;
@@ -133,6 +135,30 @@ TEST(Displace, ValuesThatAreNotFiniteMoveNothing) {
         displace(mesh, {along(bad, 1.0f)}, mat4(1.0f));
         EXPECT_EQ(before, mesh.positions[0]);
     }
+}
+
+TEST(Displace, PointsAreToldApartInFewSteps) {
+    // Bits that an exclusive or of the coordinates' odd multiples maps to one number: a hash that
+    // is no more than that compares all of them with each other.
+    constexpr uint32_t inverse = 2910444383u; // of 19349663 modulo 2^32
+    static_assert(19349663u * inverse == 1u);
+    TriangleMesh mesh;
+    std::vector<vec3> positions;
+    for (uint32_t i = 0; positions.size() < 300000; ++i) {
+        vec3 p(1.0f + float(i) * 1e-3f, 0.0f, 0.0f);
+        uint32_t x;
+        std::memcpy(&x, &p.x, sizeof x);
+        const uint32_t y = inverse * ((x * 73856093u) ^ 12345u);
+        std::memcpy(&p.y, &y, sizeof y);
+        if (std::isfinite(p.y) && std::abs(p.y) < 1e10f) positions.push_back(p);
+    }
+    for (uint32_t i = 0; i + 2 < positions.size(); i += 3) {
+        mesh.triangles.emplace_back(i, i + 1, i + 2);
+        mesh.triangleFace.push_back(int(i / 3));
+    }
+    mesh.positions = {std::move(positions)};
+    displace(mesh, {along(1.0f, 1.0f)}, mat4(1.0f));
+    EXPECT_EQ(mesh.triangles.size(), 100000u);
 }
 
 TEST(SplitTriangles, KeepsSurfaceAndBudget) {

@@ -2,164 +2,16 @@
 // Hosts that break promises: buffers that vanish or change while a render runs, windows beside
 // them, parts that are taken down in the wrong order.
 
+#include "hdDelegate/hydra/tests/lyingHost.h"
+#include "hdDelegate/hydra/tests/warnings.h"
 #include "hdDelegate/hydra/values.h"
-#include "hdDelegate/hydra/renderBuffer.h"
-#include "hdDelegate/hydra/renderDelegate.h"
 
-#include <gtest/gtest.h>
-#include <pxr/base/gf/vec3i.h>
-#include <pxr/base/gf/vec4f.h>
-#include <pxr/base/tf/diagnosticMgr.h>
 #include <pxr/base/tf/errorMark.h>
-#include <pxr/imaging/hd/renderIndex.h>
-#include <pxr/imaging/hd/renderPass.h>
-#include <pxr/imaging/hd/renderPassState.h>
-#include <pxr/imaging/hd/tokens.h>
 
-#include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <cmath>
 #include <limits>
-#include <thread>
 
 using namespace patina;
-
-namespace {
-
-constexpr int endless = 1 << 30; ///< more samples than any test waits for
-const GfVec4f clearColor(0.25f, 0.5f, 0.75f, 1.0f);
-
-Light skyOf(float intensity) {
-    Light sky;
-    sky.path = "/sky";
-    sky.type = LightType::Dome;
-    sky.intensity = intensity;
-    return sky;
-}
-
-/// Counts what is warned of, instead of printing it.
-class Warnings : public TfDiagnosticMgr::Delegate {
-public:
-    Warnings() { TfDiagnosticMgr::GetInstance().AddDelegate(this); }
-    ~Warnings() override { TfDiagnosticMgr::GetInstance().RemoveDelegate(this); }
-    int count = 0;
-
-    void IssueError(const TfError&) override {}
-    void IssueFatalError(const TfCallContext&, const std::string&) override {}
-    void IssueStatus(const TfStatus&) override {}
-    void IssueWarning(const TfWarning&) override { ++count; }
-};
-
-/// A host of a white sky that does as it likes.
-class LyingHost : public testing::Test {
-protected:
-    LyingHost() { open(endless); }
-    ~LyingHost() override {
-        for (HdRenderBuffer* buffer : buffers)
-            if (buffer) drop(buffer);
-        pass.reset();
-        index.reset();
-    }
-
-    void open(int samples) {
-        pass.reset();
-        index.reset();
-        delegate = std::make_unique<HdPatinaRenderDelegate>(HdRenderSettingsMap());
-        delegate->SetRenderSetting(TfToken("samples"), VtValue(samples));
-        delegate->SetRenderSetting(TfToken("backend"), VtValue(std::string("embree")));
-        index.reset(HdRenderIndex::New(delegate.get(), {}));
-        setSky(1.0f);
-        const HdRprimCollection all(HdTokens->geometry, HdReprSelector(HdReprTokens->smoothHull));
-        pass = delegate->CreateRenderPass(index.get(), all);
-        state = delegate->CreateRenderPassState();
-        frame(16, 12);
-    }
-
-    HdPatinaRenderParam& param() {
-        return *static_cast<HdPatinaRenderParam*>(delegate->GetRenderParam());
-    }
-
-    void setSky(float intensity) {
-        param().set(std::shared_ptr<const Light>(std::make_shared<Light>(skyOf(intensity))));
-        param().commit();
-    }
-
-    void frame(int width, int height) {
-        state->SetFraming(CameraUtilFraming(GfRect2i(GfVec2i(0), width, height)));
-    }
-
-    HdRenderBuffer* add(int width = 16, int height = 12, HdFormat format = HdFormatFloat32Vec4,
-                        bool multiSampled = false) {
-        const SdfPath path("/buffer" + std::to_string(buffers.size()));
-        auto* buffer = static_cast<HdRenderBuffer*>(
-            delegate->CreateBprim(HdPrimTypeTokens->renderBuffer, path));
-        if (width >= 0) buffer->Allocate(GfVec3i(width, height, 1), format, multiSampled);
-        buffers.push_back(buffer);
-        return buffer;
-    }
-
-    /// Hosts destroy buffers by way of the render index, which calls this.
-    void drop(HdRenderBuffer* buffer) {
-        buffer->Finalize(&param());
-        std::replace(buffers.begin(), buffers.end(), buffer, static_cast<HdRenderBuffer*>(nullptr));
-        delegate->DestroyBprim(buffer);
-    }
-
-    static HdRenderPassAovBinding binding(const char* aov, HdRenderBuffer* buffer) {
-        HdRenderPassAovBinding binding;
-        binding.aovName = TfToken(aov);
-        binding.renderBuffer = buffer;
-        if (binding.aovName == "color") binding.clearValue = VtValue(clearColor);
-        return binding;
-    }
-
-    void bind(const HdRenderPassAovBindingVector& bindings) { state->SetAovBindings(bindings); }
-    void execute() { pass->Execute(state, {HdRenderTagTokens->geometry}); }
-
-    /// @returns whether the pass converges within a minute
-    bool converges() {
-        for (int i = 0; i < 60000; ++i) {
-            execute();
-            if (pass->IsConverged()) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        return false;
-    }
-
-    static std::vector<float> pixels(HdRenderBuffer* buffer) {
-        const size_t count = size_t(buffer->GetWidth()) * buffer->GetHeight() *
-                             HdGetComponentCount(buffer->GetFormat());
-        const auto* data = static_cast<const float*>(buffer->Map());
-        std::vector<float> copy(data, data + (data ? count : 0));
-        buffer->Unmap();
-        return copy;
-    }
-
-    static bool showsSky(HdRenderBuffer* buffer) {
-        const std::vector<float> found = pixels(buffer);
-        return !found.empty() && std::all_of(found.begin(), found.end(),
-                                             [](float x) { return std::abs(x - 1.0f) < 1e-3f; });
-    }
-
-    /// Executes until a buffer shows the sky. @returns false after a minute
-    bool waitForSky(HdRenderBuffer* buffer) {
-        for (int i = 0; i < 60000; ++i) {
-            execute();
-            if (showsSky(buffer)) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        return false;
-    }
-
-    std::unique_ptr<HdPatinaRenderDelegate> delegate;
-    std::unique_ptr<HdRenderIndex> index;
-    HdRenderPassSharedPtr pass;
-    HdRenderPassStateSharedPtr state;
-    std::vector<HdRenderBuffer*> buffers;
-};
-
-} // namespace
 
 TEST_F(LyingHost, FreesAndChangesBuffersWhileTheyAreDrawn) {
     HdRenderBuffer* color = add();
@@ -246,7 +98,68 @@ TEST_F(LyingHost, SaysOnceWhatIsWrongWithAName) {
     Warnings warnings;
     for (int i = 0; i < 20; ++i)
         execute();
-    EXPECT_EQ(warnings.count, 1);
+    EXPECT_EQ(warnings.texts.size(), 1u);
+}
+
+TEST_F(LyingHost, BindsWhatOnlyFilesHold) {
+    // So many ids are 4, 12 and 32 floats a pixel; rows of a buffer have four.
+    for (int levels : {1, 6, 16}) {
+        open(2);
+        delegate->SetRenderSetting(TfToken("cryptomatteLevels"), VtValue(levels));
+        HdRenderBuffer* color = add();
+        bind({binding("color", color)});
+        for (const char* aov : {"cryptoObject", "cryptoMaterial", "cryptoAsset"}) {
+            HdRenderPassAovBindingVector bindings = state->GetAovBindings();
+            bindings.push_back(binding(aov, add()));
+            bindings.back().clearValue = VtValue(clearColor);
+            bind(bindings);
+        }
+        Warnings warnings;
+        ASSERT_TRUE(converges());
+        execute();
+        EXPECT_EQ(warnings.of("is written to files alone; its buffer stays empty"), 3);
+        EXPECT_TRUE(showsSky(color));
+        for (size_t i = buffers.size() - 3; i < buffers.size(); ++i) {
+            const std::vector<float> found = pixels(buffers[i]);
+            for (size_t k = 0; k < found.size(); ++k)
+                ASSERT_EQ(found[k], clearColor[k % 4]) << levels << " levels";
+        }
+    }
+}
+
+TEST_F(LyingHost, HasACameraOfThePathThatPassesTake) {
+    auto camera = std::make_shared<Camera>();
+    camera->path = "/patinaView1";
+    camera->focalLength = 77.0f;
+    param().set(std::shared_ptr<const Camera>(camera));
+    param().commit();
+    bind({binding("color", add())});
+    execute(); // by matrices, and so through a camera of the pass
+    const auto focalLength = [&] {
+        const auto scene = param().scene()->snapshot();
+        const auto found = scene->cameras.find("/patinaView1");
+        return found == scene->cameras.end() ? 0.0f : found->second->focalLength;
+    };
+    EXPECT_EQ(focalLength(), 77.0f);
+    EXPECT_EQ(param().scene()->snapshot()->cameras.size(), 2u);
+    pass.reset();
+    EXPECT_EQ(focalLength(), 77.0f);
+}
+
+TEST_F(LyingHost, GivesAUnitThatIsNoNumber) {
+    const TfToken name("stageMetersPerUnit");
+    const auto unit = [&] {
+        param().commit();
+        return param().scene()->snapshot()->metersPerUnit;
+    };
+    delegate->SetRenderSetting(name, VtValue(0.5));
+    EXPECT_EQ(unit(), 0.5);
+    Warnings warnings;
+    delegate->SetRenderSetting(name, VtValue(std::string("abc")));
+    EXPECT_EQ(unit(), 0.5);
+    EXPECT_EQ(warnings.of("stageMetersPerUnit has a value of the wrong type"), 1);
+    delegate->SetRenderSetting(name, VtValue(2)); // whole numbers are numbers
+    EXPECT_EQ(unit(), 2.0);
 }
 
 TEST_F(LyingHost, LooksBesideTheBuffer) {
@@ -313,7 +226,7 @@ TEST_F(LyingHost, AsksForMorePixelsThanThereCanBe) {
          {GfVec3i(most, most, 1), GfVec3i(1 << 30, 1 << 30, 1), GfVec3i(1 << 30, 1 << 5, 1)}) {
         Warnings warnings;
         EXPECT_FALSE(color->Allocate(size, HdFormatFloat32Vec4, false));
-        EXPECT_EQ(warnings.count, 1);
+        EXPECT_EQ(warnings.texts.size(), 1u);
         EXPECT_EQ(color->GetWidth(), 0u);
         EXPECT_EQ(color->Map(), nullptr);
         color->Unmap();
@@ -391,7 +304,9 @@ TEST(LyingHostTimes, TimesThatDoNotAscendAreNoMotion) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<float> all[] = {{0.0f, nan}, {nan, 1.0f}, {1.0f, 0.0f}, {0.5f, 0.5f}, {0.0f}};
     for (const std::vector<float>& times : all) {
-        const auto sampled = sampledOf(times, std::vector<int>{3, 4});
+        bool mistaken = false;
+        const auto sampled = sampledOf(times, std::vector<int>{3, 4}, &mistaken);
+        EXPECT_EQ(mistaken, times.size() == 2 && times[0] != times[1]);
         EXPECT_EQ(sampled.values, std::vector<int>{3});
         EXPECT_EQ(sampled.times.size(), 1u);
     }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/renderBuffer.h"
+#include "hdDelegate/hydra/tests/warnings.h"
 
 #include <gtest/gtest.h>
 #include <pxr/base/gf/vec3i.h>
 #include <pxr/base/gf/vec4f.h>
 #include <pxr/base/tf/errorMark.h>
+
+#include <algorithm>
 
 using namespace patina;
 
@@ -72,4 +75,32 @@ TEST(RenderBuffer, ClearsToTheHostsColour) {
     buffer.clear(VtValue(GfVec4f(0.1f, 0.2f, 0.3f, 1.0f)));
     EXPECT_EQ(static_cast<float*>(buffer.Map())[2], 0.3f);
     buffer.Unmap();
+}
+
+TEST(RenderBuffer, KeepsPixelsThatAreMappedWhileItIsAllocatedAnew) {
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
+    const Warnings warnings;
+    const size_t size = 64 * 64;
+    ASSERT_TRUE(buffer.Allocate(GfVec3i(64, 64, 1), HdFormatFloat32, false));
+    const auto ones = [](int, unsigned width, float* pixels) {
+        for (unsigned x = 0; x < width; ++x)
+            pixels[4 * x] = 1.0f;
+    };
+    ASSERT_TRUE(buffer.write(false, ones));
+    const auto* old = static_cast<const float*>(buffer.Map());
+    ASSERT_TRUE(buffer.Allocate(GfVec3i(128, 128, 1), HdFormatFloat32, false));
+    ASSERT_TRUE(buffer.Allocate(GfVec3i(4, 4, 1), HdFormatFloat32, false));
+    EXPECT_EQ(std::count(old, old + size, 1.0f), std::ptrdiff_t(size)) << "a host is reading";
+    EXPECT_EQ(warnings.of("is freed while it is mapped"), 1);
+    EXPECT_FALSE(buffer.IsMapped()) << "of the new pixels there is no map";
+
+    const auto* now = static_cast<const float*>(buffer.Map());
+    ASSERT_NE(now, nullptr);
+    buffer.Unmap(); // of the old pixels
+    EXPECT_TRUE(buffer.IsMapped());
+    EXPECT_FALSE(buffer.write(false, ones)) << "the other map goes on";
+    EXPECT_EQ(now[0], 0.0f);
+    buffer.Unmap();
+    EXPECT_TRUE(buffer.write(false, ones));
+    EXPECT_FALSE(buffer.IsMapped());
 }

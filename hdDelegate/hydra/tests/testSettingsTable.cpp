@@ -76,3 +76,28 @@ TEST(SettingsTable, NonsenseIsRefusedWithAReason) {
     with("cullStyle", VtValue(std::string("sideways")), &problem);
     EXPECT_NE(problem, "");
 }
+
+TEST(SettingsTable, NumbersThatNoIntegerHoldsAreRefused) {
+    const int samples = HdPatinaSettings().samples, threads = HdPatinaSettings().threads;
+    std::string problem;
+    for (double number :
+         {-4294967295.0, 4294967297.0, 2147483648.0, -2147483649.0, 1e300, -1e300}) {
+        EXPECT_EQ(with("samples", VtValue(number), &problem).samples, samples) << number;
+        EXPECT_NE(problem.find("is not allowed"), std::string::npos) << problem;
+    }
+    EXPECT_EQ(with("threads", VtValue(4294967297.0), &problem).threads, threads);
+    EXPECT_EQ(with("maxDepth", VtValue(4294967295.0)).maxDepth, HdPatinaSettings().maxDepth)
+        << "is no -1";
+    EXPECT_EQ(with("samples", VtValue(2147483647.0)).samples, 2147483647);
+    with("tolerance", VtValue(1e300), &problem);
+    EXPECT_NE(problem, "");
+}
+
+TEST(SettingsTable, SeedsHaveAllBits) {
+    for (double number : {0.0, 2147483648.0, 4294967295.0})
+        EXPECT_EQ(with("seed", VtValue(number)).seed, uint32_t(number));
+    EXPECT_EQ(with("seed", VtValue(-1)).seed, 4294967295u) << "as hosts keep it";
+    std::string problem;
+    with("seed", VtValue(4294967296.0), &problem);
+    EXPECT_NE(problem, "");
+}

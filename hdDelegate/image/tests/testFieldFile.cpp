@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grids of OpenVDB files, as they were written.
 
-#include "hdDelegate/image/fieldGrid.h"
+#include "hdDelegate/image/fieldGrids.h"
 #include "base/limits.h"
 
 #include <gtest/gtest.h>
@@ -147,6 +147,41 @@ TEST(FieldFile, VoxelsTakeNoMoreThanALimit) {
     setLimits({});
     ASSERT_EQ(diagnostics.count(), 1);
     EXPECT_NE(diagnostics.all()[0].message.find("--limit textureBytes"), std::string::npos);
+#endif
+}
+
+TEST(FieldFile, GridsAreSharedAndTogetherWithinALimit) {
+#ifndef PATINA_HAS_OPENVDB
+    GTEST_SKIP() << "this build has no OpenVDB";
+#else
+    openvdb::initialize();
+    const std::string file = testing::TempDir() + "patinaSparse.vdb";
+    openvdb::GridPtrVec written;
+    for (const char* name : {"density", "heat"}) {
+        auto grid = openvdb::FloatGrid::create(0.0f);
+        grid->setName(name);
+        // Two voxels far from each other: 64 bricks along each axis, a megabyte of places.
+        for (const int at : {0, 511})
+            grid->tree().setValueOn(openvdb::Coord(at), 1.0f);
+        written.push_back(grid);
+    }
+    openvdb::io::File(file).write(written);
+    Diagnostics diagnostics;
+    FieldGrids grids;
+    const auto first = grids.read(file, "density", "/a", diagnostics);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(grids.read(file, "density", "/b", diagnostics), first);
+    EXPECT_GT(first->bytes(), 1000000u);
+    setLimits({{"gridBytes", 2 * first->bytes() - 1}});
+    EXPECT_EQ(grids.read(file, "density", "/b", diagnostics), first);
+    EXPECT_EQ(grids.read(file, "heat", "/b", diagnostics), nullptr);
+    ASSERT_EQ(diagnostics.count(), 1);
+    EXPECT_NE(diagnostics.all()[0].message.find("--limit gridBytes"), std::string::npos);
+    setLimits({{"textureBytes", 1000000}});
+    EXPECT_EQ(readFieldGrid(file, "heat", "/c", diagnostics), nullptr) << "places count as well";
+    setLimits({});
+    EXPECT_NE(grids.read(file, "heat", "/b", diagnostics), nullptr);
+    std::remove(file.c_str());
 #endif
 }
 

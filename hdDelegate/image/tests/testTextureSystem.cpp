@@ -3,6 +3,7 @@
 #include "hdDelegate/image/iesProfile.h"
 #include "hdDelegate/image/textureSystem.h"
 #include "hdDelegate/parallel.h"
+#include "base/limits.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -211,6 +212,51 @@ TEST_F(Textures, NotFiniteTexelsBecomeBlackWithAWarning) {
     }
     EXPECT_EQ(diagnostics.count(), 2);
     EXPECT_TRUE(has(diagnostics.all()[0].message, "8 values")) << diagnostics.all()[0].message;
+}
+
+TEST_F(Textures, TexelsThatColourSpacesMakeInfiniteBecomeBlackWithAWarning) {
+    writeImage(temp.file("bright.exr"), 2, 2, {1e17f, 0.5f, 0.5f}, OIIO::TypeFloat);
+    const int handle = open(temp.file("bright.exr"), "srgb_texture");
+    const glm::vec4 found = textures.sample(handle, {0.5f, 0.5f}, 0);
+    EXPECT_EQ(found.x, 0.0f);
+    EXPECT_NEAR(found.y, 0.214f, 1e-3f);
+    EXPECT_TRUE(has(onlyMessage(), "4 values")) << onlyMessage();
+}
+
+TEST_F(Textures, ImagesWithSidesBeyondNumbersAreNone) {
+    // A header alone: a strip of tiles that would unpack to 600 MB.
+    OIIO::ImageSpec spec(300000000, 1, 1, OIIO::TypeHalf);
+    spec.tile_width = 1 << 16;
+    spec.tile_height = 1;
+    const std::string file = temp.file("long.exr");
+    auto output = OIIO::ImageOutput::create(file);
+    ASSERT_TRUE(output && output->open(file, spec)) << output->geterror();
+    output->close();
+    const int handle = open(file);
+    textures.loadAll();
+    EXPECT_EQ(textures.sample(handle, {0.0f, 0.5f}, 0), magenta);
+    EXPECT_TRUE(has(onlyMessage(), "300000000x1x1 is not a texture")) << onlyMessage();
+}
+
+TEST_F(Textures, NamesOfVeryManyTilesHaveNone) {
+    std::string name = temp.file("");
+    for (int i = 0; i < 170000; ++i)
+        name += "<UDIM>";
+    EXPECT_FALSE(textures.valid(open(name)));
+}
+
+TEST_F(Textures, ImagesOfLightsAreWithinALimit) {
+    writeImage(temp.file("grey.png"), 600, 600, {0.5f},
+               OIIO::TypeUInt8); // 360 kB, 4.3 MB as floats
+    const auto load = [&] {
+        return loadImageLinear(temp.file("grey.png"), "auto", diagnostics, "/Rect", "texture")
+            .valid;
+    };
+    setLimits({{"textureBytes", 1000000}});
+    EXPECT_FALSE(load());
+    setLimits({});
+    EXPECT_TRUE(has(onlyMessage(), "--limit textureBytes")) << onlyMessage();
+    EXPECT_TRUE(load());
 }
 
 TEST_F(Textures, ChannelsBeyondFourAndTwoColourChannels) {

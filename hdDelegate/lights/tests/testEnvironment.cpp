@@ -255,6 +255,49 @@ TEST(Environment, missingImageIsMagentaAndBlackOneIsNoLight) {
     EXPECT_TRUE(dark.build(light).empty());
 }
 
+TEST(Environment, sidesWithoutACommonFactorAndTheBrightestTexels) {
+    // Primes: no cell's edges are those of texels. A sun of one pixel has to be found all the same.
+    for (const float bright : {1e6f, 3e38f}) {
+        const auto pixels = image(4099, 2053, [&](int x, int y) {
+            return vec3(x == 1000 && y == 700 ? bright : bright > 1e30f ? bright : 0.1f);
+        });
+        LightImages images([&](const std::string&, const std::string&, const std::string&,
+                               const std::string&) { return *pixels; });
+        const auto map = images.environment("sun", "", EnvironmentFormat::Latlong, "/d", "file");
+        EXPECT_TRUE(std::isfinite(map->mean().x) && map->mean().x > 0.0f);
+        Random random(51);
+        int found = 0;
+        for (int i = 0; i < 1000; ++i) {
+            float pdf = 0.0f;
+            const vec3 d = map->sample(vec2(random(), random()), pdf);
+            EXPECT_TRUE(pdf > 0.0f && std::isfinite(pdf));
+            found += map->radiance(d).x > 1e3f;
+        }
+        EXPECT_GT(found, 100);
+    }
+}
+
+TEST(Environment, imagesThatNoLightHoldsAreForgotten) {
+    int loaded = 0;
+    const auto pixels = image(4, 2, [](int, int) { return vec3(1.0f); });
+    LightImages images(
+        [&](const std::string&, const std::string&, const std::string&, const std::string&) {
+            ++loaded;
+            return *pixels;
+        });
+    const auto load = [&] {
+        return images.environment("a", "", EnvironmentFormat::Latlong, "/d", "file");
+    };
+    auto held = load();
+    images.forgetUnused();
+    EXPECT_EQ(load(), held);
+    EXPECT_EQ(loaded, 1);
+    held = nullptr;
+    images.forgetUnused();
+    load();
+    EXPECT_EQ(loaded, 2);
+}
+
 TEST(Environment, imagesAreKeptBetweenBuilds) {
     int loaded = 0;
     const auto pixels = image(4, 2, [](int, int) { return vec3(1.0f); });

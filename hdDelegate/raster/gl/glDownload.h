@@ -9,19 +9,23 @@ namespace patina {
 /// graphics processors copy into other memory at a tenth of the speed.
 class GlDownload {
 public:
-    GlDownload() = default;
+    /// @param most bytes that are read at a time: OpenGL counts them by 32 bits
+    explicit GlDownload(size_t most = size_t(1) << 30) : _most(most) {}
     ~GlDownload();
     GlDownload(const GlDownload&) = delete;
     GlDownload& operator=(const GlDownload&) = delete;
 
-    /// Reads the largest level. Waits until the texture is drawn.
+    /// Reads the largest level of a texture without layers. Waits until the texture is drawn.
     /// @param bytes of `to`: what the image has in that format and type. `to` stays as it is where
     ///        the driver gives no memory, which its errors tell.
     void read(const GlTexture& from, GLenum format, GLenum type, size_t bytes, void* to);
 
 private:
     GLuint _id = 0;
-    size_t _size = 0;
+    void readRows(const GlTexture& from, GLenum format, GLenum type, int first, int rows,
+                  size_t bytes, char* to);
+
+    size_t _size = 0, _most;
 };
 
 } // namespace patina

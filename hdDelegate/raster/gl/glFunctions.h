@@ -66,7 +66,7 @@ namespace patina {
     X(GetShaderInfoLog, GETSHADERINFOLOG)                                                          \
     X(GetShaderiv, GETSHADERIV)                                                                    \
     X(GetString, GETSTRING)                                                                        \
-    X(GetTextureImage, GETTEXTUREIMAGE)                                                            \
+    X(GetTextureSubImage, GETTEXTURESUBIMAGE)                                                      \
     X(GetUniformLocation, GETUNIFORMLOCATION)                                                      \
     X(LinkProgram, LINKPROGRAM)                                                                    \
     X(MapNamedBufferRange, MAPNAMEDBUFFERRANGE)                                                    \

@@ -32,6 +32,7 @@ void smoothLatlong(const GlTexture& texture, GLint smaller) {
 int RasterDomes::layer(const std::shared_ptr<const EnvironmentMap>& map) {
     for (size_t i = 0; i < _wanted.size(); ++i)
         if (_wanted[i] == map) return int(i);
+    if (_wanted.size() >= size_t(maxImages)) return -1;
     _wanted.push_back(map);
     return int(_wanted.size()) - 1;
 }
@@ -68,6 +69,8 @@ void RasterDomes::upload(bool prefiltered) {
         for (w = 1024; w < 4 * widest && w < 2048;)
             w *= 2;
     }
+    while (size_t(w) * size_t(w / 2) * _wanted.size() > maxTexels && w > 2 * densityWidth)
+        w /= 2;
     const int h = w / 2, dw = densityWidth, dh = dw / 2, layers = int(_wanted.size());
     _maps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA32F, w, h, layers, 0);
     _densities = GlTexture(GL_TEXTURE_2D_ARRAY, GL_R32F, dw, dh, layers, 0);

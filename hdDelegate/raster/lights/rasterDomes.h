@@ -16,9 +16,11 @@ namespace patina {
 class RasterDomes {
 public:
     static constexpr int densityWidth = 512;
+    static constexpr int maxImages = 256;                ///< five layers each where prefiltered
+    static constexpr size_t maxTexels = size_t(1) << 27; ///< of all images; beyond, each is smaller
 
     void begin() { _wanted.clear(); }
-    /// @returns the layer of an image
+    /// @returns the layer of an image; -1: there are maxImages already
     int layer(const std::shared_ptr<const EnvironmentMap>& map);
     /// @param bare all of the image in harmonics without a window, which ring
     const SkyHarmonics& harmonics(const std::shared_ptr<const EnvironmentMap>& map, bool bare);

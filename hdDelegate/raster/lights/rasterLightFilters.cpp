@@ -18,6 +18,9 @@ static_assert(int(LightFilterType::Barn) == shLights::FILTER_BARN &&
               int(LightFilterType::Ramp) == shLights::FILTER_RAMP &&
               int(LightFilterType::Rod) == shLights::FILTER_ROD);
 
+constexpr const char* noRoom =
+    "the rasterizer has no room for more filters of lights; the light is as without them";
+
 int addCurve(const LightFilters::Curve& curve, RasterLightTables& tables) {
     std::vector<vec4> knots;
     for (size_t i = 0; i < curve.knots.size(); ++i)
@@ -70,6 +73,7 @@ int RasterLightFilters::add(const Light& light, const RasterPlace& place, float 
         f.transform = place.groupToWorld * exactTransformAt(f.transform, timeCode);
     const LightFilters all(still, mat4(1.0f), dvec3(0.0), timeCode, images, diagnostics);
     std::vector<vec4> rows;
+    bool fits = true;
     for (const LightFilters::Filter& f : all.filters()) {
         const bool more = &f != &all.filters().back();
         const int flags = (f.invert ? shLights::FILTER_INVERT : 0) |
@@ -82,12 +86,15 @@ int RasterLightFilters::add(const Light& light, const RasterPlace& place, float 
             rows.push_back(byRows[i]);
         if (f.type == LightFilterType::Ramp) {
             rows.emplace_back(float(f.rampType), f.start, f.end, 0.0f);
-            rows.push_back(curveRow(f.ramp, tables));
-            rows.push_back(curveRow(f.colors, tables));
+            for (const LightFilters::Curve* curve : {&f.ramp, &f.colors}) {
+                rows.push_back(curveRow(*curve, tables));
+                fits &= rows.back().x >= 0.0f;
+            }
             rows.emplace_back(0.0f);
         } else if (f.image) {
             int width, height;
             const int first = image(f.image, tables, width, height);
+            fits &= first >= 0;
             rows.emplace_back(f.shown.size.x, f.shown.size.y, f.shown.center.x, f.shown.center.y);
             rows.emplace_back(f.fill, f.apex);
             rows.emplace_back(float(f.shown.wrap), float(width), float(height), f.shear.x);
@@ -99,7 +106,10 @@ int RasterLightFilters::add(const Light& light, const RasterPlace& place, float 
             rows.emplace_back(f.box.edgeHigh, f.shear.y);
         }
     }
-    return rows.empty() ? -1 : tables.add(rows);
+    if (rows.empty()) return -1;
+    const int first = fits ? tables.add(rows) : -1;
+    if (first < 0) diagnostics.warn(light.path, "light:filters", noRoom);
+    return first;
 }
 
 void RasterLightFilters::addMesh(const Light& light, const std::vector<RasterPlace>& places,
@@ -113,6 +123,10 @@ void RasterLightFilters::addMesh(const Light& light, const std::vector<RasterPla
         table.emplace_back(float(of.places.back()), 0.0f, 0.0f, 0.0f);
     }
     of.table = tables.add(table);
+    if (of.table < 0) {
+        diagnostics.warn(light.path, "light:filters", noRoom);
+        of.places.clear();
+    }
 }
 
 int RasterLightFilters::ofMesh(const std::string& light, size_t place) const {

@@ -10,6 +10,10 @@
 
 namespace patina {
 
+namespace {
+constexpr const char* noRoom = "the rasterizer has no room for the light's table; it is left out";
+}
+
 float RectImage::sample(const vec2& u, vec2& q) const {
     ivec2 cell;
     vec2 within;
@@ -24,15 +28,23 @@ vec3 RectImage::radiance(const vec2& q) const {
                     image->pixels[size_t(c.high)], image->pixels[size_t(c.highNext)]);
 }
 
-const RectImage* RasterLightTables::rect(const Light& light, LightImages& images) {
+const RectImage* RasterLightTables::rect(const Light& light, LightImages& images,
+                                         Diagnostics& diagnostics) {
     if (light.type != LightType::Rect || light.textureFile.empty()) return nullptr;
+    const auto image =
+        images.image(light.textureFile, light.textureColorSpace, light.path, "inputs:texture:file");
+    for (const auto& known : _rects)
+        if (known->image == image) return known.get();
     auto made = std::make_unique<RectImage>();
     RectImage& r = *made;
-    r.image =
-        images.image(light.textureFile, light.textureColorSpace, light.path, "inputs:texture:file");
+    r.image = image;
     r.first = int(_values.size());
     r.width = std::min(r.image->width, largestImage);
     r.height = std::min(r.image->height, largestImage);
+    if (!hasRoom(size_t(r.width) * size_t(r.height))) {
+        diagnostics.warn(light.path, "inputs:texture:file", noRoom);
+        return nullptr;
+    }
     std::vector<float> weights;
     double mean = 0.0;
     for (int y = 0; y < r.height; ++y)
@@ -73,10 +85,17 @@ const RectImage* RasterLightTables::rect(const Light& light, LightImages& images
 }
 
 ProfileTable RasterLightTables::profile(const Light& light, Diagnostics& diagnostics) {
+    const auto known = _profiles.find(&light);
+    if (known != _profiles.end()) return known->second;
+    ProfileTable& out = _profiles[&light];
     const auto profile = lightProfile(light, diagnostics);
-    if (!profile) return {};
+    if (!profile) return out;
     const ProfileGrid grid = profileGrid(light, *profile, 361, 73);
-    ProfileTable out = {int(_values.size()), grid.thetas, grid.phis, 0.0f};
+    if (!hasRoom(grid.values.size())) {
+        diagnostics.warn(light.path, "inputs:shaping:ies:file", noRoom);
+        return out;
+    }
+    out = {int(_values.size()), grid.thetas, grid.phis, 0.0f};
     for (float v : grid.values) {
         _values.emplace_back(v, 0.0f, 0.0f, 0.0f);
         out.largest = std::max(out.largest, v);
@@ -85,6 +104,7 @@ ProfileTable RasterLightTables::profile(const Light& light, Diagnostics& diagnos
 }
 
 int RasterLightTables::add(const std::vector<vec4>& values) {
+    if (!hasRoom(values.size())) return -1;
     const int first = int(_values.size());
     _values.insert(_values.end(), values.begin(), values.end());
     return first;

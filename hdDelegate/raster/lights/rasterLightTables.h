@@ -6,6 +6,8 @@
 #include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/scene/light.h"
 
+#include <map>
+
 namespace patina {
 
 /// An image on a rect light with the density that its samples are drawn with.
@@ -33,13 +35,19 @@ struct ProfileTable {
 class RasterLightTables {
 public:
     static constexpr int largestImage = 512; ///< texels along a side; larger ones are averaged
+    /// Values of all lights: lights tell places of their filters by 23 bits.
+    static constexpr size_t maxValues = (size_t(1) << 23) - 2;
 
-    /// The image of a rect light. @returns null when there is none
-    const RectImage* rect(const Light& light, LightImages& images);
-    /// The IES profile of a light, scaled as the light wants it.
+    /// The image of a rect light, once for all lights that show it. @returns null when there is
+    /// none, or, with a warning, no room for it
+    const RectImage* rect(const Light& light, LightImages& images, Diagnostics& diagnostics);
+    /// The IES profile of a light, scaled as the light wants it; once for all places of the light.
+    /// Without room, with a warning, the light is not shaped by it.
     ProfileTable profile(const Light& light, Diagnostics& diagnostics);
-    /// Values of any kind. @returns the place of the first
+    /// Values of any kind. @returns the place of the first; -1: there is no room
     int add(const std::vector<vec4>& values);
+    /// Whether so many more values have room.
+    bool hasRoom(size_t values) const { return _values.size() + values <= maxValues; }
 
     /// Makes the buffer of all that was added.
     /// @param room for values of a pass behind them
@@ -53,6 +61,7 @@ public:
 private:
     std::vector<vec4> _values;
     std::vector<std::unique_ptr<RectImage>> _rects;
+    std::map<const Light*, ProfileTable> _profiles;
     mutable GlBuffer _buffer; ///< of which passes write the end
     int _firstOfPass = 0, _room = 0;
 };

@@ -4,6 +4,7 @@
 #include "hdDelegate/lights/resolvedLight.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "base/diagnostics.h"
+#include "base/limits.h"
 #include "base/maths.h"
 
 #include <algorithm>
@@ -40,6 +41,14 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
                 continue;
             }
             warnOfDomeMethods(light, diagnostics);
+            if (double(_sources.size() + places.places(light.group).size()) >
+                double(limitOf(Limit::lights))) {
+                diagnostics.warn(light.path, "",
+                                 "with it the scene has more lights, each wherever it is placed, "
+                                 "than " +
+                                     limitText(Limit::lights) + "; the light is off");
+                continue;
+            }
             for (const RasterPlace& place : places.places(light.group))
                 add(light, mat4(place.groupToWorld * exactTransformAt(light.transform, timeCode)),
                     _filters.add(light, place, timeCode, images, _tables, diagnostics), settings,
@@ -92,7 +101,13 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
         break;
     case ResolvedLight::Kind::Dome:
         s.domeToWorld = pose.domeToWorld;
-        addDome(s, light, images, domes);
+        if (!addDome(s, light, images, domes)) {
+            diagnostics.warn(light.path, "inputs:texture:file",
+                             "the rasterizer shows the images of " +
+                                 std::to_string(RasterDomes::maxImages) +
+                                 " domes at most; the light is off");
+            return;
+        }
         cameraVisible &= settings.domeLightCameraVisibility;
         _hasDome = true;
         break;
@@ -104,7 +119,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
         s.weight = luminance(glm::abs(s.radiance)) * length;
         break;
     }
-    default: s.shape = pose.shape; addShape(s, light, images);
+    default: s.shape = pose.shape; addShape(s, light, images, diagnostics);
     }
     g.category = categoryOf(light.lightLink, links);
     g.set(shLights::LIGHT_IS_SEEN, cameraVisible && !s.delta);
@@ -133,7 +148,8 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
 }
 
 /// The image, and where the harmonics light surfaces also those and the dominant light.
-void RasterLights::addDome(Source& s, const Light& light, LightImages& images, RasterDomes& domes) {
+/// @returns whether there was room for the image
+bool RasterLights::addDome(Source& s, const Light& light, LightImages& images, RasterDomes& domes) {
     GpuLight& g = s.fixed;
     int layer = -1, first = -1;
     if (!light.textureFile.empty()) {
@@ -141,6 +157,7 @@ void RasterLights::addDome(Source& s, const Light& light, LightImages& images, R
                                            environmentFormat(light.textureFormat), light.path,
                                            "inputs:texture:file");
         layer = domes.layer(s.environment);
+        if (layer < 0) return false;
         const bool bare = _domeMethods.count("harmonicsUnwindowed") > 0;
         if (bare || _domeMethods.count("harmonics") > 0 || _domeMethods.count("prefiltered") > 0) {
             const SkyHarmonics& sky = domes.harmonics(s.environment, bare);
@@ -156,12 +173,14 @@ void RasterLights::addDome(Source& s, const Light& light, LightImages& images, R
     g.domeLayer = float(layer);
     g.domeSamples = float(_domeSamples);
     g.firstHarmonic = first;
+    return true;
 }
 
 /// The parameters of a shape, and a rect's image.
-void RasterLights::addShape(Source& s, const Light& light, LightImages& images) {
+void RasterLights::addShape(Source& s, const Light& light, LightImages& images,
+                            Diagnostics& diagnostics) {
     GpuLight& g = s.fixed;
-    if (const RectImage* image = _tables.rect(light, images)) {
+    if (const RectImage* image = _tables.rect(light, images, diagnostics)) {
         s.image = image;
         g.firstValue = image->first;
         g.columns = image->width;

@@ -132,8 +132,9 @@ private:
              LightImages& images, RasterDomes& domes, const LinkNames& links,
              Diagnostics& diagnostics);
     void warnOfDomeMethods(const Light& light, Diagnostics& diagnostics) const;
-    void addDome(Source& source, const Light& light, LightImages& images, RasterDomes& domes);
-    void addShape(Source& source, const Light& light, LightImages& images);
+    bool addDome(Source& source, const Light& light, LightImages& images, RasterDomes& domes);
+    void addShape(Source& source, const Light& light, LightImages& images,
+                  Diagnostics& diagnostics);
     /// @param u in the unit cube; the third number is for sphere lights
     GpuLight draw(const Source& source, const vec3& u) const;
     /// @param mapped samples that have shadow maps of their own

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <cstdint>
 
 namespace patina {
 
@@ -18,16 +18,15 @@ void takeSplats(std::vector<glm::vec4>& pixels, int width, int height, const Ras
         return &pixels[size_t(height - 1 - y + border) * size_t(stride)] + border;
     };
     // A value that is no number stays where it is, for the film to count.
-    std::vector<std::pair<int, int>> broken;
-    std::mutex mutex;
+    std::vector<uint8_t> broken(border > 0 ? pixels.size() : 0, 0);
     if (border > 0)
         parallelFor(0, height + 2 * border, [&](int y) {
             for (int x = 0; x < stride; ++x) {
-                glm::vec4& p = pixels[size_t(y) * size_t(stride) + size_t(x)];
+                const size_t i = size_t(y) * size_t(stride) + size_t(x);
+                glm::vec4& p = pixels[i];
                 if (std::isfinite(p.x + p.y + p.z + p.w)) continue;
                 p = glm::vec4(0.0f);
-                const std::lock_guard<std::mutex> lock(mutex);
-                broken.emplace_back(x - border, height - 1 - y + border);
+                broken[i] = 1;
             }
         });
     // The share of number i goes i - border pixels further, so a pixel takes it from there back.
@@ -47,8 +46,7 @@ void takeSplats(std::vector<glm::vec4>& pixels, int width, int height, const Ras
             glm::vec4 sum(0.0f);
             for (int i = 0; i <= 2 * border; ++i)
                 sum += sample.splatY[size_t(i)] * rowOf(y + border - i)[x];
-            for (const auto& [brokenX, brokenY] : broken)
-                if (brokenX == x && brokenY == y) sum.x = NAN;
+            if (border > 0 && broken[size_t(&rowOf(y)[x] - pixels.data())] != 0) sum.x = NAN;
             take(x, y, sum);
         }
     });

@@ -6,6 +6,7 @@
 #include "hdDelegate/scene/instancerCheck.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/primCompare.h"
+#include "base/limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,10 +102,20 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
             _moves |= transform.moves();
     }
     int rank = 0;
+    size_t listed = 0; // each prim at each of its places
     for (const auto& item : state.geometry) {
         if (stop) return;
         const int own = rank++;
         if (!isDrawnInRaster(*item.second, settings)) continue;
+        const size_t here = places.places(item.second->group).size();
+        if (listed + here > std::min<uint64_t>(limitOf(Limit::instances), INT32_MAX)) {
+            _diagnostics.warn(item.second->path, "",
+                              "with it the rasterizer draws more prims, each wherever it is "
+                              "placed, than " +
+                                  limitText(Limit::instances) + "; it is left out");
+            continue;
+        }
+        listed += here;
         if (item.second->kind == GeometryKind::Volume) {
             const auto volume = std::static_pointer_cast<const Volume>(item.second);
             const dmat4 toGroup = exactTransformAt(volume->transform, camera.timeCode(0.0f));

@@ -51,7 +51,34 @@ int sidesFor(float radius, float gap) {
     return std::clamp(2 * int(std::ceil(0.25f * twoPi * std::sqrt(radius / (3.0f * gap)))), 6, 64);
 }
 
-TriangleMesh pointTriangles(const PointSet& set, float gap) {
+/// How a point is drawn.
+struct PointForm {
+    int columns = 0, rows = 0;
+    float wider = 1.0f; ///< than the circle, so that it is as wide in the mean
+
+    PointForm(float radius, float gap, bool disk) {
+        // Disks have hard edges; balls are lit by their facets as well, so they take twice as many.
+        columns = sidesFor(radius, disk ? gap : 0.25f * gap);
+        rows = disk ? 1 : std::max(columns / 2, 4);
+        const float angle = twoPi / float(columns);
+        wider = disk ? std::sqrt(angle / std::sin(angle)) : 0.5f * angle / std::sin(0.5f * angle);
+    }
+    size_t triangles() const { return size_t(columns) * size_t(rows == 1 ? 1 : 2 * rows - 2); }
+};
+
+/// The gap with which points take so many triangles at most, as far as that is possible.
+float fitPoints(const PointSet& set, float gap, size_t maximum) {
+    for (int i = 0; i < 24 && gap > 0.0f; ++i, gap *= 2.0f) {
+        size_t sum = 0;
+        for (const vec4& p : set.points[0])
+            sum += PointForm(p.w, gap, !set.normals.empty()).triangles();
+        if (sum <= maximum) break;
+    }
+    return gap;
+}
+
+TriangleMesh pointTriangles(const PointSet& set, const RasterFineness& fineness) {
+    const float gap = fitPoints(set, fineness.gap, fineness.pointTriangles);
     Builder out;
     for (const MeshAttribute& a : set.attributes) {
         MeshAttribute copy = a;
@@ -59,18 +86,11 @@ TriangleMesh pointTriangles(const PointSet& set, float gap) {
         out.mesh.attributes.push_back(std::move(copy));
     }
     const bool disks = !set.normals.empty();
-    float widest = 0.0f;
-    for (const vec4& p : set.points[0])
-        widest = std::max(widest, p.w);
-    // Disks have hard edges; balls are lit by their facets as well, so they take twice as many.
-    const int sides = sidesFor(widest, disks ? gap : 0.25f * gap);
-    const int columns = sides, rows = disks ? 1 : std::max(sides / 2, 4);
-    const float angle = twoPi / float(columns);
-    const float wider =
-        disks ? std::sqrt(angle / std::sin(angle)) : 0.5f * angle / std::sin(0.5f * angle);
     for (size_t i = 0; i < set.points[0].size(); ++i) {
         const vec3 center = vec3(set.points[0][i]);
-        const float radius = set.points[0][i].w * wider;
+        const PointForm form(set.points[0][i].w, gap, disks);
+        const int columns = form.columns, rows = form.rows;
+        const float radius = set.points[0][i].w * form.wider;
         const int element = i < set.pointIndex.size() ? set.pointIndex[i] : int(i);
         const int subset = i < set.pointSubset.size() ? set.pointSubset[i] : 0;
         const size_t before = out.positions.size();
@@ -129,7 +149,7 @@ RasterForm rasterTriangles(const PrimShape& shape, const RasterFineness& finenes
         if ((domed || !thin) && set.normals.empty()) form.casting = curveTriangles(set, own, true);
     }
     if (const PointSet& set = shape.points; !set.points.empty() && !set.points[0].empty())
-        form.seen.mesh = pointTriangles(set, fineness.gap);
+        form.seen.mesh = pointTriangles(set, fineness);
     return form;
 }
 

@@ -42,7 +42,8 @@ struct RasterForm {
 /// How finely curves and points are drawn.
 struct RasterFineness {
     float gap = 0.0f; ///< largest distance from the true shape, object units; 0: as coarse as ever
-    float thick = 0.0f; ///< curves with a smaller radius are strips, object units
+    float thick = 0.0f;               ///< curves with a smaller radius are strips, object units
+    size_t pointTriangles = 16000000; ///< of the points of a prim, where the coarsest allow it
 };
 
 /// Curves and points as triangles: strips, tubes or ribbons, and spheres or disks.

@@ -96,7 +96,9 @@ uint32_t RasterSurfaceBuilder::vertex(unsigned t, int c) {
         if (attribute) evalAttribute(_mesh, *attribute, t, u, v, value);
         _primvars.emplace_back(value[0], value[1], value[2], value[3]);
     }
-    for (uint32_t other = first; other != none; other = _next[other])
+    // Sharing saves memory, and no more: of very many values at one point some are looked at.
+    int tries = 64;
+    for (uint32_t other = first; other != none && tries > 0; other = _next[other], --tries)
         if (_vertices[other].normal == own.normal &&
             std::equal(_primvars.begin() + std::ptrdiff_t(at), _primvars.end(),
                        _primvars.begin() + std::ptrdiff_t(other * count))) {

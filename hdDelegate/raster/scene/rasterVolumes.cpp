@@ -31,9 +31,9 @@ vec3 held(const vec3& v) {
 } // namespace
 
 void RasterVolume::bind() const {
-    scattering.bind(0);
-    extinction.bind(1);
-    emission.bind(2);
+    textures->scattering.bind(0);
+    textures->extinction.bind(1);
+    textures->emission.bind(2);
 }
 
 void RasterVolumes::build(Cached& cached) {
@@ -65,6 +65,10 @@ void RasterVolumes::build(Cached& cached) {
                 emission[i] = vec4(held(m.emission), 0.0f);
             }
     });
+    auto textures = std::make_shared<RasterVolume::Textures>();
+    textures->scattering = upload(size, scattering);
+    textures->extinction = upload(size, extinction);
+    textures->emission = upload(size, emission);
     for (const mat4& toWorld : cached.places) {
         const mat4 inverse = glm::inverse(toWorld);
         if (!std::isfinite(inverse[0][0] + inverse[1][1] + inverse[2][2] + inverse[3][3])) {
@@ -76,9 +80,7 @@ void RasterVolumes::build(Cached& cached) {
         volume.boundsMin = low;
         volume.boundsMax = medium.boundsMax();
         volume.worldToObject = inverse;
-        volume.scattering = upload(size, scattering);
-        volume.extinction = upload(size, extinction);
-        volume.emission = upload(size, emission);
+        volume.textures = textures;
         cached.volumes.push_back(std::move(volume));
     }
 }
@@ -101,6 +103,12 @@ void RasterVolumes::add(const std::shared_ptr<const Volume>& prim, const SceneSt
     }
     cached.used = true;
     for (const RasterVolume& volume : cached.volumes) {
+        if (_placed.size() >= maxPlaced) {
+            _diagnostics.warn(prim->path, "",
+                              "the rasterizer draws the first " + std::to_string(maxPlaced) +
+                                  " volumes, each instance counted; others are left out");
+            break;
+        }
         _placed.push_back(&volume);
         const mat4 out = glm::inverse(volume.worldToObject);
         for (int i = 0; i < 8; ++i) {

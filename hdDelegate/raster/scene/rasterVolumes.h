@@ -14,8 +14,11 @@ namespace patina {
 /// The medium of a volume prim in textures of at most 64 texels along a side, each the medium at
 /// its place; coefficients per scene unit. See shaders/raster/volume.frag.glsl.
 struct RasterVolume {
-    GlTexture scattering, extinction, emission;
-    vec3 boundsMin{0.0f}, boundsMax{0.0f}; ///< object space
+    struct Textures {
+        GlTexture scattering, extinction, emission;
+    };
+    std::shared_ptr<const Textures> textures; ///< those of all places of a prim
+    vec3 boundsMin{0.0f}, boundsMax{0.0f};    ///< object space
     mat4 worldToObject{1.0f};
 
     void bind() const; ///< units 0 to 2
@@ -26,6 +29,8 @@ class RasterVolumes {
 public:
     RasterVolumes(CompiledVolumes& compiled, Diagnostics& diagnostics)
         : _diagnostics(diagnostics), _compiled(compiled) {}
+
+    static constexpr size_t maxPlaced = 4096; ///< each is drawn over the image on its own
 
     /// Begins an update; what add() does not name again is forgotten by end().
     void begin() { _placed.clear(); }

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The context, and a program on it: what is drawn comes back, and what is wrong is told by name.
 
+#include "hdDelegate/raster/gl/glDownload.h"
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
 
 #include <EGL/egl.h>
 
+#include <glm/glm.hpp>
+
 #include <cstdlib>
+#include <vector>
 
 using namespace patina;
 
@@ -50,6 +54,22 @@ TEST(RasterContext, ASmallBufferHoldsNothingOfWhatFollowsItsData) {
     buffer.read(held, sizeof held);
     for (size_t i = 0; i < sizeof held; ++i)
         EXPECT_EQ(held[i], i < 4 ? data[i] : 0) << i;
+}
+
+TEST(RasterContext, ReadsLargeImagesInBands) {
+    PATINA_NEED_CONTEXT();
+    constexpr int width = 17, height = 23;
+    std::vector<glm::vec4> drawn;
+    for (int i = 0; i < width * height; ++i)
+        drawn.emplace_back(float(i), 1.0f, 2.0f, 3.0f);
+    const GlTexture texture(GL_TEXTURE_2D, GL_RGBA32F, width, height);
+    gl.TextureSubImage2D(texture.id(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, drawn.data());
+    for (const size_t most : {size_t(1), size_t(1000), size_t(1) << 30}) {
+        std::vector<glm::vec4> read(drawn.size(), glm::vec4(-1.0f));
+        GlDownload download(most);
+        download.read(texture, GL_RGBA, GL_FLOAT, read.size() * sizeof(glm::vec4), read.data());
+        EXPECT_EQ(read, drawn) << most;
+    }
 }
 
 TEST(RasterContext, NamesFileAndLineOfAnError) {

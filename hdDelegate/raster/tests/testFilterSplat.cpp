@@ -42,6 +42,25 @@ TEST(RasterFilterSplat, keepThePixelFilter) {
     expectMoments(1.7f, 0.6372);
 }
 
+TEST(RasterFilterSplat, leaveValuesThatAreNoNumbersWhereTheyAre) {
+    // All of them infinite, too: for each pixel a look at each would take hours.
+    for (const bool all : {false, true}) {
+        const int width = 1024, height = 768;
+        Film film;
+        film.reset(width, height, {});
+        RasterSample sample;
+        sample.splatX = sample.splatY = {0.1f, 0.7f, 0.2f};
+        std::vector<glm::vec4> pixels(size_t(width + 2) * size_t(height + 2),
+                                      glm::vec4(all ? INFINITY : 1.0f));
+        if (!all) pixels[size_t(height - 5) * size_t(width + 2) + 8] = glm::vec4(NAN);
+        const int window[4] = {0, 0, width - 1, height - 1};
+        addSplats(pixels, width, height, sample, window, film);
+        EXPECT_EQ(film.droppedSamples(), uint64_t(all ? width * height : 1));
+        EXPECT_EQ(film.color(7, 4), glm::vec3(0.0f)) << "x is 8 less the border, y down";
+        EXPECT_EQ(film.color(20, 4), glm::vec3(all ? 0.0f : 1.0f));
+    }
+}
+
 TEST(RasterFilterSplat, takeASampleToThePixelsThatItLiesIn) {
     const int width = 5, height = 4;
     Film film;

@@ -69,6 +69,25 @@ TEST(RasterSurface, SeamsKeepTheirCorners) {
     EXPECT_EQ(hard.make(0, {}).chunks[0].bytes(), bytesOf(6, 0, 2));
 }
 
+TEST(RasterSurface, VeryManyValuesAtOnePointAreNotAllCompared) {
+    PATINA_NEED_CONTEXT();
+    // A fan of a million triangles, whose corners all differ: a step for each pair would be 10^12.
+    constexpr uint32_t count = 1000000;
+    TriangleMesh mesh;
+    std::vector<vec3> positions = {vec3(0.0f)};
+    std::vector<float> values;
+    for (uint32_t i = 0; i < count; ++i) {
+        positions.emplace_back(float(i), 1.0f, 0.0f);
+        mesh.triangles.emplace_back(0, 1 + i, 1 + (i + 1) % count);
+        mesh.triangleFace.push_back(int(i));
+        values.insert(values.end(), {float(i), 0.0f, 0.0f});
+    }
+    mesh.positions = {std::move(positions)};
+    mesh.attributes.push_back(attribute("a", MeshAttribute::Rate::PerCorner, 1, std::move(values)));
+    RasterSurfaceBuilder builder(mesh, size_t(1) << 30);
+    EXPECT_EQ(builder.make(0, {"a"}).triangles, size_t(count));
+}
+
 TEST(RasterSurface, SubsetsAndPiecesHoldEveryTriangleOnce) {
     PATINA_NEED_CONTEXT();
     TriangleMesh mesh = square();

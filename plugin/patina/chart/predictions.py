@@ -13,7 +13,6 @@ the mean over the pixels of |luminance - truth| over (truth + 0.01):
 Times are of processors, so that what else the machine does has no part in them.
 """
 import csv
-import os
 import time
 from dataclasses import asdict, dataclass, fields
 
@@ -59,14 +58,14 @@ class Row:
         return asdict(self)
 
 
-def check(path, arguments, backend, tolerances, samples, maximum, seconds):
-    """:param samples: per pixel, of the renders that methods are compared by
+def check(path, name, arguments, backend, tolerances, samples, maximum, seconds):
+    """:param name: of the stage, for its rows
+    :param samples: per pixel, of the renders that methods are compared by
     :param maximum: samples per pixel that the adaptive render takes
     :param seconds: for each render; twice that for the reference
     :returns: iterator of Row, one for each tolerance
     """
     renders = StageRenders(path, arguments)
-    name = os.path.splitext(os.path.basename(path))[0]
 
     def render(seed, tolerance, count, whole=False, limit=seconds):
         settings = renders.settings(count, seed, tolerance)

@@ -2,11 +2,12 @@
 """patina chart --predictions STAGE...: what the planner predicts against what comes."""
 import csv
 import os
+import sys
 
 from patina import inputs
 from patina.chart import predictions
-from patina.cli import outputs, recordFlags
-from patina.cli.errors import CommandError
+from patina.chart.sceneCommand import failures, problem_of, shown
+from patina.cli import outputs, overrides, recordFlags
 from patina.cli.progress import Progress
 
 TAKES_STAGES = True
@@ -28,6 +29,7 @@ def run(arguments):
     a = arguments
     a.imageWidth = a.imageWidth or DEFAULT_WIDTH
     a.set = a.set or []
+    overrides.parse(a.set)
     given = a.tolerances or DEFAULT_TOLERANCES
     maximum = a.maxSamples or recordFlags.MAX_SAMPLES
     rows = []
@@ -41,18 +43,24 @@ def run(arguments):
             for row in _rows(stage, a, backend, given, maximum):
                 rows.append(row)
                 table.add(row)
-                progress.say(f"{row.stage} {row.backend} {row.tolerance:g}: "
-                             f"{row.problem or f'{row.methodError:.2g}, {row.error:.2g}, {row.state}'}")
+                if not row.problem:
+                    progress.say(f"{row.stage} {row.backend} {row.tolerance:g}: {row.methodError:.2g}, {row.error:.2g}, "
+                                 f"{row.state}")
     if not outputs.write_json(a.json, [row.as_dict() for row in rows]):
         print(predictions.listing(rows))
-    return 0
+    problems = [row for row in rows if row.problem]
+    for row in problems:
+        print(f"patina: {row.stage}, {row.backend}: {row.problem}", file=sys.stderr)
+    return 1 if problems else 0
 
 
 def _rows(stage, a, backend, tolerances, maximum):
+    name = shown(os.path.splitext(os.path.basename(stage))[0])
     try:
-        yield from predictions.check(stage, a, backend, tolerances, a.methodSamples, maximum, a.seconds or DEFAULT_SECONDS)
-    except CommandError as error:
-        yield predictions.Row(os.path.splitext(os.path.basename(stage))[0], backend, 0.0, problem=str(error))
+        yield from predictions.check(stage, name, a, backend, tolerances, a.methodSamples, maximum,
+                                     a.seconds or DEFAULT_SECONDS)
+    except failures() as error:
+        yield predictions.Row(name, backend, 0.0, problem=problem_of(error))
 
 
 class Table:

@@ -61,6 +61,7 @@ def run(arguments):
     command = shown(shlex.join(["patina", *sys.argv[1:]]))
     for stage in a.stages:
         inputs.note(stage)
+    inputs.note(a.reference)
     outputs.check_all([a.json])
     here = machine.describe()
     if imageMetrics.flip_missing():
@@ -87,16 +88,26 @@ def run(arguments):
 
 def _chart(stage, arguments, chosen, progress):
     """:returns: a StageResult; with its problem, where there is one"""
-    from patina.stage import StageError
-
     name = shown(os.path.basename(stage))
     try:
         ladder = sceneLadder.climb(stage, arguments, chosen, truth(chosen),
                                    os.path.join(arguments.out, "references") if arguments.out else "",
                                    lambda text: progress.say(f"{name}: {text}"))
         return sceneResults.of(shown(stage), ladder, arguments.seed)
-    except (CommandError, StageError, UsageError, RuntimeError, OSError, MemoryError) as error:
-        return sceneResults.StageResult(shown(stage), problem=shown(str(error)) or type(error).__name__)
+    except failures() as error:
+        return sceneResults.StageResult(shown(stage), problem=problem_of(error))
+
+
+def failures():
+    """:returns: errors that end one stage of several"""
+    from patina.stage import StageError
+
+    return CommandError, StageError, UsageError, RuntimeError, OSError, MemoryError
+
+
+def problem_of(error):
+    """:returns: what one of failures() says, in one line"""
+    return shown(" ".join(str(error).split())) or type(error).__name__
 
 
 def shown(text, keep=""):

@@ -19,15 +19,17 @@ def errors(image, reference, with_flip=True):
 
     :param with_flip: FLIP takes longer than all others together
     :returns: dict of relMSE, rmse, flip (None without flip-evaluator), meanError (signed, over the reference's mean), and
-        relative: the mean over pixels of |error| / (luminance + 0.01), which is what --tolerance is about
+        relative: the mean over pixels of |error| / (luminance + 0.01), which is what --tolerance is about; those that need
+        a pixel that is a number in both are None without any
     """
     found = imageMetrics.differences(image, reference)
     mask = imageMetrics.finite_pixels(image, reference)
     a, b = (np.where(mask[..., None], x, 0.0).astype(np.float64) @ LUMINANCE for x in (image, reference))
-    relative = np.abs(a - b)[mask] / (b[mask] + 0.01) if mask.any() else np.array([math.nan])
+    # Luminance below 0, which a file may have, would make the sum 0.
+    relative = float((np.abs(a - b)[mask] / (np.maximum(b[mask], 0.0) + 0.01)).mean()) if mask.any() else None
     return {"relMSE": found["relMSE"], "rmse": found["rmse"],
             "flip": imageMetrics.mean_flip(image, reference, True) if with_flip else None,
-            "meanError": found["relativeMeanError"], "relative": float(relative.mean()),
+            "meanError": found["relativeMeanError"], "relative": relative,
             "notFinite": int((~mask).sum())}
 
 

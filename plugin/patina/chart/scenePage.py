@@ -110,8 +110,9 @@ def _tolerances(result):
              '<table><tr><th class="t">back end</th><th>tolerance</th><th>measured error</th><th class="t">met</th>'
              "<th>samples</th><th>seconds</th></tr>"]
     for row in rows:
+        measured = "-" if row["relative"] is None else f"{100 * row['relative']:.2f} %"
         lines.append(f'<tr><td class="t">{WORDS[row["backend"]]}</td><td>{100 * row["tolerance"]:g} %</td>'
-                     f'<td>{100 * row["relative"]:.2f} %</td><td class="t">{row["toleranceMet"]}</td>'
+                     f'<td>{measured}</td><td class="t">{row["toleranceMet"]}</td>'
                      f'<td>{row["samples"]:.4g}</td><td>{row["seconds"]:.3g}</td></tr>')
     return lines + ["</table>"]
 

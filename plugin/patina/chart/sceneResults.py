@@ -79,7 +79,8 @@ def _slopes(ladder, backend):
     rungs = ladder.of(backend)
     lights = list(ladder.references) if backend == "raster" else ["all"]
     # The rasterizer draws direct light, but it also looks through glass.
-    light = min(lights, key=lambda name: sceneMeasures.rmse(rungs[-1].renders[0].image, ladder.references[name].image))
+    errors = {name: sceneMeasures.rmse(rungs[-1].renders[0].image, ladder.references[name].image) for name in lights}
+    light = min(lights, key=lambda name: (errors[name] is None, errors[name] or 0.0))
     reference = ladder.references[light].image
     counts = [r.samples for r in rungs]
     by_count = []
@@ -131,7 +132,8 @@ def read_csv(path):
             steps = [row for row in result.rows if row["backend"] == backend and not row["tolerance"]]
             if steps:
                 _find_floors(result, backend, steps)
-                light = "direct" if (steps[-1]["rmseDirect"] or steps[-1]["rmse"]) < steps[-1]["rmse"] else "all"
+                last, direct = steps[-1]["rmse"], steps[-1]["rmseDirect"]
+                light = "direct" if direct and (last is None or direct < last) else "all"
                 counts = [row["samples"] for row in steps]
                 errors = [row["rmseDirect" if light == "direct" else "rmse"] for row in steps]
                 found = sceneMeasures.slope(counts, errors)

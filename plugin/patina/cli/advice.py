@@ -12,13 +12,14 @@ _ROWS = (
     (r"the path tracer renders instead|goes on without a first image",
      "install Mesa or a driver with OpenGL 4.5 and EGL (`PATINA_EGL_PLATFORM` chooses one), or ask for `--backend embree`"),
     (r"follows no light paths|driver does not take|shown with|primvars:… is left empty|clips by the first|by the "
-     r"rasterizer$|draws no shadow",
+     r"rasterizer$|draws no shadow|^the rasterizer (draws|has no room|shows)",
      "this is a limit of the rasterizer or the driver; `--backend embree` has none"),
     (r"the image stays as it is", "install Open Image Denoise (`./patina` fetches pyoidn for `--denoise`)"),
     (r"start too far away, or have no direction", "look for transforms and points that are far too large or not finite"),
     (r"caustics, not photons", "change the part that the message names, or take `--method caustics=paths`"),
     # Limits.
-    (r"\(--limit|nodes than|bytes than|is longer than|the scene has more|included documents than|levels deep than",
+    (r"\(--limit|nodes than|bytes than|is longer than|the scene has more|included documents than|levels deep than|"
+     r"nodes follow each other|wherever it is placed, than",
      "raise the limit with `--limit`, or with PATINA_LIMITS in other hosts, where the file is trusted; "
      "[limits](limits.md) lists them"),
     # Lights' filters and portals.
@@ -27,6 +28,7 @@ _ROWS = (
     (r"filter is left out|unknown type '…'", "correct the light's `light:filters`: its targets are light filters of a "
      "type that [lights](../design/lights.md#filters) lists"),
     (r"ramp whose knots", "write the ramp's knots in ascending order, and a value for each"),
+    (r"is no light filter", "correct the light's `light:filters`: its targets are prims of LightFilter"),
     (r"is no PortalLight", "correct the dome's `portals`: its targets are PortalLights"),
     (r"nothing of the sky", "give the PortalLight a size above 0, and turn its -z axis away from the sky that it lets in"),
     # Inputs.
@@ -74,7 +76,7 @@ _ROWS = (
     (r"primvar|components per element|elements where|indices are out of range and read|index out of range; the first|"
      r"multiple of its elementSize|values for … instances|values per instance",
      "compare the number of values with the interpolation, and the indices with the values"),
-    (r"sample times|number of points changes|sample is left out",
+    (r"sample times|time samples in the shutter|number of points changes|sample is left out",
      "write samples with the same topology; Patina blurs these alone"),
     (r"displayed|not drawn; a cross|cards", "correct `model:cardGeometry`, or set `model:drawMode` to default"),
     (r"prims of type", "convert the prim to a shape of UsdGeom that [features](../features.md) lists"),
@@ -118,6 +120,7 @@ _ROWS = (
     (r"without a reason", "Embree gives no reason; report it, with the stage"),
     (r"shading model|no translation", "ask for one of UsdPreviewSurface, gltf_pbr, standard_surface, open_pbr_surface"),
     # Render settings and products.
+    (r"left out of Cryptomatte", "give instances that need no id of their own one name, by `primvars:patina:cryptoObject`"),
     (r"product|AOV|UsdRenderProduct|orderedVars",
      "correct the UsdRender prim; [AOVs](aovs.md) lists the names"),
     (r"setting|back end|is not allowed|purpose|rendering in|holds no pixel",

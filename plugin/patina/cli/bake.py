@@ -25,6 +25,7 @@ TARGETS = ("UsdPreviewSurface", "gltf_pbr", "standard_surface", "open_pbr_surfac
 # Directions whose textures are of no use.
 TANGENTS = ("tangent", "geometry_tangent", "geometry_coat_tangent")
 BATCH = 1 << 18
+_MOST_MATERIAL_NODES = 8  # between a terminal and its surface, as the translation follows them
 
 
 def add_arguments(parser):
@@ -47,6 +48,8 @@ def run(arguments):
         raise UsageError("patina bake: --resolution is 1 to 16384")
     if os.path.splitext(arguments.output)[1].lower() not in bakeOutput.EXTENSIONS:
         raise UsageError("patina bake: OUT ends in .usda, .usdc or .usd")
+    if arguments.in_place:
+        bakeOutput.check_in_place(arguments.output)
     found, warnings = materials.load(arguments.material, arguments.set)
     name, network = found[0]
     if not arguments.in_place:
@@ -88,8 +91,13 @@ def _surface(network):
     path = network.terminals()["surface"][0]
     nodes = {node["path"]: node for node in network.nodes()}
     node = nodes[path]
-    while "surfaceshader" in node["connections"]:
+    for _ in range(_MOST_MATERIAL_NODES):
+        if "surfaceshader" not in node["connections"]:
+            break
         node = nodes[node["connections"]["surfaceshader"][0]]
+    if "surfaceshader" in node["connections"]:
+        raise CommandError(f"{network.path}: more than {_MOST_MATERIAL_NODES} connections of surfaceshader follow each other, "
+                           f"or they lead back to {path}")
     return node
 
 

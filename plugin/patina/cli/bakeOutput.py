@@ -1,17 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes a baked material: one shader with values and textures, in the words of a shading model. Stage and
 textures appear together, or nothing is changed."""
+import hashlib
 import os
 import re
 
 import numpy as np
 
-from patina.cli import compiled, materials, outputs
+from patina.cli import compiled, materials, outputs, tryStage
 from patina.cli.errors import CommandError
 
 EXTENSIONS = (".usda", ".usdc", ".usd")
 # Vectors that are directions.
 NORMALS = ("normal", "coat_normal", "clearcoat_normal", "geometry_normal", "geometry_coat_normal")
+
+
+def check_in_place(output):
+    """Says early why --in-place could not open OUT, or not write it. Nothing is read yet, so it may be any file that is.
+
+    :raises CommandError: where it is no regular file, OpenUSD dies of it, or no file can be written there"""
+    outputs.check(output, EXTENSIONS)
+    problem = tryStage.why_trial_fails(output) if os.path.exists(output) else ""
+    if problem:
+        raise CommandError(f"{output} {problem}: the file is damaged")
 
 
 def write(arguments, name, inputs, warnings):
@@ -22,18 +33,112 @@ def write(arguments, name, inputs, warnings):
     base = re.sub(r"[^A-Za-z0-9_]+", "_", name.rpartition("/")[2]) or "material"
     base = "_" + base if base[0].isdigit() else base
     with outputs.Together() as files:
-        stem = os.path.splitext(os.path.basename(arguments.output))[0]
-        if arguments.in_place:  # other materials of the file have textures too
-            stem += "_" + re.sub(r"[^A-Za-z0-9_]+", "_", name).strip("_")
-        made = _layer_of(arguments, base, stem, inputs, warnings, files)
-        if arguments.in_place and os.path.exists(arguments.output):
-            made = _merged(arguments, made, base, name)
+        present = _present(arguments.output) if arguments.in_place and os.path.exists(arguments.output) else None
+        path = _path_in(present, base, name)
+        textures = _Textures(arguments, files, present, path, name, inputs)
+        made = _layer_of(arguments, base, textures, inputs, warnings)
+        if present:
+            made = _merged(arguments, made, base, present, path)
         _export(made, files.add(arguments.output, arguments.in_place, EXTENSIONS), arguments.output)
 
 
-def _layer_of(arguments, base, stem, inputs, warnings, files):
-    """:param stem: of the textures' names
-    :returns: an anonymous layer that holds the material alone, at /base; textures go to `files`"""
+def _present(output):
+    """:returns: the layer of OUT, which is there"""
+    from pxr import Sdf, Tf
+
+    from patina.stage import compat, errors
+
+    with compat.QuietDiagnostics() as quiet:
+        try:
+            layer, problem = Sdf.Layer.FindOrOpen(output), "it is no USD file"
+        except Tf.ErrorException as error:
+            layer, problem = None, errors.one_line(error)
+    if layer is None:
+        raise CommandError(f"{output} cannot be opened: {quiet.texts[0] if quiet.texts else problem}")
+    return layer
+
+
+def _path_in(layer, base, name):
+    """:param layer: of OUT, None for a new one
+    :returns: path of the material there"""
+    from pxr import Sdf
+
+    there = layer is not None and name.startswith("/") and Sdf.Path.IsValidPathString(name)
+    return Sdf.Path(name if there else f"/{base}")
+
+
+class _Textures:
+    """Names of textures, and the files that they are written to. Those of other materials of OUT stay."""
+
+    def __init__(self, arguments, files, layer, path, name, inputs):
+        """:param layer: of OUT where it is changed in place and there, else None
+        :param path: of the material in it; :param name: of the material where it is read"""
+        self._arguments, self._files, self._path = arguments, files, str(path)
+        self._readers = _readers(layer, path) if layer else {}
+        self.stem = os.path.splitext(os.path.basename(arguments.output))[0]
+        if arguments.in_place:  # other materials of the file have textures too
+            self.stem += "_" + re.sub(r"[^A-Za-z0-9_]+", "_", name).strip("_")
+            varying = [key for key, (_, value) in inputs.items() if isinstance(value, np.ndarray) and value.ndim == 3]
+            if any(self._others(key) for key in varying):  # of /a_b and /a/b, or of names that are not ASCII
+                self.stem += "_" + hashlib.sha256(name.encode()).hexdigest()[:8]
+
+    def name(self, key):
+        return f"{self.stem}_{key}.{self._arguments.format}"
+
+    def add(self, key):
+        """:returns: the path to write the texture of an input to
+        :raises CommandError: where another material, or this command from elsewhere, reads the file that it would replace"""
+        file, others = self._file(key), self._others(key)
+        if others:
+            raise CommandError(f"cannot write '{file}': {others[0]} of {self._arguments.output} reads it; rename the file "
+                               "that it reads")
+        return self._files.add(file, self._path in self._readers.get(os.path.realpath(file), ()))
+
+    def _file(self, key):
+        return os.path.join(os.path.dirname(self._arguments.output), self.name(key))
+
+    def _others(self, key):
+        """:returns: sorted paths of other materials of OUT that read the file"""
+        return sorted(self._readers.get(os.path.realpath(self._file(key)), set()) - {self._path})
+
+
+def _readers(layer, path):
+    """:param path: of the material that is replaced: what is below it is its own
+    :returns: dict of a file that the layer names -> paths of the materials that do, or of the prims where these are none"""
+    from pxr import Sdf
+
+    found, folder = {}, os.path.dirname(layer.realPath)
+
+    def visit(place):
+        attribute = layer.GetAttributeAtPath(place) if place.IsPropertyPath() else None
+        if not attribute:
+            return
+        values = [attribute.default, *(layer.QueryTimeSample(place, t) for t in layer.ListTimeSamplesForPath(place))]
+        for value in values:
+            assets = value if isinstance(value, Sdf.AssetPathArray) else [value]
+            for asset in (asset for asset in assets if isinstance(asset, Sdf.AssetPath) and asset.path):
+                file = os.path.realpath(os.path.join(folder, asset.path))
+                found.setdefault(file, set()).add(str(_material_of(layer, place.GetPrimPath(), path)))
+
+    layer.Traverse("/", visit)
+    return found
+
+
+def _material_of(layer, prim, path):
+    """:returns: path of the material that a prim is part of, else its own; without the variants that hold it"""
+    plain = prim.StripAllVariantSelections()
+    if plain.HasPrefix(path):
+        return path
+    while not prim.IsAbsoluteRootPath():
+        spec = layer.GetPrimAtPath(prim)
+        if spec and spec.typeName == "Material":
+            return prim.StripAllVariantSelections()
+        prim = prim.GetParentPath()
+    return plain
+
+
+def _layer_of(arguments, base, textures, inputs, warnings):
+    """:returns: an anonymous layer that holds the material alone, at /base; textures go to `textures`"""
     from pxr import Sdf, Usd, UsdShade
 
     layer = Sdf.Layer.CreateAnonymous("baked.usda")
@@ -45,7 +150,7 @@ def _layer_of(arguments, base, stem, inputs, warnings, files):
     for name in sorted(inputs):
         kind, value = inputs[name]
         if isinstance(value, np.ndarray) and value.ndim == 3:
-            file, space = _texture(arguments, stem, name, kind, value, warnings, files)
+            file, space = _texture(arguments, textures, name, kind, value, warnings)
             shader.texture(name, kind, file, space)
         elif name in NORMALS:
             shader.normal(name, value)
@@ -54,14 +159,10 @@ def _layer_of(arguments, base, stem, inputs, warnings, files):
     return layer
 
 
-def _merged(arguments, made, base, name):
-    """:returns: the layer of OUT with the material in the place of the one that was baked; not saved"""
+def _merged(arguments, made, base, layer, path):
+    """:returns: a copy of OUT's layer with the material in the place of the one that was baked; not saved"""
     from pxr import Sdf
 
-    layer = Sdf.Layer.FindOrOpen(arguments.output)
-    if layer is None:
-        raise CommandError(f"{arguments.output} cannot be read")
-    path = Sdf.Path(name) if Sdf.Path.IsValidPathString(name) and name.startswith("/") else Sdf.Path(f"/{base}")
     changed = Sdf.Layer.CreateAnonymous("merged" + os.path.splitext(arguments.output)[1])
     changed.TransferContent(layer)
     Sdf.CreatePrimInLayer(changed, path)
@@ -109,7 +210,7 @@ def _export(layer, temporary, output):
         raise CommandError(f"cannot write '{output}': {reason or (quiet.texts or ['no reason was given'])[0]}")
 
 
-def _texture(arguments, stem, name, kind, image, warnings, files):
+def _texture(arguments, textures, name, kind, image, warnings):
     """Writes an image. :returns: its file name beside the stage, and its colour space"""
     module = compiled.load()
     color = kind == "color3"
@@ -120,17 +221,15 @@ def _texture(arguments, stem, name, kind, image, warnings, files):
         pixels = np.repeat(pixels, 3, axis=2)
     png = arguments.format == "png"
     if png and (pixels.max() > 1.0 + 1e-4 or pixels.min() < -1e-4):
-        warnings.append({"prim": stem, "input": name, "count": 1,
+        warnings.append({"prim": textures.stem, "input": name, "count": 1,
                          "message": "numbers outside 0 to 1 are cut off in PNG (take --format exr)"})
     if png and color:
         pixels = np.where(pixels <= 0.0031308, 12.92 * pixels,
                           1.055 * np.power(np.maximum(pixels, 0.0031308), 1 / 2.4) - 0.055)
-    file = f"{stem}_{name}.{arguments.format}"
-    path = os.path.join(os.path.dirname(arguments.output), file)
     # sRGB is applied above, so that no display transform stands between a colour and its file.
     options = {"raw": True, "bits": 16 if name in NORMALS else 8} if png else {"half": True}
-    module.write_image(files.add(path, arguments.in_place), np.ascontiguousarray(pixels, np.float32), options=options)
-    return file, "sRGB" if png and color else "raw"
+    module.write_image(textures.add(name), np.ascontiguousarray(pixels, np.float32), options=options)
+    return textures.name(name), "sRGB" if png and color else "raw"
 
 
 def _sdf(kind):

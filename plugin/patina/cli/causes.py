@@ -17,6 +17,7 @@ MAX_CAUSES = 20  # causes on the terminal; all of them are in --json
 SEVERITIES = ("error", "warning")
 
 _LOOKED_AT = 2000  # characters of a message: names in it may have a million, and patterns try each place
+_SHOWN = 2000      # characters of a line on the terminal; --json has all
 
 # Words of messages where something is missing.
 _MISSING = re.compile(
@@ -120,14 +121,20 @@ def plain(markdown):
 
 def printable(text):
     """:returns: text that stays in its line: names of a document may hold line breaks and a terminal's commands"""
-    text = re.sub(r"\s*[\r\n]+\s*", " ", text)
+    # A match begins where blanks begin: with each place inside a run looked at, its length would count squared.
+    text = re.sub(r"(?<!\s)\s*[\r\n]+\s*", " ", text)
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
+def _cut(text):
+    """:returns: text without the middle of a long one: its ends say where it is met and what follows"""
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN // 2]} ... {text[-_SHOWN // 2:]}"
 
 
 def line(group, json=True):
     """:returns: a group as one line"""
     where = group["prim"] + ("." + group["input"] if group["input"] else "")
-    text = printable(f"{group['severity']}: " + (where + ": " if where else "") + group["message"])
+    text = printable(_cut(f"{group['severity']}: " + (where + ": " if where else "") + group["message"]))
     if group.get("alike", 1) > 1:
         return f"{text} (and {group['alike'] - 1} causes like it: {group['count']} times{', all in --json' if json else ''})"
     if group["count"] == 1:

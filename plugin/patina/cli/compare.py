@@ -82,11 +82,13 @@ def _metric(result, name):
     if name in ("nan", "inf"):
         return float(result["notFinite"]["a"][name])
     value = result[name]
-    if value is None:
-        raise CommandError(f"{name} could not be measured" +
-                           (f": {imageMetrics.flip_missing() or 'the reference is black'}" if name == "flip"
-                            else ": no pixel is a number"))
-    return value
+    if value is not None:
+        return value
+    if result["rmse"] is None:
+        raise CommandError(f"{name} could not be measured: no pixel is a number in both images")
+    if imageMetrics.flip_missing():
+        raise CommandError(f"{name} could not be measured: {imageMetrics.flip_missing()}")
+    raise CommandError(f"{name} could not be measured: the reference is black")
 
 
 def _is_linear(path):

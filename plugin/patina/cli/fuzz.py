@@ -12,9 +12,11 @@ made smaller and saved; --keep turns one into a test that runs it again.
 
 Exit status: 0 nothing was found, 1 there are findings, 2 wrong usage.
 """
+import functools
 import os
 import sys
 
+from patina.cli import outputs
 from patina.cli.errors import CommandError, UsageError
 
 
@@ -29,7 +31,8 @@ def add_arguments(parser):
     parser.add_argument("--findings", metavar="FOLDER", default="patinaFindings",
                         help="where findings are saved (default: patinaFindings)")
     parser.add_argument("--build", metavar="FOLDER", help="the instrumented build (default: build-fuzz in the checkout)")
-    parser.add_argument("--json", metavar="FILE", help="write the figures of the run")
+    parser.add_argument("--json", metavar="FILE", help="write the figures of the run as JSON: --json to standard output, "
+                                                       "--json=FILE to a file")
     parser.add_argument("--results", nargs="?", const="", metavar="FILE",
                         help="add the figures to this table (default: testenv/fuzz/results.json, of which "
                              "docs/trust.md is made)")
@@ -61,13 +64,26 @@ def run(arguments):
     wrong = fuzzRun.unknown(arguments.names)
     if wrong:
         raise UsageError(f"patina fuzz: there is no fuzzer '{wrong[0]}' (there are: {', '.join(fuzzRun.FUZZERS)})")
-    results = fuzzRun.run(arguments.names, arguments.seconds, arguments.seed, arguments.corpus, arguments.findings,
-                          os.path.abspath(arguments.build or os.path.join(root, "build-fuzz")))
-    if arguments.json:
-        fuzzRun.write(results, arguments.json, {"seed": arguments.seed})
-    if arguments.results is not None:
-        import results as table
+    import results as table
 
-        table.append([table.row(name, arguments.seed, found) for name, found in results.items()],
-                     arguments.results or table.FILE)
+    file = None if arguments.results is None else arguments.results or table.FILE
+    # Before the run, which takes hours.
+    outputs.check_all([arguments.json, file])
+    if file:
+        _of_table(table.read, file)
+    say = functools.partial(print, file=sys.stderr) if arguments.json == "-" else print
+    results = fuzzRun.run(arguments.names, arguments.seconds, arguments.seed, arguments.corpus, arguments.findings,
+                          os.path.abspath(arguments.build or os.path.join(root, "build-fuzz")), say)
+    try:
+        outputs.write_json(arguments.json, {"seed": arguments.seed, "fuzzers": fuzzRun.figures(results)})
+    finally:  # one that can no longer be written does not lose the other
+        if file:
+            _of_table(table.append, [table.row(name, arguments.seed, found) for name, found in results.items()], file)
     return 1 if any(found["findings"] for found in results.values()) else 0
+
+
+def _of_table(function, *arguments):
+    try:
+        return function(*arguments)
+    except (OSError, ValueError) as error:
+        raise CommandError(f"--results: {error}") from error

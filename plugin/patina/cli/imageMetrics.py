@@ -53,13 +53,14 @@ def mean_flip(a, b, high_dynamic_range):
     """Mean of the FLIP error map, by NVIDIA's own implementation (Andersson et al. 2020, 2021).
 
     :param high_dynamic_range: linear radiance rather than display values in [0, 1]
-    :returns: the mean, 0..1; None where flip-evaluator is not installed, and beside a linear reference that is black
+    :returns: the mean, 0..1; None where flip-evaluator is not installed, where no pixel is a number in both, and beside a
+        linear reference that is black
     """
     if flip_missing():
         return None
-    import flip_evaluator
-
     mask = finite_pixels(a, b)[..., None]
+    if not mask.any():  # black images would stand for both, and these are equal
+        return None
     test, reference = (np.ascontiguousarray(np.where(mask, image, 0.0), dtype=np.float32) for image in (a, b))
     if high_dynamic_range:
         test, reference = np.maximum(test, 0.0), np.maximum(reference, 0.0)
@@ -67,6 +68,8 @@ def mean_flip(a, b, high_dynamic_range):
         test, reference = np.clip(test, 0.0, 1.0), np.clip(reference, 0.0, 1.0)
     if high_dynamic_range and not (reference > 0.0).any():  # its exposures come from the reference's luminance
         return 0.0 if np.array_equal(test, reference) else None
+    import flip_evaluator
+
     _, mean, _ = flip_evaluator.evaluate(reference, test, "HDR" if high_dynamic_range else "LDR",
                                          applyMagma=False)
     return float(mean)

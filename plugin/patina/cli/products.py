@@ -5,7 +5,7 @@ Names of products may hold places for the frame.
 """
 from collections import OrderedDict
 
-from patina.cli import frames, recordFlags, rows, shot
+from patina.cli import frames, recordFlags, rows, settingFlags, shot
 from patina.cli.errors import CommandError
 
 _AOV_NAMES = {"Ci": "color", "beauty": "color", "C.*": "color", "a": "alpha", "z": "depth", "N": "normal", "P": "position"}
@@ -75,7 +75,7 @@ def _shot(prim, product, arguments, time, decimals):
 
 def _size(prim, product, arguments):
     """:returns: width and height: what one flag leaves open follows from the other and the prim's shape"""
-    width, height = (max(1, int(n)) for n in prim.value(product, "resolution") or (2048, 1080))
+    width, height = (max(1, int(n)) for n in prim.numbers(product, "resolution", 2) or (2048, 1080))
     if arguments.imageWidth and arguments.imageHeight:
         return arguments.imageWidth, arguments.imageHeight
     if arguments.imageWidth:
@@ -89,26 +89,34 @@ def _render_settings(prim, product, arguments, size):
     """:returns: dict of render settings that the product decides"""
     settings = dict(prim.extra)
     if "pixelAspectRatio" not in prim.given:
-        ratio = prim.value(product, "pixelAspectRatio")
-        if ratio and ratio > 0.0:
-            settings["pixelAspectRatio"] = float(ratio)
+        _set_pixel_aspect_ratio(prim, product, settings)
     if prim.authored(product, "aspectRatioConformPolicy"):
         settings["aspectRatioConformPolicy"] = str(prim.value(product, "aspectRatioConformPolicy"))
     if prim.value(product, "disableMotionBlur") or prim.value(product, "instantaneousShutter"):
         settings["enableMotionBlur"] = False
     if prim.value(product, "disableDepthOfField"):
         settings["enableDepthOfField"] = False
-    window = prim.value(product, "dataWindowNDC")
-    if arguments.dataWindow is None and window is not None and tuple(window) != (0.0, 0.0, 1.0, 1.0):
-        # y up; pixels whose centres lie inside belong to it.
-        (x0, y0, x1, y1), (width, height) = window, size
-        settings["dataWindow"] = [max(0, round(x0 * width)), max(0, round((1.0 - y1) * height)),
-                                  min(width, round(x1 * width)) - 1, min(height, round((1.0 - y0) * height)) - 1]
+    window = prim.numbers(product, "dataWindowNDC", 4) if arguments.dataWindow is None else None
+    if window is not None and window != [0.0, 0.0, 1.0, 1.0]:
+        # y up; pixels whose centres lie inside belong to it. Cut first: products of huge numbers overflow.
+        (x0, y0, x1, y1), (width, height) = (min(1.0, max(0.0, n)) for n in window), size
+        settings["dataWindow"] = [round(x0 * width), round((1.0 - y1) * height),
+                                  round(x1 * width) - 1, round((1.0 - y0) * height) - 1]
         if settings["dataWindow"][2] < settings["dataWindow"][0] or settings["dataWindow"][3] < settings["dataWindow"][1]:
             where = product.GetPath() if product else prim.path
             prim.warn(where, "dataWindowNDC", "holds no pixel; the whole image is rendered")
             del settings["dataWindow"]
     return settings
+
+
+def _set_pixel_aspect_ratio(prim, product, settings):
+    least, most = settingFlags.table()["pixelAspectRatio"].words["flagRange"]
+    found = prim.numbers(product, "pixelAspectRatio", 1)
+    if found and least <= found[0] <= most:
+        settings["pixelAspectRatio"] = found[0]
+    elif found:
+        prim.warn(prim.where(product, "pixelAspectRatio"), "pixelAspectRatio",
+                  f"{found[0]:g} is not allowed, it is not from {least:g} to {most:g}; square pixels are used")
 
 
 def _aovs(prim, product):

@@ -3,6 +3,7 @@
 products with their AOVs (products.py), and render settings by the names `patina:NAME`. Flags that are given are stronger.
 """
 import argparse
+import math
 
 from patina.cli import settingFlags
 from patina.cli.errors import CommandError
@@ -48,16 +49,52 @@ class SettingsPrim:
         from pxr import Usd
 
         time = Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)
-        for prim in filter(None, (product, self.prim)):
-            attribute = prim.GetAttribute(name)
-            if attribute and attribute.HasAuthoredValue():
-                return attribute.Get(time)
-        attribute = self.prim.GetAttribute(name)
+        attribute = (self._authoring(product, name) or self.prim).GetAttribute(name)
         return attribute.Get(time) if attribute else None
 
     def authored(self, product, name):
-        return any(prim and prim.GetAttribute(name) and prim.GetAttribute(name).HasAuthoredValue()
-                   for prim in (product, self.prim))
+        return self._authoring(product, name) is not None
+
+    def _authoring(self, product, name):
+        """:returns: the prim whose value of an attribute counts, or None"""
+        for prim in filter(None, (product, self.prim)):
+            if prim.GetAttribute(name) and prim.GetAttribute(name).HasAuthoredValue():
+                return prim
+        return None
+
+    def where(self, product, name):
+        """:returns: path of the prim whose value of an attribute counts"""
+        return str((self._authoring(product, name) or self.prim).GetPath())
+
+    def numbers(self, product, name, count):
+        """:returns: list of numbers; None where there is no value, and after a warning where it is anything else"""
+        value = self.value(product, name)
+        if value is None:
+            return None
+        try:
+            # A text may read as a number, and is a sequence of texts itself.
+            found = [math.nan if isinstance(x, str) else float(x) for x in ([value] if count == 1 else value)]
+        except (TypeError, ValueError):
+            found = []
+        if len(found) == count and all(map(math.isfinite, found)):
+            return found
+        if count == 1:
+            self.warn(self.where(product, name), name, "is no finite number; it is left out")
+        else:
+            self.warn(self.where(product, name), name, f"is not {count} finite numbers; it is left out")
+        return None
+
+    def purposes(self, name):
+        """:returns: list of tokens; None where none are authored, and after a warning where the value is anything else"""
+        attribute = self.prim.GetAttribute(name)
+        value = attribute.Get() if attribute and attribute.HasAuthoredValue() else None
+        if value is None:
+            return None
+        found = None if isinstance(value, str) or not hasattr(value, "__iter__") else list(value)
+        if found is None or not all(isinstance(purpose, str) for purpose in found):
+            self.warn(self.path, name, "is no list of purposes; it is left out")
+            return None
+        return found
 
     def target(self, product, name):
         """:returns: path of a relationship's first target, or None"""
@@ -95,20 +132,19 @@ def applied(arguments, prim):
 
 
 def _purposes(merged, prim):
-    included = prim.prim.GetAttribute("includedPurposes")
-    if "purposes" in prim.given or not included or not included.HasAuthoredValue():
+    included = None if "purposes" in prim.given else prim.purposes("includedPurposes")
+    if included is None:
         return
-    known = [purpose for purpose in included.Get() if purpose in ("default", "render", "proxy", "guide")]
-    for purpose in included.Get():
+    known = [purpose for purpose in included if purpose in ("default", "render", "proxy", "guide")]
+    for purpose in included:
         if purpose not in known:
             prim.warn(prim.path, "includedPurposes", f"there is no purpose '{purpose}'; it is left out")
     merged.purposes = ",".join(known) or "none"
 
 
 def _material_purpose(prim):
-    attribute = prim.prim.GetAttribute("materialBindingPurposes")
-    authored = attribute.Get() if attribute and attribute.HasAuthoredValue() else ["full"]
-    wanted = [purpose for purpose in authored or [] if purpose]
+    authored = prim.purposes("materialBindingPurposes")
+    wanted = ["full"] if authored is None else [purpose for purpose in authored if purpose]
     if len(wanted) > 1:
         prim.warn(prim.path, "materialBindingPurposes", f"only bindings for '{wanted[0]}' and for all purposes are used")
     return wanted[0] if wanted else ""

@@ -10,7 +10,7 @@ import uuid
 from patina.cli import outputs
 from patina.cli.errors import CommandError, TemporaryError
 from patina.cli.progress import Progress
-from patina.farm import engines, identity, partial, sender, simulation, work, worker
+from patina.farm import engines, identity, owner, partial, sender, simulation, work, worker
 
 FIRST_WORKER_SECONDS = 600  # a queue may be full
 LOOK_SECONDS = 2  # so often it is looked whether the queue has refused
@@ -33,7 +33,8 @@ class Job:
         folders = sorted({os.path.dirname(os.path.abspath(frame.image)) for frame in self.frames})
         for frame in self.frames:
             frame.check(files)
-        self.checks = (uuid.uuid4().hex, files, folders, machine, os.getcwd())
+        self.name = uuid.uuid4().hex
+        self.checks = (self.name, files, folders, machine, os.getcwd())
         self.progress = Progress("farm", arguments.quiet)
 
     def _frame_flags(self, time_code):
@@ -48,6 +49,8 @@ class Job:
         if not waiting:
             self.progress.say("all images are there")
             return
+        for frame in frames:
+            owner.check(frame.folder, self.name)  # early: workers may be long in coming
         try:
             one, seconds, cost = self._on_workers(frames, waiting, counts)
         finally:
@@ -94,9 +97,10 @@ class Job:
     def _prepare(self, frames):
         """Begins to write: there is a worker that can take a part."""
         for frame in frames:
-            if not self.arguments.resume:
+            frame.prepare(self.name)
+        if not self.arguments.resume:
+            for frame in frames:
                 frame.forget()
-            frame.prepare()
 
     def _wanted(self):
         """:returns: dict of the flags that parts of an earlier job must have been made with"""

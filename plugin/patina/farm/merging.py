@@ -3,9 +3,10 @@
 import argparse
 import json
 
-from patina.cli import denoiser, statistics
+from patina.cli import denoiser, planText, statistics
 from patina.cli.errors import CommandError
 from patina.farm import partial
+
 
 def merge(module, parts, image, threads=0):
     """Merges all parts and writes the image.
@@ -13,20 +14,26 @@ def merge(module, parts, image, threads=0):
     :param parts: parts.Parts without missing ones
     :returns: statistics.Statistics of the frame
     :raises CommandError: where a file is damaged or the image cannot be written"""
+    try:
+        return _merge(module, parts, image, threads)
+    except partial.FOREIGN as error:
+        raise partial.foreign(parts.first.file) from error
+
+
+def _merge(module, parts, image, threads):
     first = parts.first
     arguments = argparse.Namespace(**first.arguments)
     arguments.image, arguments.threads, arguments.denoise = image, threads, first.denoise
     if arguments.denoise:
         denoiser.prepare(module)
-    film, reports = module.Film(), []
-    try:
-        for description in parts.in_order():
-            report = module.merge_partial(film, description.file, description.noise, first.settings["minSamples"])
-            reports.append(json.loads(report))
-    except RuntimeError as error:
-        raise CommandError(str(error)) from error
-    except (KeyError, TypeError, ValueError) as error:
-        raise CommandError(f"{description.file} is of another version of Patina") from error
+    film, reports, least = module.Film(), [], int(first.settings["minSamples"])
+    for description in parts.in_order():
+        try:
+            reports.append(_report(module.merge_partial(film, description.file, description.noise, least)))
+        except RuntimeError as error:
+            raise CommandError(str(error)) from error
+        except partial.FOREIGN as error:
+            raise partial.foreign(description.file) from error
     merged = _MergedStatistics(arguments, first.frame, image, reports)
     merged.rendered(_state(reports), film)
     if arguments.denoise:
@@ -38,6 +45,22 @@ def merge(module, parts, image, threads=0):
         raise CommandError(str(error)) from error
     merged.end_frame()
     return merged
+
+
+def _report(text):
+    """Looks at all that is used after the image is written, too: it is then too late to refuse a part.
+
+    :returns: the report of a part
+    :raises Exception: one of partial.FOREIGN, where it is none"""
+    report = json.loads(text)
+    warnings = [(one["prim"], one["input"], one["message"], one["count"]) for one in report["warnings"]]
+    texts = [report["backend"], *(text for *words, _ in warnings for text in words)]
+    numbers = [report["seconds"]["render"], *report["seconds"].values(), *report["statistics"].values(),
+               *(count for *_, count in warnings)]
+    if not (all(isinstance(text, str) for text in texts) and all(isinstance(number, (int, float)) for number in numbers)):
+        raise TypeError
+    planText.of_scene(report["plans"], report["sceneChoices"])
+    return report
 
 
 def _state(reports):

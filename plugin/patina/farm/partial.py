@@ -1,12 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """The files of parts: a description of what made them, films, and a report of the render."""
 import json
+import math
 import os
 
 from patina.cli.errors import CommandError
 from patina.farm import cut
 
 COUNTED = ("rays", "shadowRays", "paths", "droppedSamples")  # statistics of which parts have shares
+MOST_DECIMALS = 100  # of a frame's number
+# What a file leads to that others made: its checksum may be right, and its values those of nobody's render.
+FOREIGN = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
+
+
+def foreign(file):
+    """:returns: the error that ends a command which has read such a file"""
+    return CommandError(f"{file} is of another version of Patina")
+
 
 class Description:
     """The header of a part's file."""
@@ -21,13 +31,20 @@ class Description:
             self.frame, self.camera, self.settings = values["frame"], values["camera"], values["settings"]
             self.noise = float(values["noiseTolerance"])
             self.folder, self.home = values["folder"], values["home"]
-            self.denoise, self.decimals = values["denoise"], int(values["decimals"])
+            self.denoise, self.decimals = values["denoise"], values["decimals"]
             for table in (self.identity, self.identity["files"], self.arguments, self.options, self.settings):
                 table.items()
-            for text in (self.folder, self.home):
-                os.fsencode(text)
-        except (AttributeError, KeyError, OverflowError, TypeError, ValueError):
-            raise CommandError(f"{file} is of another version of Patina") from None
+            for name in (self.folder, self.home, self.arguments["stage"], *self.identity["files"]):
+                os.fsencode(name)
+                if "\0" in name:
+                    raise ValueError
+            for value, kind in ((self.camera, str), (self.denoise, bool), (self.decimals, int)):
+                if type(value) is not kind:
+                    raise TypeError
+            if not (self.frame is None or math.isfinite(self.frame)) or not 0 <= self.decimals <= MOST_DECIMALS:
+                raise ValueError
+        except FOREIGN:
+            raise foreign(file) from None
 
 
 def describe(part, samples, identity, arguments, options, frame, camera, settings, noise, **more):
@@ -55,10 +72,10 @@ def read(module, file):
     """:raises CommandError: where the file holds no part"""
     try:
         values = json.loads(module.partial_description(file))
+    except (RecursionError, ValueError):
+        raise foreign(file) from None
     except RuntimeError as error:
         raise CommandError(str(error)) from error
-    except ValueError:
-        raise CommandError(f"{file} is of another version of Patina") from None
     return Description(file, values)
 
 

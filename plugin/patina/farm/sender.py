@@ -124,10 +124,8 @@ class Sender:
     def _failure(self, task, error):
         """:returns: the task, where it is tried again"""
         kind = type(error).__name__
-        if kind == "PartFailed":
-            reason, address, task.passing = error.args
-        elif kind == "Refused":
-            (reason, address), task.passing = error.args, False
+        if kind in ("PartFailed", "Refused"):  # a worker of another version may tell less
+            reason, address, task.passing = (*(error.args or [_words(error)]), "", False)[:3]
         else:  # Dask tells of workers that went away
             reason, address, task.passing = _words(error), _last_worker(error), kind == "KilledWorker" or is_temporary(error)
         if kind == "Refused":

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from patina.cli import checkpoints
 from patina.cli.errors import CommandError
-from patina.farm import cut, identity, partial
+from patina.farm import cut, identity, owner, partial
 
 TRIES = 4  # of a part: the first, and three more, on other workers where there are any
 LOSSES = 16  # times that Dask gives a part up because its workers died (four of them): parts run beside workers and end none
@@ -58,6 +58,7 @@ class Frame:
     flags: list  # that choose the frame
     merge_flags: list = field(default_factory=list)
     left: int = 0  # parts that are not there
+    job: str = ""  # that the folder of the parts belongs to, while it does
 
     @property
     def folder(self):
@@ -69,11 +70,17 @@ class Frame:
     def part_file(self, part):
         return os.path.join(self.folder, f"{part.number}.part")
 
-    def prepare(self):
+    def prepare(self, job):
+        """Makes the folder of the parts, which belongs to a job from now on.
+
+        :param job: its name
+        :raises CommandError: where it belongs to another that may be running, or cannot be made"""
         try:
             os.makedirs(self.folder, exist_ok=True)
         except OSError as error:
             raise CommandError(f"cannot make the folder {self.folder}: {error.strerror}") from error
+        owner.take(self.folder, job)
+        self.job = job
 
     def tasks(self, there):
         """:param there: numbers of parts whose files are there
@@ -99,7 +106,10 @@ class Frame:
         return any(os.path.isfile(file) and os.stat(file).st_mtime >= since for file in files)
 
     def leave(self):
-        """Removes the folder where nothing is in it."""
+        """Gives the folder back, and removes it where nothing is in it."""
+        if self.job:
+            owner.release(self.folder, self.job)
+            self.job = ""
         with contextlib.suppress(OSError):
             os.rmdir(self.folder)
 
@@ -110,7 +120,6 @@ class Frame:
                 if _OWN.fullmatch(name):
                     with contextlib.suppress(OSError):
                         os.remove(os.path.join(self.folder, name))
-        self.leave()
 
     def check(self, files):
         """:param files: that the render reads

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The work of a farm's worker. Everything goes through paths that the worker shares with the sender."""
+import contextlib
 import os
 import socket
 import subprocess
@@ -7,7 +8,7 @@ import sys
 import time
 
 from patina.cli import interrupts
-from patina.cli.errors import TEMPORARY
+from patina.cli.errors import TEMPORARY, is_temporary
 
 _SIGKILL = 9  # by which the kernel ends what takes too much memory
 # Statuses of commands that may do it when they are run again.
@@ -64,7 +65,7 @@ def _new(path):
             os.remove(path)
         return open(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666), "wb")
     except OSError as error:
-        raise PartFailed(f"cannot write {path}: {error.strerror}") from error
+        raise PartFailed(f"cannot write {path}: {error.strerror}", place()[2], is_temporary(error)) from error
 
 
 def run(arguments, folder, log, checks, variables=None):
@@ -89,9 +90,11 @@ def run(arguments, folder, log, checks, variables=None):
         status = subprocess.call(command, stdin=subprocess.DEVNULL, stdout=file, stderr=file, cwd=folder, env=environment)
     if status != 0:
         kept = f"{log[:-len('.log')]}.{time.strftime('%Y%m%d-%H%M%S')}.{os.getpid()}.failed.log"
-        os.replace(log, kept)
+        with contextlib.suppress(OSError):  # the reason counts, with its log or without
+            os.replace(log, kept)
         raise PartFailed(f"{_reason(kept, status)} (on {name}, see {kept})", address, status in PASSING)
-    os.remove(log)
+    with contextlib.suppress(OSError):  # what was asked for is done, whatever became of its log
+        os.remove(log)
     return {"worker": name, "host": host, "address": address, "seconds": time.perf_counter() - begin}
 
 
@@ -105,7 +108,8 @@ def words(problems):
 
 
 def _reason(log, status):
-    with open(log, encoding="utf-8", errors="replace") as file:
+    lines = []
+    with contextlib.suppress(OSError), open(log, encoding="utf-8", errors="replace") as file:
         lines = [line.strip() for line in file.read().splitlines() if line.strip()]
     if status < 0:
         return f"killed by signal {-status}"

@@ -79,7 +79,7 @@ class _Writer:
             if key in node["connections"] or key in unknown:
                 continue
             kind = types.get(key, value["type"])
-            attributes = {"name": words.get(key, key), "type": kind, "value": text_of(value["value"], kind)}
+            attributes = {"name": _clean(words.get(key, key)), "type": kind, "value": text_of(value["value"], kind)}
             if value["color_space"]:
                 attributes["colorspace"] = _clean(value["color_space"])
             tree.SubElement(element, "input", attributes)
@@ -96,10 +96,10 @@ class _Writer:
         found = dict(outputs).get(output, outputs[0][1])
         place = {"nodename": self._names[source]}
         if len(outputs) > 1:
-            place["output"] = output or outputs[0][0]
+            place["output"] = _clean(output or outputs[0][0])
         if kind and found != kind:
             place = self._convert(place, found, kind, key)
-        tree.SubElement(element, "input", {"name": key, "type": kind or found, **place})
+        tree.SubElement(element, "input", {"name": _clean(key), "type": kind or found, **place})
 
     def _convert(self, place, found, kind, key):
         if (found, kind) not in standardNames.CONVERTED:

@@ -7,6 +7,8 @@ import re
 LANGUAGES = {"osl": ("PyMaterialXGenOsl", "OslShaderGenerator"), "mdl": ("PyMaterialXGenMdl", "MdlShaderGenerator"),
              "msl": ("PyMaterialXGenMsl", "MslShaderGenerator")}
 UNSAFE = re.compile(r"[\x00-\x1f\x7f\"\\]")  # ends a string literal of some language
+COLOR_SPACE = re.compile(r"[A-Za-z0-9_ .:/()+-]*")  # names of colour spaces
+NOT_OF_A_WORD = re.compile(r"[^\w:]")  # ends a name in code, which msl makes of a primvar's
 
 
 class NotGenerated(RuntimeError):
@@ -72,18 +74,35 @@ def generate(text, language):
 
 def harmless(text, warnings):
     """
-    :returns: a document whose values cannot end a string literal of the language that they come to stand in
+    :returns: a document whose texts cannot end the string literal, or the word, that the generators make of them as they are
     """
     import xml.etree.ElementTree as tree
 
     root = tree.fromstring(text)
-    for element in root.iter("input"):
-        value = element.get("value", "")
-        if UNSAFE.search(value):
-            element.set("value", UNSAFE.sub("_", value))
-            warnings.append({"prim": "", "input": element.get("name", ""), "count": 1, "message":
-                             "a text has quotes, backslashes or control characters; they are written as _"})
+    parents = {child: parent for parent in root.iter() for child in parent}
+    for element in root.iter():
+        for key, value in list(element.items()):
+            safe, message = _harmless(element, key, value)
+            if safe is None:
+                del element.attrib[key]
+            else:
+                element.set(key, safe)
+            if message:
+                node = parents.get(element, root)
+                warnings.append({"prim": UNSAFE.sub("_", node.get("name", "")), "count": 1, "message": message,
+                                 "input": UNSAFE.sub("_", element.get("name", ""))})
     return '<?xml version="1.0"?>\n' + tree.tostring(root, encoding="unicode") + "\n"
+
+
+def _harmless(element, key, value):
+    """:returns: what an attribute is written as, None to leave it out, and the message about it ('' for none)"""
+    if key == "colorspace" and not COLOR_SPACE.fullmatch(value):
+        return None, "the colour space has characters that no such name has; it is left out"
+    if key == "value" and element.get("name") == "geomprop" and NOT_OF_A_WORD.search(value):
+        return NOT_OF_A_WORD.sub("_", value), "the primvar's name has more than letters, digits, _ and :; it is written with _"
+    if UNSAFE.search(value):
+        return UNSAFE.sub("_", value), "a text has quotes, backslashes or control characters; they are written as _"
+    return value, ""
 
 
 def _core():

@@ -4,12 +4,12 @@ import functools
 import math
 
 import numpy as np
-from pxr import Gf, UsdGeom, UsdRender, UsdUtils
+from pxr import Gf, Tf, UsdGeom, UsdRender, UsdUtils
 
 from . import assets, compat
-from .context import array, get, number
-from .errors import StageError
-from .transforms import transform_of
+from .context import array, get, number, shown
+from .errors import StageError, one_line
+from .transforms import matrix_at, transform_of
 
 FRAMING = "/patinaFramingCamera"
 _FIELDS = {  # name on the stage -> (name in the scene, fallback)
@@ -101,7 +101,7 @@ def emit(context, found):
         transform = np.eye(4)
     projection = get(prim, "projection", time, "perspective")
     if projection not in ("perspective", "orthographic"):
-        context.warn(prim.GetPath(), "projection", f"'{projection}' is not known; perspective is used")
+        context.warn(prim.GetPath(), "projection", f"'{shown(projection)}' is not known; perspective is used")
     context.edit.set_camera(
         found.path, transform=transform,
         orthographic=projection == "orthographic",
@@ -116,29 +116,49 @@ def _bounds(context, gprims):
     are computed anew"""
     box = _authored_bounds(context, gprims)
     for prim, points in context.skinned:
-        world = np.array(context.xform_cache().GetLocalToWorldTransform(prim))
-        placed = points @ world[:3, :3] + world[3, :3]
-        own = Gf.Range3d(Gf.Vec3d(*map(float, placed.min(axis=0))), Gf.Vec3d(*map(float, placed.max(axis=0))))
-        if _is_usable(own):
-            box.UnionWith(own)
+        _unite(context, box, prim, lambda world, points=points: _range_of(points, np.array(world)))
     return box
+
+
+def _range_of(points, world):
+    placed = points @ world[:3, :3] + world[3, :3]
+    return Gf.Range3d(Gf.Vec3d(*map(float, placed.min(axis=0))), Gf.Vec3d(*map(float, placed.max(axis=0))))
 
 
 def _authored_bounds(context, gprims):
     if not context.cyclic:
         cache = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)
-        box = cache.ComputeWorldBound(context.stage.GetPseudoRoot()).ComputeAlignedRange()
+        try:
+            box = cache.ComputeWorldBound(context.stage.GetPseudoRoot()).ComputeAlignedRange()
+        except Tf.ErrorException:
+            box = Gf.Range3d()  # one broken prim is enough for that; each is asked for its own
         if _is_usable(box):
             return box
     box = Gf.Range3d()
     for found in gprims:
-        extent = UsdGeom.Boundable.ComputeExtentFromPlugins(UsdGeom.Boundable(found.prim), context.time)
-        if extent and not found.state.group.name:
-            world = context.xform_cache().GetLocalToWorldTransform(found.prim)
-            own = Gf.BBox3d(Gf.Range3d(Gf.Vec3d(extent[0]), Gf.Vec3d(extent[1])), world).ComputeAlignedRange()
-            if _is_usable(own):
-                box.UnionWith(own)
+        if not found.state.group.name:
+            _unite(context, box, found.prim, lambda world, prim=found.prim: _extent_of(context, prim, world))
     return box
+
+
+def _extent_of(context, prim, world):
+    extent = UsdGeom.Boundable.ComputeExtentFromPlugins(UsdGeom.Boundable(prim), context.time)
+    if not extent:
+        return Gf.Range3d()
+    return Gf.BBox3d(Gf.Range3d(Gf.Vec3d(extent[0]), Gf.Vec3d(extent[1])), world).ComputeAlignedRange()
+
+
+def _unite(context, box, prim, range_in):
+    """Adds the range of one prim to a box; a prim that has none is left out of it.
+
+    :param range_in: a function of the prim's matrix that gives it"""
+    try:
+        own = range_in(matrix_at(context, prim, None, 0.0))
+    except (Tf.ErrorException, TypeError, ValueError) as error:
+        context.warn(prim.GetPath(), "extent", f"cannot be read; the framing camera looks past it: {one_line(error)[:300]}")
+        return
+    if _is_usable(own):
+        box.UnionWith(own)
 
 
 def _is_usable(box):

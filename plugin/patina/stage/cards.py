@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from . import assets
-from .context import get
+from .context import get, shown
 
 # face -> axis across, direction of its outside, axes to the right and up as seen from outside (with
 # sign), so that pictures taken along the axes fit
@@ -53,7 +53,8 @@ def emit(context, found, low, high, common, color, module):
     prim = found.prim
     geometry = get(prim, "model:cardGeometry", context.time, "cross")
     if geometry not in ("cross", "box"):
-        context.warn(prim.GetPath(), "model:cardGeometry", f"'{geometry}' is not drawn; a cross is shown instead")
+        context.warn(prim.GetPath(), "model:cardGeometry",
+                     f"'{shown(geometry)}' is not drawn; a cross is shown instead")
     for face, file in faces_of(context, prim).items():
         path = f"{found.path}/card{face}"
         context.edit.set_mesh(

@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """The colour space of an attribute: its own, else that of the nearest prim above with a ColorSpaceAPI."""
+import numpy as np
 from pxr import Sdf
 
 _COLORS = ("color3f", "color3h", "color3d", "color4f", "color4h", "color4d")
 # Of ColorSpaceDefinitionAPI, with its fallbacks.
 _DEFINITION = (("redChroma", (1.0, 0.0)), ("greenChroma", (0.0, 1.0)), ("blueChroma", (0.0, 0.0)),
-               ("whitePoint", (1.0 / 3.0, 1.0 / 3.0)), ("gamma", 1.0), ("linearBias", 0.0))
+               ("whitePoint", (1.0 / 3.0, 1.0 / 3.0)), ("gamma", (1.0,)), ("linearBias", (0.0,)))
 _DEFINED = "ColorSpaceDefinitionAPI:"
 
 
 class ColorSpaces:
     """Remembers what the prims that it has met say."""
 
-    def __init__(self):
+    def __init__(self, edit):
+        """:param edit: that is warned; not the context, which would hold itself and with that the stage"""
+        self._edit = edit
         self._met = {}  # path -> (name that holds here or '', {name: what the stage defines it as})
 
     def space_of(self, attribute, reads_colors=False):
@@ -35,30 +38,47 @@ class ColorSpaces:
         said = self._met.get(prim.GetPath(), ("", {}))
         for prim in reversed(new):
             if prim.HasAuthoredMetadata("apiSchemas"):
-                said = _read(prim, *said)
+                said = self._read(prim, *said)
             self._met[prim.GetPath()] = said
         return said
 
+    def _read(self, prim, name, defined):
+        # As authored too: releases before 25.02 do not know the schemas of colour spaces.
+        schemas = list(prim.GetAppliedSchemas()) + prim.GetMetadata("apiSchemas").GetAddedOrExplicitItems()
+        if "ColorSpaceAPI" in schemas:
+            name = self._name(prim, "colorSpace:name", "") or name
+        own = {}
+        for schema in schemas:
+            if schema.startswith(_DEFINED):
+                prefix = f"colorSpaceDefinition:{schema[len(_DEFINED):]}:"
+                fields = [self._numbers(prim, prefix + field, fallback) for field, fallback in _DEFINITION]
+                text = " ".join(f"{x:.7g}" for numbers in fields for x in numbers)
+                own[self._name(prim, prefix + "name", "custom")] = f"chromaticities({text})"
+        return name, ({**defined, **own} if own else defined)
 
-def _read(prim, name, defined):
-    # As authored too: releases before 25.02 do not know the schemas of colour spaces.
-    schemas = list(prim.GetAppliedSchemas()) + prim.GetMetadata("apiSchemas").GetAddedOrExplicitItems()
-    if "ColorSpaceAPI" in schemas:
-        name = str(_value(prim, "colorSpace:name", None) or name)
-    own = {}
-    for schema in schemas:
-        if schema.startswith(_DEFINED):
-            prefix = f"colorSpaceDefinition:{schema[len(_DEFINED):]}:"
-            numbers = []
-            for field, fallback in _DEFINITION:
-                value = _value(prim, prefix + field, fallback)
-                numbers.extend(value if hasattr(value, "__len__") else (value,))
-            text = " ".join(f"{float(x):.7g}" for x in numbers)
-            own[str(_value(prim, prefix + "name", "custom"))] = f"chromaticities({text})"
-    return name, ({**defined, **own} if own else defined)
+    def _name(self, prim, input_, fallback):
+        value = _value(prim, input_)
+        if value is None or isinstance(value, str):
+            return fallback if value is None else value
+        self._edit.warn(str(prim.GetPath()), input_, "is not the name of a colour space; it is left out")
+        return fallback
+
+    def _numbers(self, prim, input_, fallback):
+        """:returns: a tuple of as many finite numbers as the fallback, which stands in for anything else after a warning"""
+        value = _value(prim, input_)
+        if value is None:
+            return fallback
+        try:
+            numbers = np.array(value, dtype=np.float64).reshape(-1)
+        except (TypeError, ValueError):
+            numbers = np.zeros(0)
+        if isinstance(value, str) or len(numbers) != len(fallback) or not np.isfinite(numbers).all():
+            self._edit.warn(str(prim.GetPath()), input_,
+                            f"is not as many finite numbers as the schema has; {fallback} is used")
+            return fallback
+        return tuple(map(float, numbers))
 
 
-def _value(prim, name, fallback):
+def _value(prim, name):
     attribute = prim.GetAttribute(name)
-    value = attribute.Get() if attribute else None
-    return fallback if value is None else value
+    return attribute.Get() if attribute else None

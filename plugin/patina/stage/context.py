@@ -9,6 +9,8 @@ from .errors import StageError, one_line
 from .fallbacks import Fallbacks
 
 MAX_MOTION_SAMPLES = 16
+LONGEST_MESSAGE = 500  # characters; values of a stage may be of any length
+_MOST_SHOWN = 16  # elements of a value: those of a matrix
 
 
 class Context:
@@ -25,12 +27,14 @@ class Context:
         self.reported = set()  # texts of composition errors, which pxr also prints
         self.skinned = []  # (prim whose space it is, points) of what UsdGeom.BBoxCache does not know
         self._cyclic = None  # not known yet
-        self.color_spaces = ColorSpaces()
+        self.color_spaces = ColorSpaces(edit)
         self.light_fallbacks = Fallbacks()
         self.portals = None  # paths of the portals that domes name, once they are asked for
         self._xforms = {}
 
     def warn(self, prim, input_, message):
+        if len(message) > LONGEST_MESSAGE:
+            message = message[:LONGEST_MESSAGE] + "..."
         self.edit.warn(str(prim), input_, message)
 
     def count(self, kind, number=1):
@@ -94,6 +98,22 @@ def distinct(times):
     kept = times[:1]
     kept += [time for before, time in zip(times, times[1:]) if np.float32(time) > np.float32(before)]
     return kept
+
+
+def merged(times):
+    """:param times: of several things, in any order
+    :returns: ascending times that are distinct(), no more than the renderer takes"""
+    times = distinct(sorted(times))
+    if len(times) <= MAX_MOTION_SAMPLES:
+        return times
+    return distinct(list(map(float, np.linspace(times[0], times[-1], MAX_MOTION_SAMPLES))))
+
+
+def shown(value):
+    """:returns: what a message tells of a value: how long it is where that is more than a matrix holds"""
+    if isinstance(value, str) or not hasattr(value, "__len__") or len(value) <= _MOST_SHOWN:
+        return value
+    return f"an array of {len(value)} values"
 
 
 def get(prim, name, time, fallback=None):

@@ -20,7 +20,7 @@ def are_in(stage):
                 if path in done:
                     continue
                 open_ones.add(path)
-                rest = iter([held for root in below[path] for held in _within(paths, root)])
+                rest = (held for root in below[path] for held in _within(paths, root))  # lazy: steps bound it
             for held in rest:
                 steps += 1
                 if held in open_ones or steps > MOST_STEPS:
@@ -47,7 +47,9 @@ def _holders(stage):
 
 
 def _within(paths, root):
-    """:returns: those of sorted paths that are a path, or below it"""
-    own = paths[(at := bisect.bisect_left(paths, root)):at + 1]
-    first, last = bisect.bisect_left(paths, root + "/"), bisect.bisect_left(paths, root + "0")
-    return [path for path in own if path == root] + paths[first:last]
+    """Yields those of sorted paths that are a path, or below it."""
+    at = bisect.bisect_left(paths, root)
+    if at < len(paths) and paths[at] == root:
+        yield root
+    for i in range(bisect.bisect_left(paths, root + "/"), bisect.bisect_left(paths, root + "0")):
+        yield paths[i]

@@ -4,7 +4,7 @@ import numpy as np
 from pxr import UsdGeom
 
 from . import marks, meshes, parametric, skinning, volumes
-from .context import array, get, number
+from .context import array, distinct, get, number, shown
 from .primvars import add_builtin, read_primvars, text
 from .transforms import transform_of
 
@@ -73,7 +73,7 @@ def points_of(context, prim, skin=None):
     offsets = context.attribute_offsets(attribute)
     velocities = based.GetVelocitiesAttr() if context.moving else None
     if velocities and velocities.HasAuthoredValue():
-        offsets = list(context.shutter)
+        offsets = distinct(list(context.shutter))
         values = based.ComputePointsAtTimes([context.time_at(t) for t in offsets], context.time)
         if len(values) == len(offsets):
             return _sampled(context, prim, offsets, values)
@@ -100,10 +100,10 @@ def _curves(context, found, common, skin):
     basis = "linear" if linear else get(prim, "basis", context.time, "bezier")
     wrap = get(prim, "wrap", context.time, "nonperiodic")
     if basis not in ("linear", "bezier", "bspline", "catmullRom"):
-        context.warn(prim.GetPath(), "basis", f"'{basis}' is unknown; bezier is drawn")
+        context.warn(prim.GetPath(), "basis", f"'{shown(basis)}' is unknown; bezier is drawn")
         basis = "bezier"
     if wrap not in ("nonperiodic", "periodic", "pinned"):
-        context.warn(prim.GetPath(), "wrap", f"'{wrap}' is unknown; nonperiodic is drawn")
+        context.warn(prim.GetPath(), "wrap", f"'{shown(wrap)}' is unknown; nonperiodic is drawn")
         wrap = "nonperiodic"
     counts = array(context, prim, "curveVertexCounts", get(prim, "curveVertexCounts", context.time), 1, np.int32)
     context.edit.set_curves(found.path, points=points_of(context, prim, skin), basis=basis, wrap=wrap,

@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from .context import MAX_MOTION_SAMPLES, array, distinct, get
+from .context import array, get, merged
 from .primvars import in_rendering_space, numbers
 from .transforms import is_finite, matrix_at, sample_times
 
@@ -56,7 +56,7 @@ def _matrices(context, schema, count):
         moves = moves or schema.GetVelocitiesAttr().HasAuthoredValue()
         moves = moves or schema.GetAngularVelocitiesAttr().HasAuthoredValue()
         if moves:
-            offsets = sorted({*context.motion_offsets(samples), *(offsets if len(offsets) > 1 else [])})
+            offsets = merged([*context.motion_offsets(samples), *(offsets if len(offsets) > 1 else [])])
     arrays = []
     for offset in offsets:
         value = schema.ComputeInstanceTransformsAtTime(context.time_at(offset), context.time, exclude, ignore)
@@ -111,23 +111,23 @@ def emit_instances(context, outer, prototype, founds, linking):
         matrices[i] = np.array(matrix_at(context, found.prim, anchor, times[0]))
         if len(times) > 1:
             moving[i] = times
-    transforms = matrices
+    times, samples = [0.0], [matrices]
     if moving:
-        times = distinct(sorted({t for own in moving.values() for t in own}))
-        if len(times) > MAX_MOTION_SAMPLES:
-            times = list(np.linspace(times[0], times[-1], MAX_MOTION_SAMPLES))
+        times = merged({t for own in moving.values() for t in own})
         samples = [matrices.copy() for _ in times]
         for i in moving:
             for sample, t in zip(samples, times):
                 sample[i] = np.array(matrix_at(context, founds[i].prim, founds[i].state.group.anchor, t))
-        transforms = (times, samples)
-    if not is_finite(matrices).all():
+    finite = np.all([is_finite(sample) for sample in samples], axis=0)
+    if not finite.all():
         context.warn(founds[0].prim.GetPath(), "xformOpOrder", "gives a transform that is not finite, here or at another "
                      "instance of the prototype; none is used")
-        matrices[~is_finite(matrices)] = np.eye(4)
+        for sample in samples:
+            sample[~finite] = np.eye(4)
     categories = [linking.categories(found) for found in founds]
     context.edit.set_instancer(
         founds[0].path, group=outer, prototypes=[prototype],
-        prototype_indices=np.zeros(len(founds), dtype=np.int32), transforms=transforms,
+        prototype_indices=np.zeros(len(founds), dtype=np.int32),
+        transforms=samples[0] if len(samples) == 1 else (times, samples),
         categories=categories if any(categories) else None, **_names(context, founds))
     context.count("instances", len(founds))

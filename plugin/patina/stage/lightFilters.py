@@ -6,7 +6,7 @@ import numpy as np
 from pxr import UsdGeom
 
 from . import assets
-from .context import number, vector
+from .context import number, shown, vector
 from .transforms import transform_of
 
 _PREFIXES = ("inputs:ri:lightFilter:", "inputs:", "ri:lightFilter:", "")
@@ -58,7 +58,7 @@ def of(context, light, group):
 def _type_name(prim):
     """Of a prim of the general type LightFilter its shader's."""
     shader = prim.GetAttribute("lightFilter:shaderId")
-    return str(shader.Get()) if shader and shader.Get() else str(prim.GetTypeName())
+    return str(shown(shader and shader.Get() or prim.GetTypeName()))
 
 
 def _transform(context, prim, group):
@@ -104,7 +104,7 @@ def _tell_of_others(context, prim):
             continue
         value = attribute.Get(context.time)
         if not _is_idle(value, _ignored().get(name, ())):
-            context.warn(prim.GetPath(), attribute.GetName(), f"is {value}, which is not evaluated")
+            context.warn(prim.GetPath(), attribute.GetName(), f"is {shown(value)}, which is not evaluated")
 
 
 def _is_idle(value, words):
@@ -112,6 +112,8 @@ def _is_idle(value, words):
         return True
     if isinstance(value, (bool, int, float)):
         return any(word.lstrip("-").replace(".", "", 1).isdigit() and float(word) == value for word in words)
+    if hasattr(value, "__len__") and not isinstance(value, str):
+        return False  # an array's text may be of any length
     return str(value) in words or str(value) == ""
 
 
@@ -125,7 +127,7 @@ def _value(context, prim, attribute, type_, value):
     if type_ == "vec3":
         return vector(context, prim, name, (0.0, 0.0, 0.0), value)
     if type_ == "text":
-        return assets.resolve(context, attribute) if hasattr(value, "path") else str(value)
+        return assets.resolve(context, attribute) if hasattr(value, "path") else str(shown(value))
     try:
         values = np.asarray(value, dtype=np.float32)
     except (TypeError, ValueError):

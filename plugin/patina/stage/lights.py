@@ -5,7 +5,7 @@ import functools
 from pxr import Gf, UsdGeom, UsdLux, UsdShade
 
 from . import assets, kinds, lightFilters, portals
-from .context import number, vector
+from .context import number, shown, vector
 from .primvars import text
 from .transforms import transform_of
 
@@ -33,7 +33,7 @@ def emit(context, found, linking):
     after = None
     if type_ == "dome":
         _read_texture(context, prim, fields)
-        fields["texture_format"] = str(_input(context, prim, "texture:format") or "automatic")
+        fields["texture_format"] = str(shown(_input(context, prim, "texture:format") or "automatic"))
         fields["portals"] = portals.of(context, prim, group)
         after = _dome_pole(context, prim)
     elif type_ == "rect":
@@ -42,7 +42,8 @@ def emit(context, found, linking):
         fields["geometry"] = found.path if is_mesh else _geometry_of(context, prim, group)
         if not fields["geometry"]:
             return
-        fields["material_sync_mode"] = str(_plain(context, prim, "light:materialSyncMode") or "materialGlowTintsLight")
+        mode = _plain(context, prim, "light:materialSyncMode") or "materialGlowTintsLight"
+        fields["material_sync_mode"] = str(shown(mode))
         if is_mesh and _input(context, prim, "intensity", authored=True) is None:
             fields["intensity"] = 1.0
     fields["transform"] = transform_of(context, prim, group.anchor, after)
@@ -62,8 +63,9 @@ def _report_network(context, prim, is_mesh):
     """Lights may be nodes of networks; those are not evaluated."""
     for name in ("light:shaderId", "mtlx:light:shaderId"):
         attribute = prim.GetAttribute(name)
-        if attribute and attribute.HasAuthoredValue() and str(attribute.Get()) != prim.GetTypeName() and not is_mesh:
-            context.warn(prim.GetPath(), name, f"is {attribute.Get()}, which is not evaluated; the light is drawn by its type")
+        value = attribute.Get() if attribute and attribute.HasAuthoredValue() and not is_mesh else None
+        if value is not None and value != prim.GetTypeName():
+            context.warn(prim.GetPath(), name, f"is {shown(value)}, which is not evaluated; the light is drawn by its type")
     for attribute in prim.GetAuthoredAttributes():
         name = attribute.GetName()
         if name.startswith("inputs:"):

@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from .context import array
+from .context import array, shown
 from .primvars import add_builtin
 
 _INTS = {
@@ -34,7 +34,7 @@ def emit(context, found, common, points, skin):
         if value is None:
             value = fallback
         elif value not in allowed:
-            context.warn(prim.GetPath(), name, f"'{value}' is unknown; {fallback} is used")
+            context.warn(prim.GetPath(), name, f"'{shown(value)}' is unknown; {fallback} is used")
             value = fallback
         fields[key] = value
     if skin and skin.deforms:

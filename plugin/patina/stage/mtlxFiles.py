@@ -20,7 +20,7 @@ _networks = {}  # (file, material) -> Network
 def network_of(material):
     """:returns: the Network of a material that stands for one of a document, else None"""
     mark = material.GetPrim().GetCustomDataByKey(_KEY)
-    return _networks.get(tuple(mark.rsplit("\n", 1))) if mark else None
+    return _networks.get(tuple(mark.rsplit("\n", 1))) if isinstance(mark, str) else None  # a file may hold any value there
 
 
 def supply(context, stage, errors, module):

@@ -3,7 +3,7 @@
 from pxr import Usd, UsdShade
 
 from . import compat, mtlxFiles
-from .context import Context
+from .context import Context, Guard
 from .networks import network_of
 from .options import StageOptions
 
@@ -22,7 +22,8 @@ def read_materials(stage, warnings=None, frame=None):
             for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
                 if prim.IsA(UsdShade.Material):
                     path = str(prim.GetPath())
-                    networks.append((path, network_of(context, UsdShade.Material(prim), path, _patina)))
+                    with Guard(context, prim):
+                        networks.append((path, network_of(context, UsdShade.Material(prim), path, _patina)))
         for text in quiet.texts:
             context.warn("/", "", text)
     if warnings is not None:

@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
 
-from .context import get
+from .context import array, get, merged
 from .transforms import as_transform, matrix_at, sample_times
 
 
@@ -59,7 +59,7 @@ class Skin:
         place = self.skeleton if self.has_joints else self.target.GetPrim()
         times = sample_times(context, place, anchor)
         if self.rigid and context.moving:
-            times = sorted({*times, *self.offsets(context)})
+            times = merged([*times, *self.offsets(context)])
         matrices = [matrix_at(context, place, anchor, t) for t in times]
         if self.rigid:
             matrices = [self._rigid(context.time_at(t)) * m for t, m in zip(times, matrices)]
@@ -87,7 +87,9 @@ class Skin:
                 skinned = np.asarray(points) @ bind[:3, :3] + bind[3, :3]
             points = skinned
         if offset == 0.0:
-            context.skinned.append((self.skeleton if self.has_joints else prim, np.asarray(points)))
+            placed = array(context, prim, "points", points, 3)
+            if len(placed):
+                context.skinned.append((self.skeleton if self.has_joints else prim, placed))
         return points
 
     def _blend(self, time, points):
@@ -113,11 +115,13 @@ class Skin:
             return None
         if get(prim, "normals", time) is None and get(prim, "primvars:normals", time) is None:
             return None
-        points = np.asarray(self.points(context, 0.0), dtype=np.float32).reshape(-1, 3)
-        counts = np.asarray(get(prim, "faceVertexCounts", time, []), dtype=np.int64)
-        indices = np.asarray(get(prim, "faceVertexIndices", time, []), dtype=np.int64)
-        if not len(counts) or counts.min() < 3 or counts.sum() != len(indices) or indices.min() < 0 \
-                or indices.max() >= len(points):
+        points = array(context, prim, "points", self.points(context, 0.0), 3)
+        counts, indices = (array(context, prim, name, get(prim, name, time), 1, np.int32).astype(np.int64)
+                           for name in ("faceVertexCounts", "faceVertexIndices"))
+        # Each count is checked before their sum: a sum that wraps would fit, and numpy would write beyond its arrays.
+        if not len(counts) or counts.min() < 3 or counts.max() > len(indices) or counts.sum() != len(indices):
+            return None
+        if indices.min() < 0 or indices.max() >= len(points):
             return None
         return ("normals", "vertex", smooth_normals(points, counts, indices), None)
 

@@ -6,6 +6,8 @@ they inherit from outside (material, purpose, primvars), since those make them l
 """
 from pxr import Usd, UsdGeom
 
+from patina import limits
+
 from . import drawModes, marks, portals
 from .context import Guard, get
 from .kinds import GPRIM_KINDS, Kinds
@@ -14,7 +16,7 @@ from .state import Found, Group, State, Walked
 
 _ANY = Usd.PrimIsActive & Usd.PrimIsLoaded  # prototypes of point instancers may be overs and classes
 MAX_NESTED = 8  # point instancers in each other, as many as renderers follow
-MAX_GROUPS = 100000  # prototypes of point instancers that are in others, by each way to them
+_COUNTED = {"prims": "prims of a kind", "instances": "instances"}  # by limits
 _PROXIES = Usd.TraverseInstanceProxies()  # what is skinned differs from instance to instance
 
 
@@ -29,6 +31,9 @@ class Walk:
         self._pointed = {}  # the same for prototypes of point instancers
         self._nested = 0  # of these, those inside of others
         self._told = False  # that there are too many
+        self._most = {name: limits.value(name) for name in ("prims", "instances")}
+        self._full = set()  # names of those that are reached
+        self._instances = 0  # native ones that were found
 
     def run(self):
         """:returns: Walked"""
@@ -44,6 +49,8 @@ class Walk:
         stack = [(prim, state) for prim in reversed(prims)]
         while stack:
             prim, state = stack.pop()
+            if self._full and state.group.name:
+                return  # the stage itself is walked to its end, prototypes are as many as there are ways to inherit
             with Guard(self.context, prim):
                 state = self._visit(prim, state)
             if state is not None:
@@ -81,36 +88,50 @@ class Walk:
             if mode != state.draw_mode:
                 state = state.with_(draw_mode=mode)
             if applied:
-                if self._drawn(state):
+                if self._drawn(state) and self._has_room(prim, state, self.walked.boxes):
                     self.walked.boxes.append((Found(prim, own, state.group.path(prim), names, found_marks), mode))
                 return None
         if kind == "instancer":
-            if self._drawn(state):
+            if self._drawn(state) and self._has_room(prim, state, self.walked.instancers):
                 self._instancer(prim, own, state)
             return None
         if kind == "skelRoot":
             state = state.with_(skinning=skinning_of(self.context, prim))
         elif kind == "camera":
             self._camera(prim, own)
-        elif kind == "light":
+        elif kind == "light" and self._has_room(prim, state, self.walked.lights):
             self.walked.lights.append(Found(prim, own, state.group.path(prim), names))
         elif kind == "unsupported" and not portals.is_used(self.context, prim):
             self.context.warn(prim.GetPath(), "", f"prims of type {prim.GetTypeName()} are not drawn")
         elif kind in GPRIM_KINDS:
-            if self._drawn(own):
+            if self._drawn(own) and self._has_room(prim, state, self.walked.gprims):
                 self.walked.gprims.append(Found(prim, own, state.group.path(prim), names, found_marks))
             if prim.IsInstance():
                 return None
         if prim.IsInstance() and state.skinning is None:
-            self._pending.append(Found(prim, state, state.group.path(prim)))
+            if self._has_room(prim, state, range(self._instances), "instances"):
+                self._instances += 1
+                self._pending.append(Found(prim, state, state.group.path(prim)))
             return None
         return state
 
     def _drawn(self, state):
         return state.purpose in self.context.purposes
 
+    def _has_room(self, prim, state, found, limit="prims"):
+        """:param found: what there is of a kind
+        :returns: whether there may be one more; tells of the first that there may not"""
+        most = self._most[limit]
+        if len(found) < most:
+            return True
+        if limit not in self._full:
+            self.context.warn(state.group.path(prim), "", f"there are more {_COUNTED[limit]} than {most} (--limit {limit}); "
+                              "the prim is left out, and others after it")
+        self._full.add(limit)
+        return False
+
     def _camera(self, prim, state):
-        if not state.group.name:
+        if not state.group.name and self._has_room(prim, state, self.walked.cameras):
             self.walked.cameras.append(Found(prim, state, str(prim.GetPath())))
 
     def _place_instances(self):
@@ -127,6 +148,8 @@ class Walk:
             key = (str(prototype.GetPath()), material, rules, state.purpose, _paths(state.primvars))
             group = self._native.get(key)
             if group is None:
+                if not self._has_room(found.prim, state, self._native):
+                    continue
                 group = Group(name=found.path, anchor=prototype, source=str(prototype.GetPath()),
                               shown=found.path, material=material or "", material_rules=rules,
                               chain=outer.chain)
@@ -154,10 +177,11 @@ class Walk:
         key = (str(target), state.group.name, state.purpose, _paths(state.primvars))
         if key in self._pointed:
             return self._pointed[key]
-        if len(state.group.chain) >= MAX_NESTED or state.group.chain and self._nested >= MAX_GROUPS:
+        if len(state.group.chain) >= MAX_NESTED or state.group.chain and self._nested >= limits.value("groups"):
             if not self._told:
-                self.context.warn(instancer.GetPath(), "prototypes", "instancers are nested too deeply, or too many of them in "
-                                  "each other; this one's prototypes are not drawn, nor those of others like it")
+                self.context.warn(instancer.GetPath(), "prototypes", f"instancers are nested more than {MAX_NESTED} deep, or "
+                                  f"more of their prototypes are in others than {limits.value('groups')} (--limit groups); "
+                                  "this one's prototypes are not drawn, nor those of others like it")
             self._told = True
             return name
         self._nested += bool(state.group.chain)

@@ -80,7 +80,7 @@ class Builder:
         title = self.arguments.title or self.wanted.get("title") or ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
         return {"title": title, "materials": self.materials, "textures": self.textures.entries,
                 "lights": self.lights, "lightTable": blobs.pack(np.asarray(self.light_table, "<f4")),
-                "notes": self.notes, "camera": self.camera, "environments": self.environments,
+                "notes": self.notes, "camera": self.camera, "environments": surroundings.shared(self.environments),
                 "shapes": [{**shapes.packed(name, mesh, closed), "toWorld": [float(x) for x in columns]}
                            for name, mesh, closed, columns in self.shapes],
                 "start": start, "references": compareImages.made(self)}

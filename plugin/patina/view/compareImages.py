@@ -3,11 +3,11 @@
 import numpy as np
 
 from patina.cli import compiled
-from patina.view import images, reference
+from patina.view import images, reference, stageScene
 
 
 def lit_scene(file, set_texts=()):
-    """:returns: a scene with the direct lights of a stage and nothing else; an empty one without a stage"""
+    """:returns: a scene with the direct lights of a stage that the page has, and nothing else; an empty one without a stage"""
     module = compiled.load()
     scene = module.Scene()
     if not file:
@@ -19,7 +19,7 @@ def lit_scene(file, set_texts=()):
     overrides.apply(stage, set_texts)
     with scene.edit() as edit:
         reader.read_stage(stage, edit, reader.StageOptions(headlight=False))
-    kept = {path for path, _ in module.web_lights(scene)["lights"]}
+    kept = {path for path, _ in module.web_lights(scene)["lights"][:stageScene.MAX_LIGHTS]}
     kept |= set(module.web_light_meshes(scene))
     with scene.edit() as edit:
         for kind in ("geometry", "instancers", "lights", "cameras", "materials"):

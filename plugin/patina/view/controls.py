@@ -28,6 +28,9 @@ _RANGES = (
     (("luminance", "intensity"), (0.0, 10.0), ""),
 )
 _NO_COLORS = ("ior", "extinction", "radius", "scale", "depth", "exponent")
+_LARGEST_NUMBER = 1e300  # whole numbers of JSON have no end, those of a page do
+_COUNTS = {"color": 3, "switch": 1}  # of the numbers that such a control moves
+MAX_PRESETS = 1000  # each is a button
 
 
 def _range(name, values):
@@ -78,7 +81,7 @@ def entries(inputs, choices, fixed):
 
 
 def _number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= _LARGEST_NUMBER
 
 
 def _numbers(value, count):
@@ -92,10 +95,12 @@ def read(path):
         found = json.loads(inputs.read(path).decode())
     except (OSError, UnicodeDecodeError) as error:
         raise CommandError(f"--controls: {path} cannot be read ({error})") from error
-    except (json.JSONDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         raise CommandError(f"--controls: {path} is no JSON ({error})") from error
     if not isinstance(found, dict) or not all(isinstance(found.get(key, []), list) for key in ("controls", "presets")):
         raise CommandError(f"--controls: {path} needs lists `controls` and `presets`")
+    if len(found.get("presets", [])) > MAX_PRESETS:
+        raise CommandError(f"--controls: {path}: `presets` holds more than the {MAX_PRESETS} that a page shows")
     texts = found.get("sentences", {})
     if not isinstance(texts, dict) or not all(isinstance(t, str) for t in [*texts.values(), found.get("title", "")]):
         raise CommandError(f"--controls: {path}: `sentences` holds texts by material, `title` is a text")
@@ -111,10 +116,13 @@ def merged(entries, wanted, path):
     if "controls" not in wanted:
         return entries, []
     known = {entry["input"]: entry for entry in entries}
-    result, unknown = [], []
+    result, unknown, seen = [], [], set()
     for item in wanted["controls"]:
         if not isinstance(item, dict) or not isinstance(item.get("input"), str):
             raise CommandError(f"--controls: {path}: each control needs a text `input`")
+        if item["input"] in seen:
+            raise CommandError(f"--controls: {path}: `controls` has {item['input']} twice")
+        seen.add(item["input"])
         if item["input"] not in known:
             unknown.append(item["input"])
             continue
@@ -130,6 +138,10 @@ def merged(entries, wanted, path):
                 if not test(item[key]):
                     raise CommandError(f"--controls: {path}: `{key}` of {item['input']} is not what it should be")
                 made[key] = item[key]
+        count = len(made["default"])
+        if _COUNTS.get(made["kind"], count) != count:
+            raise CommandError(f"--controls: {path}: `kind` of {item['input']} does not fit: a color has 3 numbers, a switch "
+                               f"has 1, this input has {count}")
         if not made["min"] < made["max"]:
             raise CommandError(f"--controls: {path}: `min` of {item['input']} is not below `max`")
         result.append(made)

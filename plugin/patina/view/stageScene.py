@@ -6,6 +6,8 @@ from patina.cli import compiled, openStage, overrides
 from patina.cli.errors import CommandError
 
 MAX_SHAPES = 4
+MAX_ENVIRONMENTS = 16  # domes; each is a texture of the page
+MAX_LIGHTS = 256  # each is a row of a texture, a folder of the panel, and work of every sample
 
 
 class StageScene:
@@ -21,8 +23,14 @@ class StageScene:
         self.z_up = info.up_axis == "Z"
         found = compiled.load().web_lights(self.scene)
         self.lights = [{"name": path.removesuffix("/light_of_mesh").rpartition("/")[2], "row": [float(x) for x in row]}
-                       for path, row in found["lights"]]
-        self.domes, self.light_table, self.light_notes = found["domes"], found["table"], found["notes"]
+                       for path, row in found["lights"][:MAX_LIGHTS]]
+        self.domes, self.light_table = found["domes"][:MAX_ENVIRONMENTS], found["table"]
+        self.light_notes = list(found["notes"])
+        lights, domes = len(found["lights"]) - MAX_LIGHTS, len(found["domes"]) - MAX_ENVIRONMENTS
+        if lights > 0:
+            self.light_notes.append(f"{lights} more lights are left out: a page shows at most {MAX_LIGHTS}")
+        if domes > 0:
+            self.light_notes.append(f"{domes} more domes are left out: a page shows at most {MAX_ENVIRONMENTS}")
 
     def shapes(self, wanted, material_paths):
         """

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where a material is looked at: environments, lights, shapes, and the first camera."""
+import functools
 import os
 
 import numpy as np
@@ -37,13 +38,14 @@ def black():
 
 
 def environments(files, domes, largest, z_up):
-    """Those of files, then of a stage, then the page's own."""
+    """Those of files, then of a stage, then the page's own. A file is read once, however many name it."""
     upright = [1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0] if z_up else IDENTITY
+    latlong = functools.cache(lambda file: images.latlong(file, largest))
     found = []
     for file in files:
         if not os.path.exists(file):
             raise CommandError(f"--environment: there is no file {file}")
-        entry = images.latlong(file, largest)
+        entry = latlong(file)
         found.append({**entry, "name": os.path.splitext(os.path.basename(file))[0], "radiance": [1.0, 1.0, 1.0],
                       "toLocal": upright})
     for dome in domes:
@@ -53,10 +55,19 @@ def environments(files, domes, largest, z_up):
         if dome["pixels"] is not None:
             entry = images.half_rgb(images.shrunk(np.nan_to_num(dome["pixels"]), largest))
         else:
-            entry = images.latlong(dome["texture"], largest) if dome["texture"] else even()
+            entry = latlong(dome["texture"]) if dome["texture"] else even()
         found.append({**entry, "name": dome["path"].rpartition("/")[2], "radiance": [float(x) for x in dome["radiance"]],
                       "toLocal": [float(x) for x in axes.T.ravel()]})
     return found + [{**made, "toLocal": upright} for made in (studio(), even(), black())]
+
+
+def shared(found):
+    """:returns: environments as a page holds them: one whose texels an earlier one has names its place as `texelsOf`"""
+    first, made = {}, []
+    for i, entry in enumerate(found):
+        k = first.setdefault((entry["width"], entry["height"], entry["data"]), i)
+        made.append(entry if k == i else {**{key: value for key, value in entry.items() if key != "data"}, "texelsOf": k})
+    return made
 
 
 def camera(radius, target, z_up):

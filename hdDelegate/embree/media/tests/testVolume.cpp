@@ -133,6 +133,54 @@ TEST(Volumes, ConstantDensityIsAHomogeneousMedium) {
         EXPECT_NEAR(a.mean[c], b.mean[c], 5.0f * (a.error[c] + b.error[c]) / 4.0f + 5e-3f);
 }
 
+TEST(Volumes, OneBrightVoxelIsOpaqueAndEndsSoon) {
+    // Candidates of rays are bounded: without the bound each would make all it may, some 65,000,
+    // and then pass.
+    MediaScene s;
+    volumeMaterial(s, vec3(1.0f), vec3(0.0f));
+    volume(s, cubeGrid(1, [](const vec3& p) { return glm::length(p) < 0.3f ? 3e38f : 0.0f; }),
+           "/m");
+    s.dome(1.0f);
+    s.camera(vec3(0, 0, 5), 0.1f); // all rays meet it
+    const auto image = s.render(16, 64);
+    ASSERT_TRUE(image.finite);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_LT(image.mean[c], 1e-4f);
+}
+
+TEST(Volumes, WhatIsDenserThanItsMajorantGainsNoLight) {
+    // A medium that only scatters and differs from place to place, in a grid of one cell: dense in
+    // a thin sheet that lies between the places where the majorant is looked for.
+    MediaScene s;
+    s.material(
+        "/m",
+        {node("/m/volume", "ND_volume", {}, {{"vdf", {"/m/vdf", ""}}}),
+         node("/m/vdf", "ND_anisotropic_vdf", {}, {{"scattering", {"/m/vector", ""}}}),
+         node("/m/vector", "ND_combine3_vector3", {},
+              {{"in1", {"/m/dense", ""}}, {"in2", {"/m/dense", ""}}, {"in3", {"/m/dense", ""}}}),
+         node("/m/dense", "ND_ifgreater_float",
+              {{"value2", Value::makeFloat(0.03f)},
+               {"in1", Value::makeFloat(0.01f)},
+               {"in2", Value::makeFloat(1000.0f)}},
+              {{"value1", {"/m/away", ""}}}),
+         node("/m/away", "ND_absval_float", {}, {{"in", {"/m/from", ""}}}),
+         node("/m/from", "ND_subtract_float", {{"in2", Value::makeFloat(0.3f)}},
+              {{"in1", {"/m/x", ""}}}),
+         node("/m/x", "ND_extract_vector3", {{"index", Value::makeInt(0)}},
+              {{"in", {"/m/position", ""}}}),
+         node("/m/position", "ND_position_vector3")},
+        "volume");
+    volume(s, cubeGrid(1, [](const vec3&) { return 1.0f; }), "/m");
+    s.dome(1.0f);
+    s.camera(vec3(0, 0, 5), 2.2f);
+    const auto image = s.render(16, 64);
+    ASSERT_TRUE(image.finite);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(image.mean[c], 1.0f, 5.0f * image.error[c] + 2e-3f);
+    for (const float x : image.color)
+        EXPECT_LT(x, 1.001f);
+}
+
 TEST(Volumes, ThreadsChangeNothing) {
     std::vector<float> first;
     for (int threads : {1, 2}) {

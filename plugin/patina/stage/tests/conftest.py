@@ -65,6 +65,19 @@ def read(tmp_path):
 
 
 @pytest.fixture
+def limit(monkeypatch):
+    """A function: limit(name=value) sets limits of the process for one test."""
+    _patina = pytest.importorskip("_patina")
+    held = {**_patina.limits()}
+    from patina import limits
+
+    def run(**values):
+        monkeypatch.setattr(limits, "value", {**held, **values}.__getitem__)
+
+    return run
+
+
+@pytest.fixture
 def numbers():
     return floats
 

@@ -151,3 +151,28 @@ def test_without_the_camera_that_is_used_there_is_no_image(read, monkeypatch, er
     reading = read(stage)  # which uses the first
     assert any(warning.startswith("/c") and "is not drawn" in warning for warning in reading.warnings)
     assert reading.scene.camera("/a")
+
+
+BROKEN = {
+    "string as a transform": """def Sphere "bad" { string xformOp:translate = "far"
+        uniform token[] xformOpOrder = ["xformOp:translate"] }""",
+    "numbers as points": """def SkelRoot "r" {
+        def Skeleton "skel" { }
+        def Mesh "bad" (prepend apiSchemas = ["SkelBindingAPI"]) {
+            rel skel:skeleton = </r/skel>
+            int[] faceVertexCounts = [3]
+            int[] faceVertexIndices = [0, 1, 2]
+            float[] points = [1, 2]
+            uniform token[] skel:blendShapes = ["up"]
+            rel skel:blendShapeTargets = </r/bad/up>
+            def BlendShape "up" { vector3f[] offsets = [(0, 0, 5)] } } }""",
+}
+
+
+@pytest.mark.parametrize("broken", BROKEN)
+def test_a_broken_prim_leaves_the_rest_framed(read, numbers, broken):
+    good = """def Sphere "good" { double3 xformOp:translate = (0, 50, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]  double radius = 2 }"""
+    reading = read(BROKEN[broken] + "\n    " + good)
+    assert reading.info.framed and reading.has("/good") and any("bad" in w for w in reading.warnings)
+    assert numbers(reading.prim(reading.info.camera)["transform"])[13] > 10

@@ -199,3 +199,17 @@ def test_colours_of_primvars_are_converted_too(read, numbers):
     assert primvar("/w/many", "displayColor") == pytest.approx([*g22, 1, 1, 1], abs=1e-5)
     assert [w for w in reading.warnings if "colour space" in w] == [
         "/w/says primvars:unknown: unknown colour space 'nobody knows'; the values are used as they are"]
+
+
+@pytest.mark.parametrize("field, value, message", [
+    ("string {}:gamma", '"abc"', "is not as many finite numbers as the schema has; (1.0,) is used"),
+    ("float {}:redChroma", "0.5", "is not as many finite numbers as the schema has; (1.0, 0.0) is used"),
+    ("float {}:linearBias", "inf", "is not as many finite numbers as the schema has; (0.0,) is used"),
+    ("int {}:name", "5", "is not the name of a colour space; it is left out")])
+def test_definitions_with_wrong_values_are_told(read, field, value, message):
+    field = field.format("colorSpaceDefinition:mine")
+    world = f"""(prepend apiSchemas = ["ColorSpaceAPI", "ColorSpaceDefinitionAPI:mine"]) {{
+        {field} = {value}"""
+    reading = read(stage_of("color3f inputs:diffuseColor = (0.5, 0.5, 0.25)", world))
+    assert f"/w {field.split()[1]}: {message}" in reading.warnings
+    assert "terminal surface" in reading.prim("/w/m")

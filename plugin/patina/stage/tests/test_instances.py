@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Point instancers and native instances."""
+import tracemalloc
+
 import pytest
 from pxr import Usd
 
@@ -195,16 +197,16 @@ def Xform "leaf"
         assert cycles.are_in(found) == cyclic
 
 
-def test_prototypes_that_hold_each_other_end(read, monkeypatch):
+def test_prototypes_that_hold_each_other_end(read, limit):
     """Each way through them is a group of its own: n! of them."""
-    monkeypatch.setattr(walk, "MAX_GROUPS", 200)
+    limit(groups=200)
     n = 7
     targets = ", ".join(f"</P{i}>" for i in range(n))
     reading = read("".join(f"""def Xform "P{i}" {{ def PointInstancer "I" {{ rel prototypes = [{targets}]
         int[] protoIndices = [0]
         point3f[] positions = [(0, 0, 0)] }} }}
     """ for i in range(n)))
-    assert sum("too many of them" in warning for warning in reading.warnings) == 1
+    assert sum("--limit groups" in warning for warning in reading.warnings) == 1
     assert reading.text.count("Instancer ") < 200 + 2 * n * n
 
 
@@ -221,3 +223,76 @@ def test_moving_instances_have_no_more_times_than_others(read):
                    + "".join(near.replace("/leaf", "/leaf2").format(f"m{i}", text) for i, text in enumerate(many)),
                    frame=10.0, shutter=(0.0, 1.0))
     assert reading.prim("/m0")["instances"] == "30"
+
+
+def test_prototypes_are_walked_no_longer_than_limits_allow(read, limit, monkeypatch):
+    """Each instance with a primvar of its own walks the prototype anew: instances times meshes."""
+    found = []
+
+    class Counted(walk.Found):
+        def __post_init__(self):
+            found.append(self.path)
+
+    monkeypatch.setattr(walk, "Found", Counted)
+    limit(prims=100)
+    reading = read('class Xform "leaf" { ' + "".join(f'def Sphere "s{i}" {{ }}\n' for i in range(200)) + "}\n"
+                   + "".join(f'def Xform "i{i}" (instanceable = true; inherits = </leaf>) '
+                             f'{{ float primvars:own = {i} (interpolation = "constant") }}\n' for i in range(200))
+                   + 'def Camera "after" { }')
+    assert len(found) < 500 and reading.info.camera == "/after"
+    told = [w for w in reading.warnings if "there are more prims of a kind than 100 (--limit prims)" in w]
+    assert len(told) == 1 and told[0].startswith("/i100 :")
+
+
+def test_native_instances_are_found_no_longer_than_limits_allow(read, limit):
+    limit(instances=5)
+    reading = read('class Xform "leaf" { def Sphere "s" { } }\n'
+                   + "".join(f'def Xform "i{i}" (instanceable = true; inherits = </leaf>) {{ }}\n' for i in range(9)))
+    assert reading.prim("/i0")["instances"] == "5"
+    assert sum("there are more instances than 5 (--limit instances)" in w for w in reading.warnings) == 1
+
+
+def test_steps_bound_the_search_for_cycles(monkeypatch):
+    below = {"/start": ["/a"] * 100, **{f"/a/{i}": [] for i in range(10000)}}
+    monkeypatch.setattr(cycles, "_holders", lambda stage: below)
+    monkeypatch.setattr(cycles, "MOST_STEPS", 1000)
+    tracemalloc.start()
+    try:
+        assert cycles.are_in(None)
+        assert tracemalloc.get_traced_memory()[1] < 1 << 20
+    finally:
+        tracemalloc.stop()
+
+
+SWARM = """def Xform "x" { double3 xformOp:translate.timeSamples = { %s }
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+    def PointInstancer "many" { rel prototypes = </x/many/ball>  int[] protoIndices = [0]
+        point3f[] positions.timeSamples = { %s }
+        def Sphere "ball" { } } }"""
+
+
+def test_times_of_an_instancer_and_of_what_is_above_are_merged(read):
+    def at(times):
+        return ", ".join(f"{t}: {{}}" for t in times)
+
+    def values(times, value):
+        return at(times).replace("{}", value)
+
+    above, own = [10.1, 10.7], [10.10000000001, 10.5]
+    reading = read(SWARM % (values(above, "(0, 0, 0)"), values(own, "[(0, 0, 0)]")), frame=10.0, shutter=(0.0, 1.0))
+    assert reading.prim("/x/many")["instances"] == "1" and not reading.warnings
+    above, own = ([f"{10 + (k + part) / 13:.6f}" for k in range(13)] for part in (0.3, 0.6))
+    reading = read(SWARM % (values(above, "(0, 0, 0)"), values(own, "[(0, 0, 0)]")), frame=10.0, shutter=(0.0, 1.0))
+    assert reading.prim("/x/many")["instances"] == "1" and not reading.warnings
+    assert len([key for key in reading.prim("/x/many") if "transforms@" in key]) <= 16
+
+
+def test_moving_instances_that_are_not_finite_later_stand_still(read):
+    moving = """def Xform "i%d" (instanceable = true; inherits = </leaf>) {
+        double3 xformOp:translate.timeSamples = { 10: (0, 0, 0), 11: (%s, 0, 0) }
+        uniform token[] xformOpOrder = ["xformOp:translate"] }
+    """
+    reading = read('class Xform "leaf" { def Sphere "s" { } }\n' + moving % (0, "1") + moving % (1, "nan"),
+                   frame=10.0, shutter=(0.0, 1.0))
+    assert reading.prim("/i0")["instances"] == "2" and "nan" not in reading.text
+    assert any("not finite" in w for w in reading.warnings)

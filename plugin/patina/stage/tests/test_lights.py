@@ -146,3 +146,22 @@ def test_networks_of_lights_are_told(read):
     assert any(w.startswith("/rig outputs:mtlx:light: light shaders of materials are not drawn") for w in reading.warnings)
     assert reading.prim("/shaded")["color"] == "1 0 0"
     assert reading.prim("/tinted")["color"] == "0.25 0.5 1"
+
+
+def test_long_values_are_not_told_in_full(read):
+    long = ", ".join(["1"] * 4000)
+    reading = read(f"""
+    def RectLight "r" {{ float[] light:shaderId = [{long}]
+        rel light:filters = </f> }}
+    def LightFilter "f" {{ uniform token lightFilter:shaderId = "PxrRodLightFilter"
+        float[] inputs:saturation = [{long}] }}
+    def Mesh "m" {{ float[] subdivisionScheme = [{long}]
+        string interpolateBoundary = "{'x' * 4000}" }}
+    def BasisCurves "c" {{ float[] basis = [{long}]
+        float[] wrap = [{long}] }}
+    def Camera "k" {{ float[] projection = [{long}] }}""")
+    for prim, field in (("/r", "light:shaderId"), ("/f", "inputs:saturation"), ("/m", "subdivisionScheme"), ("/c", "basis"),
+                        ("/c", "wrap"), ("/k", "projection")):
+        assert any(w.startswith(f"{prim} {field}: ") and "an array of 4000 values" in w for w in reading.warnings), field
+    cut, = [w for w in reading.warnings if w.startswith("/m interpolateBoundary: ")]
+    assert cut.endswith("xxx...") and max(map(len, reading.warnings)) < 600

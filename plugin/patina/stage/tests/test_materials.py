@@ -192,3 +192,21 @@ def test_materialx_documents_that_cannot_be_used(read, tmp_path):
     for part in ("sub.mtlx", "/a references: there is no file", "noise.mtlx", "/c references:"):
         assert part in said, said
     assert reading.has("/s")
+
+
+def test_materials_alone_are_read_past_broken_ones(tmp_path, statements, monkeypatch):
+    from pxr import Usd
+
+    from patina.stage import read_materials, readMaterials
+    (tmp_path / "stage.usda").write_text("#usda 1.0\n" + statements(
+        (material(SHADER % "") + material(SHADER.replace("/m/", "/n/") % "", "n")).replace(
+            'def Material "n" {', 'def Material "n" (customData = { int patinaDocument = 5 }) {')))
+    stage, warnings = Usd.Stage.Open(str(tmp_path / "stage.usda")), []
+    assert [path for path, _ in read_materials(stage, warnings)] == ["/m", "/n"] and not warnings
+
+    def fails(context, prim, path, module, own=readMaterials.network_of):
+        return own(context, prim, path, module) if path == "/n" else {}["x"]
+
+    monkeypatch.setattr(readMaterials, "network_of", fails)
+    assert [path for path, _ in read_materials(stage, warnings)] == ["/n"]
+    assert [(w["prim"], "cannot be read" in w["message"]) for w in warnings] == [("/m", True)]

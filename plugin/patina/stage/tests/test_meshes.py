@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Meshes, primvars, subsets, purposes and visibility."""
+import pytest
 
 QUAD = """
         int[] faceVertexCounts = [4]
@@ -145,3 +146,13 @@ def test_wrong_types_and_unknown_tokens_are_warned_of(read):
     assert any(w.startswith("/token subdivisionScheme: 'nonsense' is unknown") for w in reading.warnings)
     assert any(w.startswith("/portal : prims of type PortalLight") for w in reading.warnings)
     assert reading.has("/fine") and "scheme" in reading.prim("/token")
+
+
+def test_times_that_are_one_to_the_renderer(read, numbers):
+    """Velocities give points at both ends of the shutter, which may be the same as 32-bit floats."""
+    mesh = read("""def Mesh "m" { int[] faceVertexCounts = [3]
+        int[] faceVertexIndices = [0, 1, 2]
+        point3f[] points.timeSamples = { 10: [(0,0,0), (1,0,0), (0,1,0)] }
+        vector3f[] velocities.timeSamples = { 10: [(24,0,0), (24,0,0), (24,0,0)] } }""",
+                frame=10.0, shutter=(0.5, 0.50000000001)).prim("/m")
+    assert numbers(mesh["points"])[0] == pytest.approx(0.5)

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """UsdSkel."""
+import os
+import subprocess
+import sys
+
 import pytest
 
 SKELETON = """
@@ -103,3 +107,44 @@ def test_broken_skinning_is_drawn_at_rest(read, numbers):
             float[] primvars:skel:jointWeights = [1, 1, 1] (interpolation = "vertex"; elementSize = 1)""", frame=5.0)
     assert len(numbers(reading.prim("/r/m")["points"])) == 9
     assert reading.warnings
+
+
+@pytest.mark.parametrize("type_", ["int64", "uint64"])
+def test_counts_whose_sum_wraps_are_not_used(tmp_path, statements, type_):
+    """In a process of its own: numpy would write beyond its arrays there."""
+    pytest.importorskip("_patina")
+    text = (SKELETON % (WEIGHTS + """
+            uniform token subdivisionScheme = "none"
+            normal3f[] normals = [(0,0,1), (0,0,1), (0,0,1)]""")).replace(
+                "int[] faceVertexCounts = [3]", f"{type_}[] faceVertexCounts = [{'4611686018427387904, ' * 4}3]")
+    (tmp_path / "stage.usda").write_text("#usda 1.0\n" + statements(text))
+    code = """import sys, _patina
+from pxr import Usd
+from patina.stage import StageOptions, read_stage
+scene = _patina.Scene()
+with scene.edit() as edit:
+    read_stage(Usd.Stage.Open(sys.argv[1]), edit, StageOptions(frame=5.0))
+print("/r/m" in scene.dump(64))"""
+    done = subprocess.run([sys.executable, "-c", code, str(tmp_path / "stage.usda")], capture_output=True, text=True,
+                          check=False, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+    assert done.returncode == 0 and done.stdout == "True\n", done.stderr
+
+
+def test_normals_of_a_deformed_mesh(read, numbers):
+    reading = read(SKELETON % (WEIGHTS + """
+            uniform token subdivisionScheme = "none"
+            normal3f[] normals = [(1,0,0), (1,0,0), (1,0,0)]"""), frame=5.0)
+    normals, = [value for key, value in reading.prim("/r/m").items() if key.startswith("primvar normals")]
+    assert numbers(normals) == [0, 0, 1] * 3
+
+
+def test_rigid_meshes_move_at_no_more_times_than_others(read):
+    moving = (SKELETON % """
+            int[] primvars:skel:jointIndices = [1] (interpolation = "constant"; elementSize = 1)
+            float[] primvars:skel:jointWeights = [1] (interpolation = "constant"; elementSize = 1)""").replace(
+                "{ 0: [(0, 1, 0)], 10: [(10, 1, 0)] }",
+                "{ " + ", ".join(f"{5 + (k + 0.6) / 13:.6f}: [({k}, 1, 0)]" for k in range(13)) + " }").replace(
+                "double3 xformOp:translate = (100, 0, 0)", "double3 xformOp:translate.timeSamples = { "
+                + ", ".join(f"{5 + (k + 0.3) / 13:.6f}: ({k}, 0, 0)" for k in range(13)) + " }")
+    mesh = read(moving, frame=5.0, shutter=(0.0, 1.0)).prim("/r/m")
+    assert 2 <= len([key for key in mesh if key.startswith("transform@")]) <= 16

@@ -5,7 +5,13 @@
 const types = { boolean: "bool", integer: "int", string: "string", float: "float", vector2: "float2", vector3: "float3", vector4: "float4", color3: "color3f",
                 color4: "color4f" };
 const number = x => Number.isFinite(x) ? String(Number(x.toPrecision(9))) : "0";
-const valueText = v => v.length === 1 ? number(v[0]) : `(${v.map(number).join(", ")})`;
+// OpenUSD refuses a layer in which a boolean or an integer is anything else; links and sliders may bring it.
+const texts = { boolean: x => x ? "1" : "0",
+                integer: x => String(Math.min(2147483647, Math.max(-2147483648, Math.round(x) || 0))) };
+const valueText = (v, kind) => {
+    const all = v.map(texts[kind] ?? number);
+    return all.length === 1 ? all[0] : `(${all.join(", ")})`;
+};
 const quoted = text => `"${text.replace(/[\x00-\x1f]/g, " ").replace(/\\/g, "\\\\").replace(/"/g, '\\"')}"`;
 const isPath = path => /^(\/[A-Za-z_]\w*)+$/.test(path);
 const isName = name => /^[A-Za-z_]\w*(:[A-Za-z_]\w*)*$/.test(name);
@@ -44,7 +50,7 @@ export function layerText(state) {
         const node = nodeAt(tree, path), declared = `${types[input.kind]} inputs:${name}`;
         // The author's value may have a colour space; the page's are linear.
         const space = !whole && input.kind.startsWith("color") ? ' (colorSpace = "lin_rec709_scene")' : "";
-        node.lines.push(`${declared} = ${valueText(value)}${space}`);
+        node.lines.push(`${declared} = ${valueText(value, input.kind)}${space}`);
         if (!whole) node.lines.push(`${declared}.connect = None`);
     });
     material.choices.forEach((choice, i) => {

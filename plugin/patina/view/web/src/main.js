@@ -15,8 +15,10 @@ function refuse(text) {
 }
 
 async function makeParts(data) {
-    const environments = await Promise.all(data.environments.map(async e => ({
-        name: e.name, texture: await makeTexture(e), radiance: e.radiance,
+    // Those of one image share its texture.
+    const own = data.environments.map(e => e.texelsOf === undefined ? makeTexture(e) : null);
+    const environments = await Promise.all(data.environments.map(async (e, i) => ({
+        name: e.name, texture: await own[e.texelsOf ?? i], radiance: e.radiance,
         toLocal: new THREE.Matrix3().fromArray(e.toLocal)
     })));
     return {

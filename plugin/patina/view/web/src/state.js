@@ -3,6 +3,23 @@
 
 const copy = x => JSON.parse(JSON.stringify(x));
 
+// Links are written by anyone. Shaders have single precision, in which a large number is infinite.
+const isNumber = x => typeof x === "number" && Number.isFinite(Math.fround(x));
+const fits = (a, b) => Array.isArray(b) ? Array.isArray(a) && a.length === b.length && a.every(isNumber)
+    : typeof b === "number" ? isNumber(a) : typeof a === typeof b;
+const listOf = x => Array.isArray(x) ? x : [];
+
+// What an object has for places of a list: of its keys those that are whole numbers below the length.
+const forPlaces = (object, list) => Object.entries(typeof object === "object" && object ? object : {})
+    .map(([key, value]) => [Number(key), value, key])
+    .filter(([i, , key]) => String(i) === key && Number.isInteger(i) && i >= 0 && i < list.length);
+
+// The program that a material has for its choices; undefined where it has none.
+const placeOf = ({ places }, choices) => {
+    const key = choices.join();
+    return Object.hasOwn(places, key) ? places[key] : undefined;
+};
+
 export class State {
     constructor(data) {
         this.data = data;
@@ -26,7 +43,7 @@ export class State {
     // Which of the material's programs has the method or the choices that were made.
     get program() {
         return this.programOf(this.methods[this.material]) ??
-            this.current.places[this.choices[this.material].join()] ?? 0;
+            placeOf(this.current, this.choices[this.material]) ?? 0;
     }
 
     programOf(method) {
@@ -48,9 +65,9 @@ export class State {
         this.methods[material] = null;
         const together = this.choices[material].map((old, i) => i === index ? at : old);
         const alone = start.map((old, i) => i === index ? at : old);
-        const fits = together.join() in current.places;
-        this.choices[material] = fits ? together : alone.join() in current.places ? alone : start;
-        return !fits;
+        const known = list => placeOf(current, list) !== undefined;
+        this.choices[material] = known(together) ? together : known(alone) ? alone : start;
+        return !known(together);
     }
 
     // Whether some value has left the authored one that only the whole program can follow.
@@ -95,25 +112,24 @@ export class State {
     fromText(text) {
         let read;
         try { read = JSON.parse(decodeURIComponent(text)); } catch { return false; }
-        if (typeof read !== "object" || read === null) return false;
-        const fits = (a, b) => typeof a === typeof b && Array.isArray(a) === Array.isArray(b) &&
-            (!Array.isArray(a) || a.length === b.length && a.every(x => Number.isFinite(x)));
-        for (const [m, list] of Object.entries(read.values ?? {}))
-            for (const [i, v] of Object.entries(list ?? {}))
-                if (this.values[m]?.[i] && fits(v, this.values[m][i])) this.values[m][i] = v;
-        (Array.isArray(read.choices) ? read.choices : []).forEach((list, m) => {
-            if (this.data.materials[m] && String(list) in this.data.materials[m].places)
-                this.choices[m] = String(list).split(",").filter(Boolean).map(Number);
+        if (typeof read !== "object" || read === null || Array.isArray(read)) return false;
+        for (const [m, list] of forPlaces(read.values, this.values))
+            for (const [i, v] of forPlaces(list, this.values[m]))
+                if (fits(v, this.values[m][i])) this.values[m][i] = v;
+        listOf(read.choices).slice(0, this.choices.length).forEach((list, m) => {
+            const picked = listOf(list);
+            if (picked.every(Number.isInteger) && placeOf(this.data.materials[m], picked) !== undefined)
+                this.choices[m] = picked;
         });
         for (const key of Object.keys(this.data.start))
-            if (key in read && fits(read[key], this[key])) this[key] = read[key];
+            if (Object.hasOwn(read, key) && fits(read[key], this[key])) this[key] = read[key];
         const clamped = (x, n) => Number.isInteger(x) && x >= 0 && x < n ? x : 0;
         this.material = clamped(this.material, this.data.materials.length);
         this.shape = clamped(this.shape, this.data.shapes.length);
         this.environment = clamped(this.environment, this.data.environments.length);
         this.samples = Math.min(1024, Math.max(4, Math.round(this.samples) || 64));
         this.whole = read.whole === true;
-        (Array.isArray(read.methods) ? read.methods : []).forEach((method, m) => {
+        listOf(read.methods).forEach((method, m) => {
             const plan = this.data.materials[m]?.plan.choices.find(c => c.point === method?.point);
             const known = plan?.methods.find(x => x.name === method.name && x.program !== null);
             if (!known) return;
@@ -121,11 +137,13 @@ export class State {
             this.choices[m] = this.data.materials[m].choices.map(c => c.at);
         });
         const w = read.wedge;
-        if (w && this.current.inputs[w.input] && [w.from, w.to].every(Number.isFinite) &&
-            Number.isInteger(w.count) && w.count >= 1 && w.count <= 9)
-            this.wedge = { input: w.input, component: w.component | 0, from: w.from, to: w.to, count: w.count };
-        (Array.isArray(read.lights) ? read.lights : []).forEach((l, i) => {
-            if (this.lights[i] && Number.isFinite(l?.gain) && fits(l.color, [1, 1, 1]))
+        if (w && Number.isInteger(w.input) && this.current.inputs[w.input] && [w.from, w.to].every(isNumber) &&
+            Number.isInteger(w.count) && w.count >= 1 && w.count <= 9) {
+            const component = Number.isInteger(w.component) ? w.component : 0;
+            this.wedge = { input: w.input, component, from: w.from, to: w.to, count: w.count };
+        }
+        listOf(read.lights).forEach((l, i) => {
+            if (this.lights[i] && isNumber(l?.gain) && fits(l.color, [1, 1, 1]))
                 this.lights[i] = { on: Boolean(l.on), gain: l.gain, color: l.color };
         });
         return true;

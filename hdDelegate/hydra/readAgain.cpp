@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/hydra/readAgain.h"
+
+#include "hdDelegate/hydra/instancer.h"
+#include "hdDelegate/hydra/instances.h"
+#include "hdDelegate/hydra/light.h"
+#include "hdDelegate/hydra/linkedPrim.h"
+#include "hdDelegate/scene/light.h"
+
+#include <pxr/imaging/hd/rprim.h>
+
+namespace patina {
+
+namespace {
+
+/// @param read is called with each instancer
+template <class F>
+void forInstancers(HdRenderIndex& index, HdPatinaRenderParam& param, const F& read) {
+    for (const SdfPath& path : param.instances().instancers())
+        if (HdInstancer* instancer = index.GetInstancer(path))
+            read(*static_cast<HdPatinaInstancer*>(instancer));
+}
+
+/// Neither UsdImagingDelegate nor Hydra's light linking tells all prims whose links have changed.
+void readLinks(HdRenderIndex& index, HdPatinaRenderParam& param) {
+    forInstancers(index, param,
+                  [&](HdPatinaInstancer& instancer) { instancer.updateCategories(param); });
+    for (const SdfPath& path : index.GetRprimIds()) {
+        auto* prim = dynamic_cast<HdPatinaLinkedPrim*>(const_cast<HdRprim*>(index.GetRprim(path)));
+        HdSceneDelegate* delegate = index.GetSceneDelegateForRprim(path);
+        if (prim && delegate) prim->updateCategories(*delegate, param);
+    }
+}
+
+/// Rprims are marked dirty by the camera. Of lights that come from scene indices the change tracker
+/// takes no mark, and an instancer that only lights ask for syncs with none of them.
+void readSamples(HdRenderIndex& index, HdPatinaRenderParam& param) {
+    forInstancers(index, param,
+                  [&](HdPatinaInstancer& instancer) { instancer.updateTransforms(param); });
+    for (const LightRow& row : lightRows) {
+        const TfToken type(row.hydra);
+        for (const SdfPath& path : index.GetSprimSubtree(type, SdfPath::AbsoluteRootPath()))
+            if (HdSprim* light = index.GetSprim(type, path))
+                static_cast<HdPatinaLight*>(light)->updateTransform(param);
+    }
+}
+
+} // namespace
+
+void readAgain(HdRenderIndex& index, HdPatinaRenderParam& param) {
+    if (param.takeLinksChanged()) readLinks(index, param);
+    if (param.takeShutterWidened()) readSamples(index, param);
+}
+
+} // namespace patina

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hdDelegate/hydra/renderParam.h"
+
+#include <pxr/imaging/hd/renderIndex.h>
+
+namespace patina {
+
+/// Reads once what syncs have found out to be stale, but hosts do not mark dirty: the links of
+/// prims after those of a light have changed, and what was sampled before a camera opened a longer
+/// shutter. However many lights or cameras changed, each prim is asked once. Host's thread, while
+/// nothing syncs.
+void readAgain(HdRenderIndex& index, HdPatinaRenderParam& param);
+
+} // namespace patina

@@ -84,7 +84,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
     _outOfMemory = false;
     _origin = origin;
     const ScreenScale screen = screenScale(camera, settings, origin);
-    View view{state, camera, settings, screen, stop, nullptr};
+    View view{state, camera, settings, screen, stop, {}, nullptr};
     if (!edits || !updateTouched(view, *edits)) {
         _subdivision = _compiled.subdivision().of(state, *_parts.placements, camera, settings);
         updateAll(view);

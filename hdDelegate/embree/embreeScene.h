@@ -143,6 +143,7 @@ private:
         const RenderSettings& settings;
         const ScreenScale& screen;
         const std::atomic<bool>& stop;
+        std::map<std::string, std::vector<mat4>> transformsOf; ///< by group, of those asked for
         /// By group: the surfaces that differ from the last update's. Null: all of them may.
         const Members* changed = nullptr;
     };

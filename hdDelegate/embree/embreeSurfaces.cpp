@@ -24,12 +24,21 @@ float EmbreeScene::targetEdge(CachedSurface& cached, const std::shared_ptr<const
     if (extent.empty) return 0.0f;
     float edge = 0.0f;
     const mat4 toGroup = interpolate(prim->transform, 0.0f, originOf(prim->group));
-    forTransforms(prim->group, [&](const mat4& place) {
+    const auto look = [&](const mat4& place) {
         const mat4 m = place * toGroup;
         const float wanted = pixels * view.screen.unit(m, extent.center(), extent.radius());
         if (std::isfinite(wanted) && wanted > 0.0f)
             edge = edge > 0.0f ? std::min(edge, wanted) : wanted;
-    });
+    };
+    constexpr double many = 1 << 20; // of which a list would take more memory than time
+    if (placeCount(prim->group) > many) {
+        forTransforms(prim->group, look);
+    } else {
+        auto places = view.transformsOf.find(prim->group);
+        if (places == view.transformsOf.end())
+            places = view.transformsOf.emplace(prim->group, groupTransforms(prim->group)).first;
+        std::for_each(places->second.begin(), places->second.end(), look);
+    }
     // Far away a cage of few faces would stay as it is: up to twice as wide as its surface.
     if (refined && edge > 0.0f) edge = std::min(edge, 0.5f * extent.radius());
     return edge > 0.0f ? std::exp2(std::floor(std::log2(edge))) : 0.0f;

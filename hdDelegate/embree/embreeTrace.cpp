@@ -97,10 +97,12 @@ unsigned EmbreeScene::occludedRays(const vec3& origin, const vec3* directions, i
     unsigned blocked = 0;
     for (int i = 0; i < packet; ++i) {
         const vec3& direction = directions[std::min(i, count - 1)];
-        const RTCRay ray = {origin.x,    origin.y, origin.z, 0.0f, direction.x, direction.y,
-                            direction.z, time,     INFINITY, mask, 0,           0};
+        RTCRay ray = {origin.x,    origin.y, origin.z, 0.0f, direction.x, direction.y,
+                      direction.z, time,     INFINITY, mask, 0,           0};
         valid[i] = i < count && accepts(ray) ? -1 : 0;
         if (i < count && !valid[i]) blocked |= 1u << i;
+        if (!valid[i]) // builds of Embree with assertions look at rays that are left out, too
+            ray = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, time, 0.0f, mask, 0, 0};
         rays.org_x[i] = ray.org_x, rays.org_y[i] = ray.org_y, rays.org_z[i] = ray.org_z;
         rays.dir_x[i] = ray.dir_x, rays.dir_y[i] = ray.dir_y, rays.dir_z[i] = ray.dir_z;
         rays.tnear[i] = ray.tnear, rays.tfar[i] = ray.tfar, rays.time[i] = ray.time;

@@ -86,7 +86,8 @@ public:
                          float* times, VtValue* values) override {
         return sample(primvars, Key(id, name), most, times, values);
     }
-#else
+#endif
+    // Hydra's emulation of scene indices asks without an interval in all releases.
     size_t SampleTransform(const SdfPath& id, size_t most, float* times,
                            GfMatrix4d* values) override {
         return sample(transforms, id, most, times, values);
@@ -99,7 +100,6 @@ public:
                          VtValue* values) override {
         return sample(primvars, Key(id, name), most, times, values);
     }
-#endif
 
 private:
     static GfMatrix4d first(const std::map<SdfPath, Samples<GfMatrix4d>>& all, const SdfPath& id) {

@@ -97,14 +97,15 @@ std::unique_ptr<CausticCasters> EmbreeRenderer::casters(const RenderSettings& se
                                                         const std::vector<AovSpec>& aovs) const {
     if (chosenMethod(settings.methods, "caustics") != "photons") return nullptr;
     auto result = std::make_unique<CausticCasters>(*_embree);
-    const char* reason = result->empty() ? nullptr
-                         : _lights->splitsLobes()
-                             ? "a light treats diffuse and specular light differently"
-                         : !LightPathAovs(aovs).empty() ? "an AOV asks for light paths"
-                         : !result->complete() ? "curves, points or shared shapes are made of glass"
-                         : settings.enableMotionBlur && camera.shutterOpen < camera.shutterClose
-                             ? "the shutter is open"
-                             : "";
+    const char* reason =
+        result->empty()                ? nullptr
+        : _lights->splitsLobes()       ? "a light treats diffuse and specular light differently"
+        : !LightPathAovs(aovs).empty() ? "an AOV asks for light paths"
+        : !result->complete()
+            ? "curves, points, shared shapes or very many instances are made of glass"
+        : settings.enableMotionBlur && camera.shutterOpen < camera.shutterClose
+            ? "the shutter is open"
+            : "";
     if (!reason) return nullptr;
     if (!*reason) return result;
     _scene->diagnostics().warn(camera.path, "method:caustics",

@@ -2,12 +2,12 @@
 // Stages that refer in circles, name prims as the plugin does, or begin to move while they are
 // shown.
 
+#include "hdDelegate/hydra/tests/warnings.h"
 #include "testenv/hydra/edits/baseStage.h"
 #include "testenv/hydra/tests/comparing.h"
 
 #include <pxr/base/gf/vec3d.h>
 #include <pxr/base/gf/vec3f.h>
-#include <pxr/base/tf/diagnosticMgr.h>
 #include <pxr/base/vt/array.h>
 #include <pxr/usd/sdf/types.h>
 #include <pxr/usd/usd/attribute.h>
@@ -15,35 +15,10 @@
 #include <pxr/usd/usd/relationship.h>
 
 #include <string>
-#include <vector>
 
 using namespace patina;
 
 namespace {
-
-/// Keeps what OpenUSD is warned of, instead of printing it.
-class Warnings : public TfDiagnosticMgr::Delegate {
-public:
-    Warnings() { TfDiagnosticMgr::GetInstance().AddDelegate(this); }
-    ~Warnings() override { TfDiagnosticMgr::GetInstance().RemoveDelegate(this); }
-
-    int of(const std::string& words) const {
-        int count = 0;
-        for (const std::string& text : _texts)
-            count += text.find(words) != std::string::npos;
-        return count;
-    }
-
-    void IssueError(const TfError&) override {}
-    void IssueFatalError(const TfCallContext&, const std::string&) override {}
-    void IssueStatus(const TfStatus&) override {}
-    void IssueWarning(const TfWarning& warning) override {
-        _texts.push_back(warning.GetCommentary());
-    }
-
-private:
-    std::vector<std::string> _texts;
-};
 
 class HydraStages : public testing::TestWithParam<bool> {
 protected:

@@ -177,8 +177,6 @@ TEST(Volumes, WhatIsDenserThanItsMajorantGainsNoLight) {
     ASSERT_TRUE(image.finite);
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(image.mean[c], 1.0f, 5.0f * image.error[c] + 2e-3f);
-    for (const float x : image.color) // paths that go on count more for those that do not
-        EXPECT_LT(x, 2.0f);
 }
 
 TEST(Volumes, ThreadsChangeNothing) {

@@ -6,6 +6,7 @@ import re
 import shutil
 import stat
 import subprocess
+import sys
 import time
 
 import pytest
@@ -265,10 +266,48 @@ def test_only_what_is_used_is_installed(checkout, arguments, wanted):
     assert checkout.run(*arguments)[1] == []
 
 
-def test_the_installed_command_imports_nothing_of_the_current_folder(tmp_path):
-    with open(os.path.join(ROOT, "cmake", "package", "patina.in")) as file:
-        write(tmp_path / "bin" / "patina", file.read().replace("@toPython@", "../python"), program=True)
-    write(tmp_path / "show", '#!/bin/sh\necho "$PYTHONSAFEPATH $PYTHONPATH $*"\n', program=True)
-    shown = subprocess.run([str(tmp_path / "bin" / "patina"), "check"], capture_output=True, text=True, check=True,
-                           env={"PATH": os.environ["PATH"], "PATINA_PYTHON": str(tmp_path / "show")}).stdout
-    assert shown == f"1 {tmp_path}/bin/../python -m patina check\n"
+# As before version 3.11, which is the first to know PYTHONSAFEPATH.
+OLDER_PYTHON = f"""#!/bin/sh
+exec env -u PYTHONSAFEPATH "{sys.executable}" "$@"
+"""
+HOSTILE = "import os; open(os.environ['RAN'], 'w').close()\n"
+
+
+@pytest.fixture
+def hostile(tmp_path):
+    """:returns: a folder of modules that leave a mark where they are run, and the environment with an older Python"""
+    for name in ("argparse", "json", "os", "patina", "random", "runpy", "venv", "ensurepip"):
+        write(tmp_path / "hostile" / f"{name}.py", HOSTILE)
+    write(tmp_path / "older", OLDER_PYTHON, program=True)
+    return tmp_path / "hostile", {**os.environ, "RAN": str(tmp_path / "ran"), "PATINA_PYTHON": str(tmp_path / "older")}
+
+
+def test_what_stands_for_an_older_python_would_run_them(hostile, tmp_path):
+    folder, environment = hostile
+    subprocess.run([environment["PATINA_PYTHON"], "-m", "patina", "--help"], cwd=folder, env=environment, check=False)
+    assert (tmp_path / "ran").exists()
+
+
+def test_the_installed_command_imports_nothing_of_the_current_folder(hostile, tmp_path):
+    to_python = os.path.relpath(os.path.join(ROOT, "plugin"), tmp_path / "bin")
+    with open(os.path.join(ROOT, "cmake", "package", "patina.in"), encoding="utf-8") as file:
+        write(tmp_path / "bin" / "patina", file.read().replace("@toPython@", to_python), program=True)
+    folder, environment = hostile
+    help_ = subprocess.run([str(tmp_path / "bin" / "patina"), "record", "--help"], capture_output=True, text=True, check=True,
+                           cwd=folder, env=environment).stdout
+    assert "--samples" in help_ and not (tmp_path / "ran").exists()
+
+
+def test_help_before_set_up_imports_nothing_of_the_current_folder(hostile, tmp_path):
+    folder, environment = hostile
+    help_ = subprocess.run([os.path.join(ROOT, "patina"), "record", "--help"], capture_output=True, text=True, check=True,
+                           cwd=folder, env={**environment, "PATINA_VENV": str(tmp_path / "none")}).stdout
+    assert "--samples" in help_ and not (tmp_path / "ran").exists()
+
+
+def test_set_up_imports_nothing_of_the_current_folder(checkout, tmp_path):
+    write(checkout.root / ".venv" / "bin" / "python", PYTHON.replace('echo "pip', 'echo "in $PWD" >> "$CALLS"; echo "pip'), program=True)
+    write(checkout.tools / "cmake", CMAKE.replace('echo "cmake', 'echo "in $PWD" >> "$CALLS"; echo "cmake'), program=True)
+    process, calls = checkout.run("record")
+    places = {call for call in calls if call.startswith("in ")}
+    assert places == {f"in {checkout.root}/build"} and "ran -m patina record" in process.stdout

@@ -45,3 +45,14 @@ def test_flip_of_equal_and_of_opposite_images():
         assert imageMetrics.mean_flip(white, white, linear) == pytest.approx(0.0, abs=1e-6)
     assert imageMetrics.mean_flip(black, white, False) > 0.9
     assert imageMetrics.mean_flip(black, black, True) == 0.0
+
+
+@pytest.mark.parametrize("brightness", [2.0 ** -12, 2.0 ** -40, 2.0 ** -135])
+def test_flip_of_dim_images_is_that_of_bright_ones(brightness):
+    if reason := imageMetrics.flip_missing():
+        pytest.skip(reason)
+    generator = np.random.default_rng(3)
+    a, b = (generator.integers(1, 8, (16, 16, 3)).astype(np.float32) for _ in range(2))  # few bits: nothing is rounded
+    expected = imageMetrics.mean_flip(a, b, True)
+    assert imageMetrics.mean_flip(a * brightness, b * brightness, True) == pytest.approx(expected, rel=1e-3)
+    assert imageMetrics.mean_flip(a, b * brightness, True) > expected

@@ -42,6 +42,11 @@ def differences(a, b):
     }
 
 
+# flip-evaluator ends the process beside a reference below about 1e-7. Its exposures follow the reference's luminance, so that
+# images that are scaled by a power of two differ as much as before.
+DIM = 1e-3
+
+
 def flip_missing():
     """:returns: why FLIP cannot be measured on this machine; empty where it can"""
     if importlib.util.find_spec("flip_evaluator"):
@@ -68,6 +73,10 @@ def mean_flip(a, b, high_dynamic_range):
         test, reference = np.clip(test, 0.0, 1.0), np.clip(reference, 0.0, 1.0)
     if high_dynamic_range and not (reference > 0.0).any():  # its exposures come from the reference's luminance
         return 0.0 if np.array_equal(test, reference) else None
+    if high_dynamic_range and reference.max() < DIM:
+        scale = 2.0 ** (-1 - np.floor(np.log2(float(reference.max()))))
+        largest = np.finfo(np.float32).max
+        test, reference = (np.minimum(image.astype(np.float64) * scale, largest).astype(np.float32) for image in (test, reference))
     import flip_evaluator
 
     _, mean, _ = flip_evaluator.evaluate(reference, test, "HDR" if high_dynamic_range else "LDR",

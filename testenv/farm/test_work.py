@@ -287,6 +287,26 @@ def test_the_folder_of_a_dead_job_is_taken_over(tmp_path, dead, resume):
     assert os.path.exists(second.part_file(cut.Part(1, second.cut))) is resume
 
 
+def test_of_two_jobs_that_find_an_owner_dead_one_takes_over(tmp_path, dead, monkeypatch):
+    first = frame(tmp_path)
+    if owned(first, **dead)["begun"] is None:
+        pytest.skip("the system does not tell when a process began")
+    check, refused = owner.check, []
+
+    def another_comes_after(folder, job):
+        check(folder, job)
+        if job == "second":
+            with pytest.raises(CommandError, match="begins just now") as told:
+                owner.take(folder, "third")
+            refused.append(told)
+
+    monkeypatch.setattr(owner, "check", another_comes_after)
+    owner.take(first.folder, "second")
+    assert len(refused) == 1
+    with open(owner.path_of(first.folder), encoding="utf-8") as file:
+        assert json.load(file)["job"] == "second"
+
+
 @pytest.mark.parametrize("text", ["", "{}", "[]", '{"host": 5, "pid": 1, "job": "a"}', '{"host": "a", "pid": -1, "job": "a"}',
                                   "pipe", "folder"])
 def test_an_owner_that_cannot_be_told_is_refused(tmp_path, text):

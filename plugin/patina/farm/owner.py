@@ -2,6 +2,7 @@
 """The job that a folder of parts belongs to, told by a file in it: two jobs of one image would remove each other's parts."""
 import contextlib
 import errno
+import fcntl
 import json
 import os
 import socket
@@ -35,21 +36,41 @@ def take(folder, job):
     """Makes the folder this job's, where that of its last owner has ended.
 
     :raises CommandError: where it belongs to another job, or the file cannot be written"""
-    check(folder, job)
     path = path_of(folder)
     told = json.dumps({"host": socket.gethostname(), "pid": os.getpid(), "begun": _begun(os.getpid()), "job": job})
     try:
-        with contextlib.suppress(FileNotFoundError):
-            os.remove(path)
-        handle = os.open(path, _FLAGS, 0o666)
-        try:
-            _write(handle, path, told.encode())
-        finally:
-            os.close(handle)
-    except FileExistsError:
+        with _alone(folder):
+            check(folder, job)
+            with contextlib.suppress(FileNotFoundError):
+                os.remove(path)
+            handle = os.open(path, _FLAGS, 0o666)
+            try:
+                _write(handle, path, told.encode())
+            finally:
+                os.close(handle)
+    except (BlockingIOError, FileExistsError):
         raise CommandError(f"{path} is of another job that begins just now; remove it if no job renders this image") from None
     except OSError as error:
         raise CommandError(f"cannot write {path}: {error.strerror}") from error
+
+
+@contextlib.contextmanager
+def _alone(folder):
+    """Of two jobs that find the same owner gone, one takes its place. Owners of other machines are never found gone, so that a
+    lock of this machine is enough; a file system without locks of folders goes without.
+
+    :raises BlockingIOError: while another job takes the folder"""
+    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise
+        except OSError:
+            pass
+        yield
+    finally:
+        os.close(handle)
 
 
 def _write(handle, path, data):

@@ -136,7 +136,6 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]texturedDiffuse]", "smoke", None),
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]outOfView/rect]", "smoke", None),
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]outOfView/sun]", "smoke", None),
-    ("testenv/view/test_backEnds.py::test_materials_look_as_in_the_rasterizer[[]all]", "long", None),
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]Te*", "long", None),
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]teapot*", "long", None),
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]R*", "long", None),
@@ -156,9 +155,33 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     # the same balls.
     ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]twoDomes]", "long", None),
     ("testenv/raster/test_lights.py::test_a_method_of_domes_keeps_the_tolerance_*[[]harmonics-roughConductor]", "long", None),
+    # Half a minute of software OpenGL and more, where a neighbour shows the same.
+    *((f"testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]{name}[]]", "long", None)
+      for name in ("curves", "outOfView/glowingMesh", "roughConductor")),
+    ("testenv/raster/test_lights.py::test_a_method_of_domes_keeps_the_tolerance_*roughConductor[]]", "long", None),
+    ("testenv/raster/test_lights.py::test_what_is_inside_of_a_light_casts_nothing[[]CylinderLight[]]", "long", None),
+    ("testenv/raster/test_lights.py::test_wide_suns_are_shadowed_*[[]30[]]", "long", None),
+    *((f"testenv/raster/test_manyLights.py::test_choosing_among_just_enough_lights_changes_no_mean[[]{name}[]]", "long", None)
+      for name in ("coat", "milk")),
+    *((f"testenv/raster/test_whiteSky.py::test_nothing_outshines_a_white_sky[[]{name}-raster[]]", "long", None)
+      for name in ("caustics", "classic/hematite", "classic/rustedSteel")),
+    ("testenv/raster/test_byDesign.py::test_harmonics_know_no_light_filters[[]harmonics-False[]]", "long", None),
+    ("testenv/raster/test_emitters.py::test_light_follows_the_direction_that_an_edf_has[[]inclinedNarrow[]]", "long", None),
+    ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]classic/hematite[]]", "long", None),
+    ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]texturedMesh[]]", "long", None),
+    ("testenv/raster/test_refraction.py::test_coloured_glass_absorbs_along_the_bent_path[[]0.5[]]", "long", None),
+    ("testenv/raster/test_curves.py::test_hair_is_as_wide_and_as_bright_as_traced[[](-20, 170, 0)*", "long", None),
+    # The path tracer's goes the same ways without minutes of compiling.
+    ("testenv/fuzz/test_faults.py::test_a_render_without_memory_spoils_none_after_it[[]raster-*", "long", None),
+    ("testenv/fuzz/test_fuzz.py::test_the_first_seeds[[]faults-4[]]", "long", None),
+    # Minutes of a browser's software OpenGL; [few] of each, and the other tests of the panel, stay.
+    ("testenv/view/test_backEnds.py::test_materials_look_as_in_the_rasterizer[[]all[]]", "long", None),
+    ("testenv/view/test_lights.py::test_each_light_is_as_in_the_path_tracer[[]all[]]", "long", None),
+    ("testenv/view/test_planPanel.py::test_a_method_changes_the_picture_as_its_albedo_says", "long", None),
+    ("testenv/view/test_hostile.py::test_thousands_of_inputs[[]10000[]]", "long", None),
     # One of each kind of filter and of light is enough at a time: these go the ways of the others.
     *((f"testenv/raster/test_lightFilters.py::test_filtered_light_is_the_path_tracers[[]{name}]", "long", None)
-      for name in ("barnAnalytic", "barnShear", "cookie", "several", "sun")),
+      for name in ("barnAnalytic", "barnShear", "cookie", "meshLight", "several", "sun")),
 )
 
 # More than about ten seconds of processor time by themselves (not by a fixture that others of their file use too): the first
@@ -177,10 +200,11 @@ COSTLY = (
     "testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]*",
     "testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last*",
     "testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]manyDomes]",
-    "testenv/raster/test_places.py::test_a_caster_far_away_takes_no_shadow",
     "testenv/raster/test_places.py::test_bumps_of_polygons_stand_in_the_world",
     "testenv/render/test_instanceValues.py::test_the_rasterizer_shows_them_too",
-    "testenv/view/test_planPanel.py::test_a_method_changes_the_picture_as_its_albedo_says",
+    "testenv/view/test_backEnds.py::*",
+    "testenv/view/test_lights.py::test_each_light_*",
+    "testenv/fuzz/test_fuzz.py::test_the_first_seeds[[]faults-*",
 )
 
 

@@ -306,8 +306,9 @@ def test_help_before_set_up_imports_nothing_of_the_current_folder(hostile, tmp_p
 
 
 def test_set_up_imports_nothing_of_the_current_folder(checkout, tmp_path):
-    write(checkout.root / ".venv" / "bin" / "python", PYTHON.replace('echo "pip', 'echo "in $PWD" >> "$CALLS"; echo "pip'), program=True)
-    write(checkout.tools / "cmake", CMAKE.replace('echo "cmake', 'echo "in $PWD" >> "$CALLS"; echo "cmake'), program=True)
+    python, cmake = checkout.root / ".venv" / "bin" / "python", checkout.tools / "cmake"
+    for path, text, name in ((python, PYTHON, "pip"), (cmake, CMAKE, "cmake")):
+        write(path, text.replace(f'echo "{name}', f'echo "in $PWD" >> "$CALLS"; echo "{name}'), program=True)
     process, calls = checkout.run("record")
     places = {call for call in calls if call.startswith("in ")}
     assert places == {f"in {checkout.root}/build"} and "ran -m patina record" in process.stdout

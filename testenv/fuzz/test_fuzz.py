@@ -69,7 +69,7 @@ def test_lines_that_are_reached_are_counted(tmp_path, monkeypatch):
     assert pythonTargets.lines(space["some"], ("other.py",), inputs) == (0, 0)
 
 
-@pytest.mark.parametrize("name, inputs", (("faults", 4), ("changing", 6), ("killed", 2)))
+@pytest.mark.parametrize("name, inputs", (("faults", 1), ("faults", 4), ("changing", 6), ("killed", 2)))
 def test_the_first_seeds(name, inputs):
     """More of what the kept inputs show: the same inputs on every machine. `./patina fuzz NAME --seconds S` goes on."""
     found = generated.run(importlib.import_module(name), HANGS, 5000, print, inputs)

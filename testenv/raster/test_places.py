@@ -167,7 +167,7 @@ def test_far_from_the_origin(tmp_path, far):
 
 def test_a_caster_far_away_takes_no_shadow(tmp_path):
     """Depths over the whole scene would take 0.78 of a tile."""
-    sameImage.assert_same(write(tmp_path, more=CARD), width=24)
+    sameImage.assert_same(matte(write(tmp_path, more=CARD)), width=24)
 
 
 BUMPY = {"floor": "        rel material:binding = </bumps>", "end": BUMPS}

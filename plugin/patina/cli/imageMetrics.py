@@ -42,8 +42,8 @@ def differences(a, b):
     }
 
 
-# flip-evaluator ends the process beside a reference below about 1e-7. Its exposures follow the reference's luminance, so that
-# images that are scaled by a power of two differ as much as before.
+# flip-evaluator ends the process beside a reference below about 1e-7. Its exposures follow the reference's luminance, so images
+# that are scaled by a power of two differ as much as before.
 DIM = 1e-3
 
 
@@ -76,7 +76,8 @@ def mean_flip(a, b, high_dynamic_range):
     if high_dynamic_range and reference.max() < DIM:
         scale = 2.0 ** (-1 - np.floor(np.log2(float(reference.max()))))
         largest = np.finfo(np.float32).max
-        test, reference = (np.minimum(image.astype(np.float64) * scale, largest).astype(np.float32) for image in (test, reference))
+        test, reference = (np.minimum(image.astype(np.float64) * scale, largest).astype(np.float32)
+                           for image in (test, reference))
     import flip_evaluator
 
     _, mean, _ = flip_evaluator.evaluate(reference, test, "HDR" if high_dynamic_range else "LDR",

@@ -174,10 +174,9 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     # The path tracer's goes the same ways without minutes of compiling.
     ("testenv/fuzz/test_faults.py::test_a_render_without_memory_spoils_none_after_it[[]raster-*", "long", None),
     ("testenv/fuzz/test_fuzz.py::test_the_first_seeds[[]faults-4[]]", "long", None),
-    # Minutes of a browser's software OpenGL; [few] of each, and the other tests of the panel, stay.
+    # Minutes of a browser's software OpenGL.
     ("testenv/view/test_backEnds.py::test_materials_look_as_in_the_rasterizer[[]all[]]", "long", None),
     ("testenv/view/test_lights.py::test_each_light_is_as_in_the_path_tracer[[]all[]]", "long", None),
-    ("testenv/view/test_planPanel.py::test_a_method_changes_the_picture_as_its_albedo_says", "long", None),
     ("testenv/view/test_hostile.py::test_thousands_of_inputs[[]10000[]]", "long", None),
     # One of each kind of filter and of light is enough at a time: these go the ways of the others.
     *((f"testenv/raster/test_lightFilters.py::test_filtered_light_is_the_path_tracers[[]{name}]", "long", None)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pages of `patina view`: how large they are, how long they take to make, and how long a browser takes to their first picture
-and to all 64 samples, in headless Chromium at 256 x 256 pixels. Without a GPU Chromium draws on the processor (SwiftShader);
-most of the time until the first picture is then the compiling of shaders.
+and to all 64 samples, in headless Chromium at 256 x 256 pixels. Chromium draws on the processor (Mesa, else SwiftShader);
+most of the time until the first picture is the compiling of shaders.
 """
 import argparse
 import os

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checkpoints and parts of frames that others made, with right checksums.
+#include "base/limits.h"
 #include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/film/imageFile.h"
@@ -14,6 +15,9 @@
 int fuzzFilm(const uint8_t* data, size_t size) {
     using namespace patina;
     if (size < 24) return 0;
+    // As for --limit textureBytes: parts may be of images as large as that, which is more than this program may take.
+    static const std::string refused = setLimits({{"textureBytes", uint64_t(1) << 28}});
+    if (!refused.empty()) std::abort();
     std::string bytes(reinterpret_cast<const char*>(data), size);
     const bool part = bytes[6] == 'P';
     forgeChecksums(bytes, part);

@@ -157,10 +157,12 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_lights.py::test_a_method_of_domes_keeps_the_tolerance_*[[]harmonics-roughConductor]", "long", None),
     # Half a minute of software OpenGL and more, where a neighbour shows the same.
     *((f"testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]{name}[]]", "long", None)
-      for name in ("curves", "outOfView/glowingMesh", "roughConductor")),
+      for name in ("curves", "lightDome", "outOfView/glowingMesh", "roughConductor")),
     ("testenv/raster/test_lights.py::test_a_method_of_domes_keeps_the_tolerance_*roughConductor[]]", "long", None),
     ("testenv/raster/test_lights.py::test_what_is_inside_of_a_light_casts_nothing[[]CylinderLight[]]", "long", None),
     ("testenv/raster/test_lights.py::test_wide_suns_are_shadowed_*[[]30[]]", "long", None),
+    ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]manyLinks[]]", "long", None),
+    ("testenv/raster/test_firstPass.py::test_first_looks_continue_as_they_would_have[[]roughConductor[]]", "long", None),
     *((f"testenv/raster/test_manyLights.py::test_choosing_among_just_enough_lights_changes_no_mean[[]{name}[]]", "long", None)
       for name in ("coat", "milk")),
     *((f"testenv/raster/test_whiteSky.py::test_nothing_outshines_a_white_sky[[]{name}-raster[]]", "long", None)

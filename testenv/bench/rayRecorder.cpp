@@ -20,8 +20,7 @@ std::vector<Traced> traced;
 bool recording = false;
 int depth = 0; // of calls; a renderer with one thread is recorded
 
-template <class Function>
-Function* next(const char* name) {
+template <class Function> Function* next(const char* name) {
     return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 

@@ -32,7 +32,7 @@ def parse(texts):
         methods[point] = name
     problem = compiled.load().check_methods(methods) if methods else ""
     if problem:
-        raise UsageError(f"--method: {problem}")
+        raise UsageError(f"patina: --method: {problem}")
     return methods
 
 

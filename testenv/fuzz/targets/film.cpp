@@ -15,7 +15,8 @@
 int fuzzFilm(const uint8_t* data, size_t size) {
     using namespace patina;
     if (size < 24) return 0;
-    // As for --limit textureBytes: parts may be of images as large as that, which is more than this program may take.
+    // As for --limit textureBytes: parts may be of images as large as that, which is more than this
+    // program may take.
     static const std::string refused = setLimits({{"textureBytes", uint64_t(1) << 28}});
     if (!refused.empty()) std::abort();
     std::string bytes(reinterpret_cast<const char*>(data), size);

@@ -57,7 +57,8 @@ CurveBatch takeApart(const Curves& curves, const PointSteps& points, Diagnostics
     report(unused, "curveVertexCounts",
            "have points at the end that make no whole segment; these points are ignored");
     report(truncated, "curveVertexCounts", "need more points than there are; they are not drawn");
-    report(notFinite, "points", "have points that are not finite; they are not drawn");
+    report(notFinite, "points",
+           "have points that are not finite or beyond 1e15; they are not drawn");
     if (point < points.count())
         diagnostics.warn(curves.path, "points",
                          std::to_string(points.count() - point) +

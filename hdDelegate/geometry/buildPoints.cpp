@@ -66,7 +66,8 @@ PointSet buildPoints(const Points& prim, const TessellationOptions& options,
     }
     if (notFinite > 0)
         diagnostics.warn(prim.path, "points",
-                         std::to_string(notFinite) + " points are not finite and not drawn");
+                         std::to_string(notFinite) +
+                             " points are not finite or beyond 1e15, and not drawn");
     if (negative > 0)
         diagnostics.warn(prim.path, "widths",
                          std::to_string(negative) + " are negative; 0 is used");

@@ -86,7 +86,8 @@ CageFaces cageFaces(const Mesh& mesh, const PointSteps& points, Diagnostics& dia
                              " indices at the end belong to no face and are ignored");
     outside.report(mesh, "faceVertexIndices", "faces have indices out of range and are not drawn",
                    diagnostics);
-    notFinite.report(mesh, "points", "faces have points that are not finite and are not drawn",
+    notFinite.report(mesh, "points",
+                     "faces have points that are not finite or beyond 1e15, and are not drawn",
                      diagnostics);
     markHoles(mesh, faces, diagnostics);
     return faces;

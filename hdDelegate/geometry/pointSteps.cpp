@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/geometry/pointSteps.h"
 
+#include "hdDelegate/scene/instancerCheck.h"
 #include "hdDelegate/scene/motionSteps.h"
 
 namespace patina {
@@ -40,8 +41,10 @@ UsableSamples usableSamples(const Sampled<std::vector<vec3>>& points, const std:
     return result;
 }
 
-bool finite(const vec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+/// Neither NaN nor so far away that rays cannot follow.
+bool usable(const vec3& p) {
+    constexpr float largest = float(largestPlace);
+    return std::abs(p.x) <= largest && std::abs(p.y) <= largest && std::abs(p.z) <= largest;
 }
 
 } // namespace
@@ -72,7 +75,7 @@ PointSteps resamplePoints(const Sampled<std::vector<vec3>>& points, const std::s
     }
     for (const auto& step : result.steps)
         for (size_t i = 0; i < step.size(); ++i)
-            if (!finite(step[i])) {
+            if (!usable(step[i])) {
                 result.bad.resize(step.size());
                 result.bad[i] = 1;
             }

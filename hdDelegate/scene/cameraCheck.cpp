@@ -69,6 +69,8 @@ std::shared_ptr<const Camera> checkedCamera(std::shared_ptr<const Camera> camera
                    within(c->clipNear));
     replace.number("clippingRange", c->clipFar, maximum, "ends at no finite distance; 1e15 is used",
                    within(c->clipFar));
+    if (c->clipFar <= c->clipNear)
+        diagnostics.warn(c->path, "clippingRange", "ends before it starts; nothing is seen");
     replace.planes();
     replace.number("focusDistance", c->focusDistance,
                    std::isnan(c->focusDistance) ? 0.0f : std::copysign(maximum, c->focusDistance),

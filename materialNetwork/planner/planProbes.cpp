@@ -132,8 +132,8 @@ private:
                 const BsdfLobe& l = bsdf.lobe(op.lobe);
                 describe(l, contribution);
                 contribution.share = light[size_t(op.lobe)] / probe.albedo;
-                contribution.tabulated = !code.lobes[size_t(op.lobe)].energy.empty() &&
-                                         !(isTop(int(i)) && asksAnew(l));
+                contribution.tabulated =
+                    !code.lobes[size_t(op.lobe)].energy.empty() && !(isTop(int(i)) && asksAnew(l));
             } else if (op.kind == ClosureKind::Layer && op.a >= 0 && op.b >= 0) {
                 layer(op, bsdf, light, contribution);
                 contribution.share /= probe.albedo;

@@ -121,6 +121,7 @@ def test_references_are_kept(charted, capsys):
 @pytest.mark.parametrize("arguments, words", [
     (["x.usda", "--lobes"], "say what to chart"), (["x.usda", "y.usda", "--reference", "r.exr"], "--reference"),
     (["x.usda", "--tolerances", "0"], "--tolerances"), (["x.usda", "--tolerances", "0.1,nan"], "--tolerances"),
+    (["x.usda", "--reference", "none.exr"], "there is no file none.exr"),
     (["x.usda", "--method", "fresnel=guess"], "--method"), (["x.usda", "--out", "/dev/null/x"], "cannot make")])
 def test_wrong_usage(arguments, words, capsys):
     assert main.main(["chart", *arguments]) in (1, 2)

@@ -296,6 +296,7 @@ _BASE = [
     ('string[] resolution = ["32", "16"]', "is not 2 finite numbers; it is left out"),
     ("int resolution = 5", "is not 2 finite numbers; it is left out"),
     ("int3 resolution = (5, 5, 5)", "is not 2 finite numbers; it is left out"),
+    ("int2 resolution = (-5, 0)", "-5 x 0 is no size; 2048 x 1080 is used"),
     ('string pixelAspectRatio = "x"', "is no finite number; it is left out"),
     ("float pixelAspectRatio = nan", "is no finite number; it is left out"),
     ("float pixelAspectRatio = inf", "is no finite number; it is left out"),
@@ -318,6 +319,18 @@ def test_values_of_another_type_or_range_are_told(folder, prim, line, said):
     assert (f"/Render/{prim}", name, said) in told
     if name == "pixelAspectRatio":
         assert image("a.exr").pixel_aspect_ratio == 1.0
+
+
+@pytest.mark.parametrize("line, said", [
+    ("int patina:seed = -1", "-1 is not allowed; the setting keeps its value"),
+    ("double patina:filterRadius = 1e30", "1e+30 is not allowed; the setting keeps its value"),
+    ('token patina:method:zz = "q"', "there is no choice point 'zz'"),
+    ('token patina:method:subdivision = "zz"', "the choice point 'subdivision' has no method 'zz'")])
+def test_settings_that_are_not_allowed_are_told(folder, line, said):
+    _odd(folder, "alone", line)
+    assert record("a.exr", "--settings", "/Render/alone", "--samples", 1, "-w", 8) == 0
+    told = {(w["prim"], w["input"]): w["message"] for w in reported()["warnings"]}
+    assert told["/Render/alone", line.split(" = ")[0].split()[-1]].startswith(said)
 
 
 def test_a_data_window_of_huge_numbers_is_cut(folder):

@@ -177,7 +177,7 @@ def _sessions(by_machine):
     return ["## Memory of sessions", "",
             "The last run of each session. A cycle makes every kind of edit and takes all of them back; then memory is",
             "counted: bytes that are in use on the heap, and resident memory of no file. The first third of the time is left",
-            "out, in which caches fill; the rest is cut into at most 20 spans of six counts or more, and the smallest of each is",
+            "out, in which caches fill; the rest is cut into at most 20 spans of six counts or more. The smallest of each is",
             "taken. Growth is a slope after Theil and Sen with limits of 99 % on either side. Memory is *flat* where the upper",
             "limit is below the bound, and *grows* where the lower one is above. The bounds are 32 bytes of the heap for each",
             "edit, malloc's smallest chunk, and one page of resident memory for each cycle.", "",

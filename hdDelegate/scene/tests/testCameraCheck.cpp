@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/scene/cameraCheck.h"
 #include "hdDelegate/scene/scene.h"
 
 #include <gtest/gtest.h>
@@ -63,6 +64,22 @@ TEST(CameraCheck, WhatNoRayCanBeMadeOfIsReplacedByName) {
     c.horizontalAperture = inf;
     expect(c, "horizontalAperture",
            [](const Camera& r) { return r.horizontalAperture == Camera().horizontalAperture; });
+}
+
+TEST(CameraCheck, ARangeThatEndsBeforeItStartsIsTold) {
+    Diagnostics diagnostics;
+    auto camera = std::make_shared<Camera>();
+    camera->path = "/camera";
+    camera->clipNear = 5.0f;
+    camera->clipFar = 1.0f;
+    const auto checked = checkedCamera(camera, diagnostics);
+    EXPECT_EQ(checked->clipNear, 5.0f);
+    ASSERT_EQ(diagnostics.count(), 1);
+    EXPECT_EQ(diagnostics.all()[0].input, "clippingRange");
+    camera->clipFar = 5.5f;
+    diagnostics.clear();
+    checkedCamera(camera, diagnostics);
+    EXPECT_EQ(diagnostics.count(), 0);
 }
 
 TEST(TransformCheck, PrimsThatStandNowhereAreLeftOutByName) {

@@ -62,6 +62,8 @@ def run(arguments):
     for stage in a.stages:
         inputs.note(stage)
     inputs.note(a.reference)
+    if a.reference and not os.path.isfile(a.reference):  # before hours of renders
+        raise CommandError(f"there is no file {a.reference}")
     outputs.check_all([a.json])
     here = machine.describe()
     if imageMetrics.flip_missing():

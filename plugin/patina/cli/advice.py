@@ -80,6 +80,8 @@ _ROWS = (
      "write samples with the same topology; Patina blurs these alone"),
     (r"displayed|not drawn; a cross|cards", "correct `model:cardGeometry`, or set `model:drawMode` to default"),
     (r"prims of type", "convert the prim to a shape of UsdGeom that [features](../features.md) lists"),
+    (r"has no interpolation", "write constant, uniform, varying, vertex or faceVarying as the primvar's interpolation"),
+    (r"drawn without them", "compare the lengths of the BlendShape's `offsets` and `pointIndices` with the mesh's points"),
     (r"skel|skinned|rest pose",
      "bind a skeleton whose joints fit: `skel:skeleton`, `primvars:skel:jointIndices` and `jointWeights`"),
     # Transforms and cameras.
@@ -90,7 +92,7 @@ _ROWS = (
     (r"finite|not a number|NaN|is negative|are negative|is no finite number|three finite numbers",
      "write a number in the range that the schema gives; look at the program that exported it"),
     (r"extents to frame", "give the stage a camera, and its prims an `extent`"),
-    (r"perspective is used|shutter|clippingRange|two numbers|clip nothing|axis|is none of X",
+    (r"perspective is used|shutter|clippingRange|two numbers|clip nothing|ends before it starts|axis|is none of X",
      "correct the attribute; the schema of UsdGeomCamera or of the shape lists its values"),
     # Instances.
     (r"protoIndices|prototype|holds itself|instances|instance is",

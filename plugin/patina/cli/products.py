@@ -9,6 +9,7 @@ from patina.cli import frames, recordFlags, rows, settingFlags, shot
 from patina.cli.errors import CommandError
 
 _AOV_NAMES = {"Ci": "color", "beauty": "color", "C.*": "color", "a": "alpha", "z": "depth", "N": "normal", "P": "position"}
+_SIZE = (2048, 1080)  # UsdRender's own
 _HALF = ("half", "half3", "half4", "color3h", "color4h")
 
 
@@ -75,7 +76,11 @@ def _shot(prim, product, arguments, time, decimals):
 
 def _size(prim, product, arguments):
     """:returns: width and height: what one flag leaves open follows from the other and the prim's shape"""
-    width, height = (max(1, int(n)) for n in prim.numbers(product, "resolution", 2) or (2048, 1080))
+    width, height = (int(n) for n in prim.numbers(product, "resolution", 2) or _SIZE)
+    if width < 1 or height < 1:
+        prim.warn(prim.where(product, "resolution"), "resolution",
+                  f"{width} x {height} is no size; {_SIZE[0]} x {_SIZE[1]} is used")
+        width, height = _SIZE
     if arguments.imageWidth and arguments.imageHeight:
         return arguments.imageWidth, arguments.imageHeight
     if arguments.imageWidth:

@@ -5,7 +5,7 @@ products with their AOVs (products.py), and render settings by the names `patina
 import argparse
 import math
 
-from patina.cli import settingFlags
+from patina.cli import compiled, settingFlags
 from patina.cli.errors import CommandError
 
 STAGE = "stage"  # --settings stage: the one that the stage's own metadata names
@@ -125,10 +125,19 @@ def applied(arguments, prim):
         value = attribute.Get()
         if key.startswith("method:"):
             if key[len("method:"):] not in forced:
-                merged.method.append(f"{key[len('method:'):]}={value}")
+                _method(merged, prim, name, key[len("method:"):], value)
         elif value is not None and key not in prim.given:
             _setting(merged, prim, name, key, value)
     return merged
+
+
+def _method(merged, prim, name, point, value):
+    """A `patina:method:` attribute."""
+    problem = compiled.load().check_methods({point: str(value)})
+    if problem:
+        prim.warn(prim.path, name, f"{problem}; the setting keeps its value")
+    else:
+        merged.method.append(f"{point}={value}")
 
 
 def _purposes(merged, prim):

@@ -20,7 +20,8 @@ def emit_instancer(context, found, names, linking):
         context.warn(path, "positions", "or another array has another length than protoIndices; nothing is drawn of the "
                      "instancer")
         return
-    samples = [local @ np.array(matrix_at(context, prim, group.anchor, t)) for t, local in zip(offsets, samples)]
+    with np.errstate(invalid="ignore", over="ignore"):  # told below
+        samples = [local @ np.array(matrix_at(context, prim, group.anchor, t)) for t, local in zip(offsets, samples)]
     keep = _mask(schema, context.time, len(indices))
     keep = keep & ((indices >= 0) & (indices < len(names)))
     broken = int(np.count_nonzero((indices < 0) | (indices >= len(names))))

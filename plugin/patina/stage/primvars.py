@@ -7,6 +7,7 @@ from .context import get
 
 # Not for shading: they drive skinning.
 _IGNORED = ("skel:",)
+INTERPOLATIONS = ("constant", "uniform", "varying", "vertex", "faceVarying")
 
 
 def read_primvars(context, prim, inherited):
@@ -40,7 +41,11 @@ def read_primvar(context, primvar, prim):
         return None
     indices = primvar.GetIndices(context.time) if primvar.IsIndexed() else None
     indices = np.asarray(indices, dtype=np.int32) if indices is not None and len(indices) else None
-    return (name, primvar.GetInterpolation(), values, indices)
+    interpolation = primvar.GetInterpolation()
+    if interpolation not in INTERPOLATIONS:
+        context.warn(prim.GetPath(), "primvars:" + name, f"has no interpolation '{interpolation}'; it is left out")
+        return None
+    return (name, interpolation, values, indices)
 
 
 def text(context, prim, inherited, name):
@@ -107,5 +112,7 @@ def add_builtin(context, prim, name, interpolation, into):
     if any(item[0] == name for item in into):
         return
     values = numbers(get(prim, name, context.time))
-    if values is not None:
+    if values is not None and interpolation not in INTERPOLATIONS:
+        context.warn(prim.GetPath(), name, f"has no interpolation '{interpolation}'; it is left out")
+    elif values is not None:
         into.append((name, interpolation, values, None))

@@ -77,7 +77,7 @@ class Skin:
         if points is None or not len(points):
             return []
         if self.target.HasBlendShapes():
-            points = self._blend(time, points)
+            points = self._blend(context, time, points)
         if self.has_joints and not self.rigid:
             pose = self.query.ComputeSkinningTransforms(time)
             skinned = Vt.Vec3fArray(points)  # pxr changes it in place
@@ -92,7 +92,7 @@ class Skin:
                 context.skinned.append((self.skeleton if self.has_joints else prim, placed))
         return points
 
-    def _blend(self, time, points):
+    def _blend(self, context, time, points):
         animation = self.query.GetAnimQuery()
         weights = animation.ComputeBlendShapeWeights(time) if animation else None
         if not weights:
@@ -103,8 +103,10 @@ class Skin:
         if not mapped or not parts:
             return points
         moved = Vt.Vec3fArray(points)  # pxr changes it in place
-        shapes.ComputeDeformedPoints(*parts, shapes.ComputeBlendShapePointIndices(),
-                                     shapes.ComputeSubShapePointOffsets(), moved)
+        if not shapes.ComputeDeformedPoints(*parts, shapes.ComputeBlendShapePointIndices(),
+                                            shapes.ComputeSubShapePointOffsets(), moved):
+            context.warn(self.target.GetPrim().GetPath(), "skel:blendShapes", "cannot be applied; it is drawn without them")
+            return points
         return moved
 
     def normals(self, context, found):

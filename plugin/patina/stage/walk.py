@@ -15,6 +15,7 @@ from .skinning import skinning_of
 from .state import Found, Group, State, Walked
 
 _ANY = Usd.PrimIsActive & Usd.PrimIsLoaded  # prototypes of point instancers may be overs and classes
+_PURPOSES = ("default", "render", "proxy", "guide")
 MAX_NESTED = 8  # point instancers in each other, as many as renderers follow
 _COUNTED = {"prims": "prims of a kind", "instances": "instances"}  # by limits
 _PROXIES = Usd.TraverseInstanceProxies()  # what is skinned differs from instance to instance
@@ -72,7 +73,11 @@ class Walk:
             if "visibility" in names and get(prim, "visibility", self.context.time) == "invisible":
                 return self._visit(prim, state.with_(hidden=True))
             if "purpose" in names:
-                own = state = state.with_(purpose=get(prim, "purpose", self.context.time) or state.purpose)
+                purpose = get(prim, "purpose", self.context.time) or state.purpose
+                if purpose not in _PURPOSES and purpose not in self.context.purposes:
+                    self.context.warn(prim.GetPath(), "purpose",
+                                      f"there is no purpose '{purpose}'; nothing is drawn of the prim")
+                own = state = state.with_(purpose=purpose)
             if any(name.startswith("primvars:") for name in names):
                 inherited = UsdGeom.PrimvarsAPI(prim).FindIncrementallyInheritablePrimvars(state.primvars)
                 if inherited:

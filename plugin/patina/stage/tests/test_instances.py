@@ -123,11 +123,12 @@ def test_orientations_and_velocities(read, numbers):
     assert start[12] == 0.0 and end[12] == 1.0
 
 
+@pytest.mark.filterwarnings("error")
 def test_nested_and_broken_instancers(read):
     reading = read("""
     def PointInstancer "outer" { rel prototypes = [</outer/inner>, </missing>, </outer>]
         int[] protoIndices = [0, 0, 7]
-        point3f[] positions = [(0,0,0), (nan,0,0), (0,0,0)]
+        point3f[] positions = [(0,0,0), (nan,inf,0), (0,0,0)]
         def PointInstancer "inner" { rel prototypes = </outer/inner/s>
             int[] protoIndices = [0, 0]
             point3f[] positions = [(0,0,0), (1,0,0)]

@@ -75,6 +75,15 @@ def test_primvar_normals_stand_above_normals(read):
     assert "primvar normals uniform x3" not in mesh
 
 
+def test_what_has_an_unknown_interpolation_is_left_out_alone(read):
+    reading = read('def Mesh "m" { uniform token subdivisionScheme = "none"\n'
+                   ' float[] primvars:q = [1] (interpolation = "bogus")\n'
+                   ' normal3f[] normals = [(0, 0, 1)] (interpolation = "face")\n' + QUAD + "}")
+    assert reading.prim("/m") and not any(" q " in key or "normals" in key for key in reading.prim("/m"))
+    said = "\n".join(reading.warnings)
+    assert "/m primvars:q: has no interpolation 'bogus'" in said and "/m normals: has no interpolation 'face'" in said
+
+
 def test_subsets_and_inherited_bindings(read):
     reading = read("""
     def Material "red" { token outputs:surface.connect = </red/s.outputs:out>
@@ -134,6 +143,12 @@ def test_visibility_at_the_frame_and_purposes(read):
     assert not read(text, frame=2.0).has("/s")
     assert read(text, frame=1.0, purposes=("proxy",)).has("/p")
     assert not read(text, frame=1.0, purposes=("proxy",)).has("/g/drawn")
+
+
+def test_a_purpose_that_there_is_none_of_is_told(read):
+    reading = read('def Sphere "s" { uniform token purpose = "rendr" }')
+    assert not reading.has("/s")
+    assert any("/s purpose: there is no purpose 'rendr'" in line for line in reading.warnings), reading.warnings
 
 
 def test_wrong_types_and_unknown_tokens_are_warned_of(read):

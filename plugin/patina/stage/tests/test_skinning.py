@@ -56,6 +56,12 @@ def test_blend_shapes_without_joints(read, numbers):
     assert "transform" not in mesh
 
 
+def test_blend_shapes_that_fit_nothing_are_told_of_the_mesh(read, numbers):
+    reading = read(SKELETON % SHAPE.replace("pointIndices = [0]", "pointIndices = [-1]"), frame=10.0)
+    assert numbers(reading.prim("/r/m")["points"]) == [0, 0, 0, 1, 0, 0, 0, 1, 0]
+    assert any("/r/m skel:blendShapes: cannot be applied" in line for line in reading.warnings), reading.warnings
+
+
 def test_rigid_meshes_move_as_a_whole(read, numbers):
     mesh = read(SKELETON % """
             int[] primvars:skel:jointIndices = [1] (interpolation = "constant"; elementSize = 1)

@@ -83,7 +83,7 @@ def value_of(row, value):
     if kind == "bool":
         return bool(float(value))
     number = float(value)
-    least, most = row.words.get("range", [-math.inf, math.inf])
+    least, most = row.words.get("range", [0 if kind == "uint32_t" else -math.inf, math.inf])
     allowed = least <= number <= most or number in row.words.get("also", [])
     if not math.isfinite(number) or not allowed or (kind in _WHOLE and not (number == int(number) and number <= _WHOLE[kind])):
         raise ValueError(value)

@@ -161,7 +161,6 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_lights.py::test_a_method_of_domes_keeps_the_tolerance_*roughConductor[]]", "long", None),
     ("testenv/raster/test_lights.py::test_what_is_inside_of_a_light_casts_nothing[[]CylinderLight[]]", "long", None),
     ("testenv/raster/test_lights.py::test_wide_suns_are_shadowed_*[[]30[]]", "long", None),
-    ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]manyLinks[]]", "long", None),
     ("testenv/raster/test_firstPass.py::test_first_looks_continue_as_they_would_have[[]roughConductor[]]", "long", None),
     *((f"testenv/raster/test_manyLights.py::test_choosing_among_just_enough_lights_changes_no_mean[[]{name}[]]", "long", None)
       for name in ("coat", "milk")),
@@ -173,8 +172,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]texturedMesh[]]", "long", None),
     ("testenv/raster/test_refraction.py::test_coloured_glass_absorbs_along_the_bent_path[[]0.5[]]", "long", None),
     ("testenv/raster/test_curves.py::test_hair_is_as_wide_and_as_bright_as_traced[[](-20, 170, 0)*", "long", None),
-    # The path tracer's goes the same ways without minutes of compiling.
-    ("testenv/fuzz/test_faults.py::test_a_render_without_memory_spoils_none_after_it[[]raster-*", "long", None),
+    # A minute of compiling shaders in software; the first of these seeds stays.
     ("testenv/fuzz/test_fuzz.py::test_the_first_seeds[[]faults-4[]]", "long", None),
     # Minutes of a browser's software OpenGL.
     ("testenv/view/test_backEnds.py::test_materials_look_as_in_the_rasterizer[[]all[]]", "long", None),

@@ -41,7 +41,7 @@ UsableSamples usableSamples(const Sampled<std::vector<vec3>>& points, const std:
     return result;
 }
 
-/// Neither NaN nor so far away that rays cannot follow.
+/// Whether rays can follow to a point: it is a number, and not too far away.
 bool usable(const vec3& p) {
     constexpr float largest = float(largestPlace);
     return std::abs(p.x) <= largest && std::abs(p.y) <= largest && std::abs(p.z) <= largest;

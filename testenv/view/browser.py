@@ -6,7 +6,7 @@ import shutil
 
 import numpy as np
 
-MESA = "/usr/share/glvnd/egl_vendor.d/50_mesa.json"  # which of a machine's drivers of EGL that is
+MESA = "/usr/share/glvnd/egl_vendor.d/50_mesa.json"  # by this file EGL finds Mesa among a machine's drivers
 TIMEOUT = 120000.0  # milliseconds for one step: software rendering is slow
 
 

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/raster/gl/glFaults.h"
 #include "hdDelegate/raster/gl/glFunctions.h"
+#include "hdDelegate/raster/gl/heldFences.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -187,6 +188,7 @@ std::unique_ptr<EglContext> EglContext::create(std::string& error) {
         if (!isEnough(why)) continue;
         made->_renderer = text(GL_RENDERER);
         made->_version = text(GL_VERSION);
+        if (HeldFences::neededBy(made->_renderer)) made->_fences = std::make_unique<HeldFences>();
         result = std::move(made);
         break;
     }
@@ -208,6 +210,7 @@ std::unique_ptr<EglContext> EglContext::sharing(const EglContext& other, std::st
     made->_context = context;
     made->_renderer = other._renderer;
     made->_version = other._version;
+    if (other._fences) made->_fences = std::make_unique<HeldFences>();
     return made;
 }
 
@@ -215,8 +218,14 @@ bool EglContext::hasHardware() {
     return !devicesOf(false).empty();
 }
 
+EglContext::EglContext() = default;
+
 // The display stays initialized: a host may use the same one.
 EglContext::~EglContext() {
+    if (_fences) {
+        const Use use(*this);
+        if (use.ok()) _fences->release();
+    }
     if (_context) eglDestroyContext(_display, _context);
 }
 
@@ -227,16 +236,20 @@ bool EglContext::lost() const {
 EglContext::Use::Use(const EglContext& context)
     : _display(eglGetCurrentDisplay()), _context(eglGetCurrentContext()),
       _draw(eglGetCurrentSurface(EGL_DRAW)), _read(eglGetCurrentSurface(EGL_READ)),
-      _api(eglQueryAPI()), _ownDisplay(context._display) {
+      _api(eglQueryAPI()), _ownDisplay(context._display),
+      _fences(HeldFences::makeCurrent(nullptr)) {
     eglBindAPI(EGL_OPENGL_API);
     _ok = eglMakeCurrent(context._display, EGL_NO_SURFACE, EGL_NO_SURFACE, context._context);
+    if (_ok) HeldFences::makeCurrent(context._fences.get());
 }
 
 EglContext::Use::~Use() {
+    HeldFences::makeCurrent(nullptr);
     if (_context == EGL_NO_CONTEXT)
         eglMakeCurrent(_ownDisplay, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     else
         eglMakeCurrent(_display, _draw, _read, _context);
+    HeldFences::makeCurrent(_fences);
     eglBindAPI(_api);
 }
 

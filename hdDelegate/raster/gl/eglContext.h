@@ -6,6 +6,8 @@
 
 namespace patina {
 
+class HeldFences;
+
 /// An OpenGL 4.5 core context without display or window. Belongs to one thread at a time.
 ///
 /// Candidates in this order: the EGL devices that are hardware, Mesa's surfaceless platform, the
@@ -40,6 +42,7 @@ public:
         void *_display, *_context, *_draw, *_read;
         unsigned _api;
         void* _ownDisplay;
+        HeldFences* _fences; ///< that were current before
         bool _ok;
     };
 
@@ -51,11 +54,12 @@ public:
     EglContext& operator=(const EglContext&) = delete;
 
 private:
-    EglContext() = default;
+    EglContext();
 
     void* _display = nullptr;
     void* _context = nullptr;
     std::string _renderer, _version;
+    std::unique_ptr<HeldFences> _fences; ///< of drivers that need it
 };
 
 } // namespace patina

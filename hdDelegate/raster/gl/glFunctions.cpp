@@ -2,6 +2,7 @@
 #include "hdDelegate/raster/gl/glFunctions.h"
 
 #include "hdDelegate/raster/gl/glFaults.h"
+#include "hdDelegate/raster/gl/heldFences.h"
 #include "hdDelegate/raster/gl/lostContext.h"
 
 #include <EGL/egl.h>
@@ -21,6 +22,9 @@ bool loadGlFunctions(std::string& error) {
     }
     PATINA_GL_FUNCTIONS(PATINA_GL_LOAD)
 #undef PATINA_GL_LOAD
+    const GLubyte* renderer = gl.GetString(GL_RENDERER);
+    if (renderer && HeldFences::neededBy(reinterpret_cast<const char*>(renderer)))
+        HeldFences::install();
     const std::string losing = glFault("lostAtCall");
     if (!losing.empty()) loseContextAtCall(std::atol(losing.c_str()));
     return true;

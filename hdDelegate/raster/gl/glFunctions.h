@@ -38,6 +38,7 @@ namespace patina {
     X(DeleteProgram, DELETEPROGRAM)                                                                \
     X(DeleteQueries, DELETEQUERIES)                                                                \
     X(DeleteShader, DELETESHADER)                                                                  \
+    X(DeleteSync, DELETESYNC)                                                                      \
     X(DeleteTextures, DELETETEXTURES)                                                              \
     X(DeleteVertexArrays, DELETEVERTEXARRAYS)                                                      \
     X(DepthFunc, DEPTHFUNC)                                                                        \
@@ -50,10 +51,10 @@ namespace patina {
     X(DrawElementsInstancedBaseInstance, DRAWELEMENTSINSTANCEDBASEINSTANCE)                        \
     X(Enable, ENABLE)                                                                              \
     X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)                                            \
+    X(FenceSync, FENCESYNC)                                                                        \
     X(Finish, FINISH)                                                                              \
     X(Flush, FLUSH)                                                                                \
     X(CopyImageSubData, COPYIMAGESUBDATA)                                                          \
-    X(GenerateTextureMipmap, GENERATETEXTUREMIPMAP)                                                \
     X(GetError, GETERROR)                                                                          \
     X(GetGraphicsResetStatus, GETGRAPHICSRESETSTATUS)                                              \
     X(GetInteger64v, GETINTEGER64V)                                                                \
@@ -120,7 +121,8 @@ struct GlFunctions {
 /// OpenGL as EGL gives it; filled by the first EglContext. Call only while a context is current.
 extern GlFunctions gl;
 
-/// Fills `gl`. @returns false with a one-line error that names the first missing function
+/// Fills `gl`; call with a context current.
+/// @returns false with a one-line error that names the first missing function
 bool loadGlFunctions(std::string& error);
 
 } // namespace patina

@@ -27,6 +27,26 @@ void smoothLatlong(const GlTexture& texture, GLint smaller) {
     texture.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
+/// Writes a layer with all its levels, whose sides are powers of two. Not by
+/// glGenerateTextureMipmap, which draws: see HeldFences.
+/// @param texels of the first level; overwritten
+template <class Texel>
+void writeLevels(std::vector<Texel>& texels, const GlTexture& to, int layer, GLenum format) {
+    int w = to.width(), h = to.height();
+    for (int level = 0; level < to.levels(); ++level) {
+        gl.TextureSubImage3D(to.id(), level, 0, 0, layer, w, h, 1, format, GL_FLOAT, texels.data());
+        const int right = w > 1, down = h > 1 ? w : 0, step = right + 1;
+        const int nextW = std::max(1, w / 2), nextH = std::max(1, h / 2);
+        for (int y = 0; y < nextH; ++y)
+            for (int x = 0; x < nextW; ++x) {
+                const Texel* at = &texels[size_t(y) * size_t(down + w) + size_t(x * step)];
+                texels[size_t(y) * size_t(nextW) + size_t(x)] =
+                    0.25f * ((at[0] + at[right]) + (at[down] + at[down + right]));
+            }
+        w = nextW, h = nextH;
+    }
+}
+
 } // namespace
 
 int RasterDomes::layer(const std::shared_ptr<const EnvironmentMap>& map) {
@@ -86,13 +106,10 @@ void RasterDomes::upload(bool prefiltered) {
             for (int x = 0; x < dw; ++x)
                 density[size_t(y) * size_t(dw) + size_t(x)] =
                     map.pdf(latlongDirection(x, y, dw, dh));
-        gl.TextureSubImage3D(_maps.id(), 0, 0, 0, k, w, h, 1, GL_RGBA, GL_FLOAT, image.data());
-        gl.TextureSubImage3D(_densities.id(), 0, 0, 0, k, dw, dh, 1, GL_RED, GL_FLOAT,
-                             density.data());
+        writeLevels(image, _maps, k, GL_RGBA);
+        writeLevels(density, _densities, k, GL_RED);
     }
-    gl.GenerateTextureMipmap(_maps.id());
     smoothLatlong(_maps, GL_LINEAR_MIPMAP_LINEAR);
-    gl.GenerateTextureMipmap(_densities.id());
     smoothLatlong(_densities, GL_LINEAR_MIPMAP_LINEAR);
     _densities.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }

@@ -92,19 +92,6 @@ RasterPasses::PassBlock RasterPasses::block(const RasterScene& scene,
     return b;
 }
 
-void RasterPasses::drawRuns(const RasterDraw& draw, const RasterSurface& surface,
-                            const RasterVisible& visible) const {
-    const auto [begin, end] = visible.group[size_t(draw.group)];
-    if (begin == end) return;
-    for (const RasterChunk& chunk : surface.chunks) {
-        chunk.bind(_vertexArray);
-        for (size_t r = begin; r < end; ++r)
-            gl.DrawElementsInstancedBaseInstance(GL_TRIANGLES, chunk.indexCount(), GL_UNSIGNED_INT,
-                                                 chunk.firstIndex(), visible.runs[r].count,
-                                                 GLuint(visible.runs[r].first));
-    }
-}
-
 /// Only what is in front has to be shaded, which takes far longer than to find it.
 static bool isDrawnByDepth(const RasterDraw& d) {
     return !d.material->glsl.presence && !d.material->glsl.volumeOnly &&

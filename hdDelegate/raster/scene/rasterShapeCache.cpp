@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/scene/rasterShapeCache.h"
 
+#include "hdDelegate/raster/gl/heldFences.h"
 #include "hdDelegate/raster/scene/rasterDetail.h"
 #include "hdDelegate/raster/scene/rasterShapes.h"
 #include "hdDelegate/scene/primCompare.h"
@@ -134,7 +135,7 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Request& reques
         const TriangleMesh& mesh = made->mesh;
         if (mesh.positions.empty() || mesh.triangles.empty()) return shape;
         describe(*shape, mesh);
-        RasterSurfaceBuilder builder(mesh, storageLimit());
+        RasterSurfaceBuilder builder(mesh, storageLimit(), HeldFences::mostTriangles());
         for (size_t subset = 0; subset < request.primvars.size(); ++subset)
             shape->surfaces.push_back(builder.make(subset, request.primvars[subset]));
         if (request.needsMesh) shape->mesh = std::shared_ptr<const TriangleMesh>(made, &mesh);
@@ -151,7 +152,7 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Request& reques
     if (!form.seen.halfWidth.empty()) shape->flags = RasterShape::strip;
     const auto fill = [&](const RasterTriangles& triangles, std::vector<RasterSurface>& surfaces) {
         if (triangles.mesh.triangles.empty()) return;
-        RasterSurfaceBuilder builder(triangles, storageLimit());
+        RasterSurfaceBuilder builder(triangles, storageLimit(), HeldFences::mostTriangles());
         for (size_t subset = 0; subset < request.primvars.size(); ++subset)
             surfaces.push_back(builder.make(subset, request.primvars[subset]));
     };

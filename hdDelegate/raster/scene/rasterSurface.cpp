@@ -42,12 +42,14 @@ void RasterChunk::bind(GLuint vertexArray) const {
     _buffer.bindStorage(6, _primvars, _triangles - _primvars);
 }
 
-RasterSurfaceBuilder::RasterSurfaceBuilder(const TriangleMesh& mesh, size_t storageLimit)
-    : _mesh(mesh), _storageLimit(storageLimit), _st(mesh.attribute("st")),
-      _first(mesh.positions[0].size(), none) {}
+RasterSurfaceBuilder::RasterSurfaceBuilder(const TriangleMesh& mesh, size_t storageLimit,
+                                           size_t mostTriangles)
+    : _mesh(mesh), _storageLimit(storageLimit), _mostTriangles(mostTriangles),
+      _st(mesh.attribute("st")), _first(mesh.positions[0].size(), none) {}
 
-RasterSurfaceBuilder::RasterSurfaceBuilder(const RasterTriangles& triangles, size_t storageLimit)
-    : RasterSurfaceBuilder(triangles.mesh, storageLimit) {
+RasterSurfaceBuilder::RasterSurfaceBuilder(const RasterTriangles& triangles, size_t storageLimit,
+                                           size_t mostTriangles)
+    : RasterSurfaceBuilder(triangles.mesh, storageLimit, mostTriangles) {
     _form = &triangles;
 }
 
@@ -66,7 +68,8 @@ RasterSurface RasterSurfaceBuilder::make(size_t subset, const std::vector<std::s
     }
     const size_t perTriangle = std::max(sizeof(RasterChunk::Triangle),
                                         3 * sizeof(vec4) * std::max<size_t>(1, primvars.size()));
-    const size_t maximum = std::max<size_t>(1, _storageLimit / perTriangle);
+    const size_t maximum =
+        std::max<size_t>(1, std::min(_mostTriangles, _storageLimit / perTriangle));
     for (unsigned t = 0; t < _mesh.triangles.size(); ++t) {
         const size_t own = t < _mesh.triangleSubset.size() ? _mesh.triangleSubset[t] : 0;
         if (own != subset) continue;

@@ -52,11 +52,16 @@ struct RasterSurface {
 /// Makes surfaces of one mesh. Corners that agree in all they carry become one vertex.
 class RasterSurfaceBuilder {
 public:
+    static constexpr size_t noLimit = ~size_t(0);
+
     /// @param storageLimit in bytes, of what one storage binding shows; more triangles go into
     ///        further chunks
-    RasterSurfaceBuilder(const TriangleMesh& mesh, size_t storageLimit);
+    /// @param mostTriangles of a chunk
+    RasterSurfaceBuilder(const TriangleMesh& mesh, size_t storageLimit,
+                         size_t mostTriangles = noLimit);
     /// @param triangles must outlive this
-    RasterSurfaceBuilder(const RasterTriangles& triangles, size_t storageLimit);
+    RasterSurfaceBuilder(const RasterTriangles& triangles, size_t storageLimit,
+                         size_t mostTriangles = noLimit);
 
     /// @param subset as of TriangleMesh::triangleSubset
     /// @param primvars that a material reads, in its order
@@ -70,7 +75,7 @@ private:
 
     const TriangleMesh& _mesh;
     const RasterTriangles* _form = nullptr;
-    size_t _storageLimit;
+    size_t _storageLimit, _mostTriangles;
     const MeshAttribute* _st;
     std::vector<const MeshAttribute*> _attributes; ///< null where the mesh has none
     bool _sharesAll = false;                       ///< every corner at a position carries the same

@@ -112,5 +112,7 @@ TEST(RasterSurface, SubsetsAndPiecesHoldEveryTriangleOnce) {
         }
     EXPECT_EQ(indices, 3000u);
     EXPECT_TRUE(builder.make(2, {}).chunks.empty());
+    RasterSurfaceBuilder ofFew(mesh, 1 << 24, 250);
+    EXPECT_EQ(ofFew.make(0, {}).chunks.size(), 3u);
     EXPECT_EQ(gl.GetError(), GLenum(GL_NO_ERROR));
 }

@@ -18,6 +18,7 @@ vec3 vGeometricNormal;
 float vUvPerLength;
 ivec4 vIds; // element, instance, row of links, place of the prim
 layout(location = 1) uniform ivec4 drawInfo; // bits of the prim's primvars, prim id, flags of RasterShape, InstanceValues
+layout(location = 18) uniform uint firstTriangle; // of the draw: numbers of triangles, apart for each prim
 
 vec4 primvar(int slot, vec4 fallback) {
 #if PRIMVARS > 0
@@ -59,7 +60,8 @@ void setOnStrip(vec3 view) {
     // Interpolated over parts of a pixel it is only as exact as corners are, which drivers round: below an
     // eighth of a pixel any place across is taken, which are all as likely.
     if (fwidth(vAcross.x) > 16.0) {
-        uvec2 strip = uvec2(gl_PrimitiveID & 1023, drawInfo.y & 1023);
+        uint id = firstTriangle + uint(gl_PrimitiveID);
+        uvec2 strip = uvec2(id & 1023u, id >> 22u);
         float there = 2.0 * randomAt(uvec2(gl_FragCoord.xy) + strip, uint(passIndex), 30u).x - 1.0;
         point.position += across * ((there - h) * tubeRadius);
         h = there;
@@ -144,7 +146,7 @@ void setPointFromCamera() {
 // passes: colour of the light that passes where it does not.
 // Numbers of one triangle in one pixel, so that what lies behind each other is drawn apart.
 float ownRandom(uint set) {
-    uint id = hash(uint(gl_PrimitiveID) + 4099u * uint(drawInfo.y));
+    uint id = hash(firstTriangle + uint(gl_PrimitiveID) + hash(uint(vInstance.x)));
     return randomAt(uvec2(gl_FragCoord.xy) + uvec2(id & 1023u, id >> 22u), uint(passIndex), set).x;
 }
 bool isPresent(out vec3 passes) {

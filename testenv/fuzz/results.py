@@ -23,6 +23,11 @@ OTHERS = {
                                           "half of them by the delegate, half by scene indices",
                                           f"testenv/hydra/sanitize.sh {kind} 50000 build-{kind} --results")
        for kind, name in (("address", "AddressSanitizer"), ("thread", "ThreadSanitizer"))},
+    **{f"hydraEdits{backend.capitalize()}{kind.capitalize()}": (
+        f"such edits under {name}, {how}", f"testenv/hydra/sanitize.sh {kind} 100 build-{kind} --backend {backend} --results")
+       for backend, how in (("raster", "drawn by the rasterizer"),
+                            ("interactive", "begun by the rasterizer, ended by the path tracer"))
+       for kind, name in (("address", "AddressSanitizer"), ("thread", "ThreadSanitizer"))},
     **{f"viewport{kind.capitalize()}": (f"a viewport's session in Hydra, drawn by the {name}: edits of every kind, which are "
                                         "taken back again and again",
                                         f"./patina python testenv/hydra/viewportSession.py --seconds 3600 --backend {kind} "

@@ -23,7 +23,7 @@ def test_edits_through_hydra():
             (66, RACE + RACE, {"report": 2, "fine": 1}, ["data race film.cpp:12 in patina::Film::add"]),
             (1, FAILURE, {"promise": 1, "fine": 199}, ["seed 3 ends with 1"]),
             (139, "", {"crash": 1, "fine": 0}, ["seed 3 ends with 139"])):
-        row = editResults.row("thread", 3, 100, 5.0, status, log)
+        row = editResults.row("thread", "embree", 3, 100, 5.0, status, log)
         assert row["machine"] in results.OTHERS and row["counts"] == counts and row["findings"] == findings
         assert set(counts) <= set(results.KINDS) | {"fine"}
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Adds a run of hydraEdits under a sanitizer to the table of which docs/trust.md is made. sanitize.sh calls it.
 
-Usage: editResults.py SANITIZER SEED EDITS SECONDS STATUS LOG [TABLE]"""
+Usage: editResults.py SANITIZER BACKEND SEED EDITS SECONDS STATUS LOG [TABLE]"""
 import os
 import re
 import sys
@@ -15,7 +15,7 @@ _REPORT = re.compile(r"^SUMMARY: \w+Sanitizer: (.*)$|^\S+: runtime error: (.*)$"
 _FAILURE = re.compile(r"^(edited and fresh host differ after|\S+: Failure)", re.MULTILINE)
 
 
-def row(sanitizer, seed, edits, seconds, status, log):
+def row(sanitizer, backend, seed, edits, seconds, status, log):
     """:param log: what the program has said
     :returns: a row of the table"""
     reports = [re.sub(r"0x[0-9a-f]+|/\S*/", "", "".join(words)) for words in _REPORT.findall(log)]
@@ -26,15 +26,16 @@ def row(sanitizer, seed, edits, seconds, status, log):
         counts, findings = {kind: 1}, [(kind, f"seed {seed} ends with {status}")]
     inputs = INPUTS * edits if not status or status == 1 else len(reports) + 1  # how far it came is not known
     counts["fine"] = max(inputs - sum(counts.values()), 0)
-    return results.row("hydraEdits" + sanitizer.capitalize(), seed,
+    drawn = "" if backend == "embree" else backend.capitalize()
+    return results.row("hydraEdits" + drawn + sanitizer.capitalize(), seed,
                        {"inputs": inputs, "seconds": seconds, "counts": counts, "findings": findings})
 
 
 def main():
-    sanitizer, seed, edits, seconds, status, log = sys.argv[1:7]
+    sanitizer, backend, seed, edits, seconds, status, log = sys.argv[1:8]
     with open(log, encoding="utf-8", errors="replace") as file:
-        added = row(sanitizer, int(seed), int(edits), float(seconds), int(status), file.read())
-    results.append([added], sys.argv[7] if len(sys.argv) > 7 else results.FILE)
+        added = row(sanitizer, backend, int(seed), int(edits), float(seconds), int(status), file.read())
+    results.append([added], sys.argv[8] if len(sys.argv) > 8 else results.FILE)
 
 
 if __name__ == "__main__":

@@ -137,7 +137,7 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
         }
         const bool known = which == Solid && isDrawnByDepth(d);
         if (known) gl.DepthFunc(GL_LEQUAL);
-        drawRuns(d, *d.surface, visible);
+        drawRuns(d, *d.surface, visible, true);
         if (known) gl.DepthFunc(GL_LESS);
         if (!aovs && which != ColoredPresence && !programs.drawn) {
             programs.drawn = true;
@@ -156,7 +156,7 @@ void RasterPasses::drawDepths(const RasterScene& scene, const RasterVisible& vis
             gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         }
         used = true;
-        drawRuns(d, *d.surface, visible);
+        drawRuns(d, *d.surface, visible, false);
     }
     if (used) gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
@@ -222,7 +222,7 @@ void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisibl
     for (const RasterDraw& d : scene.draws()) {
         if (!transmits(d)) continue;
         gl.Uniform4i(1, 0, d.primId, d.flags, 0);
-        drawRuns(d, *d.surface, visible);
+        drawRuns(d, *d.surface, visible, true);
     }
     _look->target().bind();
     _refraction->bind();

@@ -109,8 +109,9 @@ private:
     void smooth(const RasterSample& sample, bool look, std::vector<vec4>& pixels, Film& film);
     void beginFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
     void showFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
+    /// @param shades the program has the fragment stage of surface.frag.glsl
     void drawRuns(const RasterDraw& draw, const RasterSurface& surface,
-                  const RasterVisible& visible) const;
+                  const RasterVisible& visible, bool shades) const;
     void measureReceivers(const RasterScene& scene, const RasterCamera& camera,
                           const RasterView& view);
 

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/raster/scene/rasterScene.h"
 
+#include "hdDelegate/film/cryptomatteHash.h"
 #include "hdDelegate/scene/lightUnits.h"
 
 #include <algorithm>
@@ -186,6 +187,7 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
     RasterDraw draw;
     draw.prim = prim;
     draw.primId = prim->id >= 0 ? prim->id : rank;
+    draw.noise = murmurHash3(prim->path); // hosts count prims in the order in which they came
     int lit = -1;
     if (const auto meshLight = _parts.meshLights->of(prim->path, settings)) {
         const Light& light = *meshLight;

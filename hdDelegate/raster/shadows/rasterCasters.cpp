@@ -92,7 +92,7 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
                 d.material->textures[t]->bind(GLuint(t));
             gl.Uniform4i(1, d.casting->primvarBits, d.primId, d.flags, d.values);
         }
-        drawRuns(d, *d.casting, visible);
+        drawRuns(d, *d.casting, visible, own != nullptr);
     }
     gl.Disable(GL_DEPTH_CLAMP);
 }

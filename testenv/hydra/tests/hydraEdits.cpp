@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random edits of a stage while it renders: after any number of them, scene and picture are those
-// of a host that opens the stage as it is now.
+// of a host that opens the stage as it is now. The environment may say which edits, how many and by
+// which back end (PATINA_HYDRA_SEED, PATINA_HYDRA_EDITS, PATINA_HYDRA_BACKEND).
 
 #include "testenv/hydra/edits/baseStage.h"
 #include "testenv/hydra/edits/edits.h"
@@ -18,6 +19,8 @@ using namespace patina;
 
 namespace {
 
+constexpr double patience = 600.0; ///< seconds: a driver in software compiles for long
+
 int number(const char* variable, int otherwise) {
     const char* text = std::getenv(variable);
     return text ? std::atoi(text) : otherwise;
@@ -30,6 +33,8 @@ HostOptions optionsFor(bool sceneIndex) {
     options.camera = SdfPath("/World/cameras/main");
     options.settings[TfToken("samples")] = VtValue(2);
     options.settings[TfToken("seed")] = VtValue(7);
+    if (const char* backend = std::getenv("PATINA_HYDRA_BACKEND"))
+        options.settings[TfToken("backend")] = VtValue(std::string(backend));
     return options;
 }
 
@@ -52,9 +57,9 @@ protected:
                            bool& follows) {
         edited.setSize(24, 24);
         edited.setAovs({HostAov()});
-        ASSERT_TRUE(edited.render(120.0)) << after;
+        ASSERT_TRUE(edited.render(patience)) << after;
         Host fresh(stage, edited.options());
-        ASSERT_TRUE(fresh.render(120.0)) << after;
+        ASSERT_TRUE(fresh.render(patience)) << after;
         const std::string found = difference(edited, fresh);
         follows = found.empty();
         if (follows) return;
@@ -62,7 +67,7 @@ protected:
             << "edited and fresh host differ after " << after << "\n"
             << found;
         Host same(stage, edited.options(), &edited);
-        ASSERT_TRUE(same.render(120.0)) << after;
+        ASSERT_TRUE(same.render(patience)) << after;
         ASSERT_EQ(difference(edited, same), "")
             << "edited and fresh host of the same scene indices differ after " << after;
     }

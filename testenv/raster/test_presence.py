@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Surfaces that are half there: two of them, one behind the other, hide three quarters, wherever their triangles come from."""
+import numpy as np
+import pytest
+
+import inProcess
+from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+
+SIZE, SAMPLES = 32, 64
+CAMERA = """#usda 1.0
+def Camera "camera"
+{
+    float focalLength = 50
+    float horizontalAperture = 10
+    float verticalAperture = 10
+    double3 xformOp:translate = (0, 0, 10)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+HALF = "    float[] primvars:displayOpacity = [0.5]\n"
+CARD = [(-2, -2), (2, -2), (2, 2), (-2, 2)]
+
+
+def mesh(name, depths, apart=0, subsets=False, indent=""):
+    """:param depths: z of each card
+    :param apart: triangles between the first card and the others, none of which the camera sees
+    :param subsets: each card is a subset of its own"""
+    points, faces = [(x, y, depths[0]) for x, y in CARD], [(0, 1, 2), (0, 2, 3)]
+    beside = len(points)
+    points += [(50, 0, 0), (51, 0, 0), (50, 1, 0)]
+    faces += [(beside, beside + 1, beside + 2)] * apart
+    for z in depths[1:]:
+        first = len(points)
+        points += [(x, y, z) for x, y in CARD]
+        faces += [(first, first + 1, first + 2), (first, first + 2, first + 3)]
+    indices = ", ".join(str(i) for face in faces for i in face)
+    text = (f'def Mesh "{name}"\n{{\n    point3f[] points = [{", ".join(f"({x}, {y}, {z})" for x, y, z in points)}]\n'
+            f"    int[] faceVertexCounts = [{', '.join(['3'] * len(faces))}]\n    int[] faceVertexIndices = [{indices}]\n"
+            f'    uniform token subdivisionScheme = "none"\n    bool doubleSided = 1\n{HALF}')
+    if subsets:
+        for name, which in (("front", [0, 1]), ("back", [2, 3])):
+            text += (f'    def GeomSubset "{name}" (prepend apiSchemas = ["MaterialBindingAPI"])\n    {{\n'
+                     f'        uniform token elementType = "face"\n        uniform token familyName = "materialBind"\n'
+                     f"        int[] indices = {which}\n    }}\n")
+    return "".join(indent + line + "\n" for line in (text + "}\n").splitlines())
+
+
+# Two of these, half there, are drawn apart. llvmpipe draws 16,384 triangles at once at most: see heldFences.h.
+STAGES = {
+    "prims": mesh("front", [1]) + mesh("back", [0]),
+    "triangles": mesh("both", [1, 0]),
+    "draws": mesh("both", [1, 0], apart=16382),
+    "subsets": mesh("both", [1, 0], subsets=True),
+    "instances": 'def PointInstancer "cards"\n{\n    rel prototypes = </cards/card>\n    int[] protoIndices = [0, 0]\n'
+                 '    point3f[] positions = [(0, 0, 0), (0, 0, 1)]\n' + mesh("card", [0], indent="    ") + "}\n",
+}
+
+
+@pytest.mark.parametrize("name", sorted(STAGES))
+def test_what_lies_behind_each_other_is_drawn_apart(opengl, tmp_path, name):  # noqa: F811
+    stage = tmp_path / "stage.usda"
+    stage.write_text(CAMERA + STAGES[name], encoding="utf-8")
+    image = tmp_path / "image.exr"
+    inProcess.record(str(stage), str(image), "--camera", "/camera", "-w", str(SIZE), "--samples", str(SAMPLES), "--backend",
+                     "raster")
+    alpha = inProcess.pixels(str(image), "A")
+    # Six standard errors of as many independent numbers; where both are drawn by one number, a half is hidden.
+    error = np.sqrt(0.75 * 0.25 / (SIZE * SIZE * SAMPLES))
+    assert abs(alpha.mean() - 0.75) < 6.0 * error

@@ -22,9 +22,7 @@ bool loadGlFunctions(std::string& error) {
     }
     PATINA_GL_FUNCTIONS(PATINA_GL_LOAD)
 #undef PATINA_GL_LOAD
-    const GLubyte* renderer = gl.GetString(GL_RENDERER);
-    if (renderer && HeldFences::neededBy(reinterpret_cast<const char*>(renderer)))
-        HeldFences::install();
+    HeldFences::install();
     const std::string losing = glFault("lostAtCall");
     if (!losing.empty()) loseContextAtCall(std::atol(losing.c_str()));
     return true;

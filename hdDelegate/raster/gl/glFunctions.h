@@ -121,8 +121,7 @@ struct GlFunctions {
 /// OpenGL as EGL gives it; filled by the first EglContext. Call only while a context is current.
 extern GlFunctions gl;
 
-/// Fills `gl`; call with a context current.
-/// @returns false with a one-line error that names the first missing function
+/// Fills `gl`. @returns false with a one-line error that names the first missing function
 bool loadGlFunctions(std::string& error);
 
 } // namespace patina

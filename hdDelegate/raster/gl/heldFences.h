@@ -29,7 +29,8 @@ public:
     /// Whether the driver of a context is one that needs it.
     /// @param renderer GL_RENDERER
     static bool neededBy(const std::string& renderer);
-    /// Has the functions of `gl` take sync objects. Called once they are loaded.
+    /// Has the functions of `gl` take sync objects, in contexts that need it. Called once they are
+    /// loaded.
     static void install();
 
     /// Triangles that a draw of the current context may have; without a limit where it needs none.

@@ -61,12 +61,12 @@ export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 
 # Runs a program of a build, and adds a line to the summary.
 runProgram() {
-    local program=$1 name=$2 code=0 start=$SECONDS reports deep log
+    local program=$1 name=$2 code=0 start=$SECONDS reports fast log
     log=$build/$name.log
-    # Slow, but without whole stacks leaks of OpenUSD's diagnostics are not known as such. Not beside llvmpipe: the
-    # unwinder would wait for itself where the driver's compiler registers its frames.
-    deep=$([[ $program == hydraEdits && $backend == embree ]] && echo 1 || echo 0)
-    ASAN_OPTIONS=$ASAN_OPTIONS:fast_unwind_on_malloc=$deep \
+    # Without whole stacks leaks of OpenUSD's diagnostics are not known as such. They are slow; and beside llvmpipe,
+    # whose compiler registers its frames, the unwinder would wait for itself.
+    fast=$([[ $program == hydraEdits ]] && echo 1 || echo 0)
+    ASAN_OPTIONS=$ASAN_OPTIONS:fast_unwind_on_malloc=$fast \
         "$build/tests/$program" 2>&1 | tee "$log" || code=${PIPESTATUS[0]}
     reports=$(grep -cE '(ERROR|WARNING): [A-Za-z]+Sanitizer|runtime error:' "$log" || true)
     summary+="$kind $name: $((SECONDS - start)) s, exit status $code, $reports reports"$'\n'

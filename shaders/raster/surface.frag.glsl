@@ -18,7 +18,7 @@ vec3 vGeometricNormal;
 float vUvPerLength;
 ivec4 vIds; // element, instance, row of links, place of the prim
 layout(location = 1) uniform ivec4 drawInfo; // bits of the prim's primvars, prim id, flags of RasterShape, InstanceValues
-layout(location = 18) uniform uint firstTriangle; // of the draw: numbers of triangles, apart for each prim
+layout(location = 18) uniform uint firstTriangle; // of the draw: counts on from a number of the prim's own
 
 vec4 primvar(int slot, vec4 fallback) {
 #if PRIMVARS > 0

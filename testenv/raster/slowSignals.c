@@ -40,7 +40,8 @@ void free(void* piece) {
     for (int i = 0; piece && i < THREADS; ++i) {
         const char* condition = atomic_load_explicit(&signalled[i], memory_order_relaxed);
         /* Of the fence, the condition comes after the mutex. */
-        if (condition && (char*)piece <= condition && condition < (char*)piece + malloc_usable_size(piece)) atomic_fetch_add(&freed, 1);
+        if (condition && (char*)piece <= condition && condition < (char*)piece + malloc_usable_size(piece))
+            atomic_fetch_add(&freed, 1);
     }
     next(piece);
 }

@@ -22,8 +22,8 @@ namespace patina {
 /// fence that 65 batches or more have followed. Draws that show nothing make no batch: more are
 /// kept.
 ///
-/// The driver ends a batch by itself when its textures exceed 64 MB or its triangles 36 MB. So each
-/// draw is a batch of its own, and has mostTriangles() at most.
+/// The driver ends a batch by itself when its textures exceed 64 MB, or its triangles and their
+/// lists 36 MB (Mesa 22.3). So each draw is a batch of its own, and has mostTriangles() at most.
 class HeldFences {
 public:
     /// Whether the driver of a context is one that needs it.
@@ -34,8 +34,9 @@ public:
     static void install();
 
     /// Triangles that a draw of the current context may have; without a limit where it needs none.
-    /// With 25 vectors from the vertex shader a triangle takes 1.5 KB of the 36 MB, and there is
-    /// room for where the triangles are seen.
+    /// With the 32 vectors that a vertex shader may write, a triangle takes up to 1.8 KB, so all
+    /// take 29 MB of the 36. The lists of triangles by tile have the rest: a triangle that covers
+    /// very many tiles takes more of it.
     static size_t mostTriangles();
 
     HeldFences() = default;
@@ -47,6 +48,7 @@ public:
     /// @returns those before
     static HeldFences* makeCurrent(HeldFences* fences);
 
+    // What is drawn next, and into which framebuffer: ends the batch where that is another one.
     void bound(GLuint framebuffer) { _bound = framebuffer; }
     void draws() { drawsInto(_bound); }
     void drawsInto(GLuint framebuffer);

@@ -39,7 +39,7 @@ struct RasterDraw {
     const RasterSurface* casting = nullptr; ///< what shadow maps show
     int group = 0, subset = 0;
     int primId = 0, flags = 0; ///< flags: of RasterShape
-    uint32_t noise = 0;        ///< the number of its first triangle for random numbers
+    uint32_t noise = 0;        ///< what triangles are counted from, for random numbers
     int values = 0;            ///< where those of instances begin, plus 1; 0: it shows none
     RasterMeshLight meshLight;
 };

@@ -98,6 +98,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/farm/test_queues.py::test_a_movie_*", "long", None),
     ("testenv/farm/test_queues.py::test_pods_are_what_kubernetes_knows", "long", None),
     ("testenv/package/test_everyPackage.py::test_the_page_*", "lint", None),
+    ("testenv/package/test_steps.py::*", "full", "view cli"),
     ("testenv/cli/test_chart.py::*", "full", "chart materialNetwork"),
     ("testenv/cli/test_chartScenes.py::*", "full", "chart"),
     ("testenv/cli/test_subdivisionPlan.py::*", "full", "geometry plan materialNetwork"),

@@ -70,6 +70,7 @@ render wheel "$folder/wheel/bin/patina"
 
 # The library of each level: the loader is told to look for no higher one.
 package=$("$folder/wheel/bin/python" -c 'import os, patina; print(os.path.dirname(patina.__file__))')
+! command -v npm >/dev/null || [ -s "$package/view/web/page.js" ] || { say "failed: the wheel has no script of the material page"; exit 1; }
 for level in lowest $(ls "$package/lib/glibc-hwcaps"); do
     case $level,$levels in
     lowest,*glibc-hwcaps-mask* | *"$level (supported"*) ;;

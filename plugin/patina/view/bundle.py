@@ -11,7 +11,6 @@ import subprocess
 import sys
 import tempfile
 
-from patina.cli import outputs
 from patina.cli.errors import CommandError
 
 WEB = os.path.join(os.path.dirname(os.path.abspath(__file__)), "web")
@@ -85,29 +84,53 @@ def _sources():
     return sorted(os.path.join(src, name) for name in os.listdir(src) if name.endswith(".js"))
 
 
+def _bundle(folder, out):
+    """Writes the script, whole or not at all.
+
+    :param folder: what packages() returned"""
+    made = tempfile.mkdtemp(prefix="page-", dir=folder)
+    try:
+        text = os.path.join(made, "page.js")
+        esbuild = os.path.join(folder, "node_modules", "esbuild", "bin", "esbuild")
+        done = subprocess.run([node(), esbuild, os.path.join(WEB, "src", "main.js"), "--bundle", "--minify", "--format=iife",
+                               "--target=es2022", "--legal-comments=inline", "--log-level=error", f"--outfile={text}"],
+                              env={**os.environ, "NODE_PATH": os.path.join(folder, "node_modules")},
+                              capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise CommandError("esbuild could not make the page's script: " + " ".join(done.stderr.split())[:400])
+        os.replace(text, out)
+    finally:
+        shutil.rmtree(made, ignore_errors=True)
+
+
 def script():
     """:returns: the text of the page's script"""
-    made = os.path.join(WEB, "page.js")  # of an installed package
-    if os.path.exists(made):
-        with open(made, encoding="utf-8") as file:
-            return file.read()
-    folder = packages()
-    out = os.path.join(folder, f"page-{_digest(*_sources())}.js")
+    out = os.path.join(WEB, "page.js")  # of an installed package
     if not os.path.exists(out):
-        esbuild = os.path.join(folder, "node_modules", "esbuild", "bin", "esbuild")
-        with outputs.Together() as files:
-            done = subprocess.run([node(), esbuild, os.path.join(WEB, "src", "main.js"), "--bundle", "--minify",
-                                   "--format=iife", "--target=es2022", "--legal-comments=inline", "--log-level=error",
-                                   "--allow-overwrite", f"--outfile={files.add(out)}"],
-                                  env={**os.environ, "NODE_PATH": os.path.join(folder, "node_modules")},
-                                  capture_output=True, text=True, check=False)
-            if done.returncode != 0:
-                raise CommandError("esbuild could not make the page's script: " + " ".join(done.stderr.split())[:400])
+        folder = packages()
+        out = os.path.join(folder, f"page-{_digest(*_sources())}.js")
+        if not os.path.exists(out):
+            _bundle(folder, out)
     with open(out, encoding="utf-8") as file:
         return file.read()
 
 
-if __name__ == "__main__":  # python -m patina.view.bundle OUT.js: what a package installs
+def package(out):
+    """What the build of a package does, before there is a compiled module: `python -m patina.view.bundle OUT.js`.
+
+    Where Node, npm or their registry are out of reach, the package goes without: `patina view` makes the script on first use.
+
+    :param out: file that takes the script
+    :raises CommandError: where the script cannot be made of its packages"""
+    try:
+        packages()
+    except (CommandError, OSError) as error:
+        print(f"the package has no script of the material page, which patina view makes on first use: {error}", file=sys.stderr)
+        return
     text = script()
-    with open(sys.argv[1], "w", encoding="utf-8") as stream:
-        stream.write(text)
+    with open(out, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+if __name__ == "__main__":
+    package(sys.argv[1])

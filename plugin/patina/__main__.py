@@ -2,7 +2,7 @@
 import sys
 
 try:
-    from patina.cli import interrupts
+    from patina.cli import ending, interrupts
 
     interrupts.hold_standard_streams()
     from patina.cli.main import main
@@ -10,4 +10,4 @@ except KeyboardInterrupt:  # before there is anything that would handle it
     print("patina: interrupted", file=sys.stderr)
     sys.exit(1)
 
-sys.exit(main())
+sys.exit(ending.end(main()))

@@ -235,7 +235,7 @@ def test_what_is_left_out_is_told_once_it_is_known(checkout):
     (("record", "a", "b", "--denoise"), "denoise"), (("farm", "a", "b", "--denoise"), "denoise"),
     (("merge", "a", "b"), "denoise"), (("farm", "a", "b"), "farm"),
     (("shader", "a.mtlx", "--target", "osl"), "shader"), (("shader", "a.mtlx", "--target=mdl"), "shader"),
-    (("python", "-m", "distributed.cli.dask_scheduler"), "farm")])
+    (("python", "-m", "distributed.cli.dask_scheduler"), "farm"), (("python", "-m", "pytest", "a"), "test")])
 def test_arguments_may_need_more(checkout, words, requirements):
     checkout.run("record")
     assert any(f"requirements-{requirements}.txt" in call for call in checkout.run(*words)[1])

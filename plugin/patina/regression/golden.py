@@ -5,6 +5,7 @@ import dataclasses
 import hashlib
 import io
 import json
+import math
 import os
 import tempfile
 
@@ -15,7 +16,8 @@ from patina.cli import compiled, outputs
 from patina.regression import welch
 
 FIRST_SEED, OTHER_SEEDS = 1, 100001  # golden renders and new ones share no random numbers
-NOISE = 5.0  # margins: where a typical tile's interval is wider, the test says that it hardly sees anything
+MOST = 0.9  # share of the tiles that are noisy at all in which a test has to see what it is there for
+DEFAULT_SAMPLES = 64  # of `patina record`
 
 
 class RenderError(Exception):
@@ -63,11 +65,12 @@ class Golden:
 
     @classmethod
     def made(cls, stage, scene):
-        """:returns: (the Golden, the mean image)"""
+        """:returns: (the Golden, the mean image, why a test by it sees too little or an empty text)"""
         images = [render(stage, FIRST_SEED + i, scene.arguments) for i in range(scene.renders)]
         height, width = images[0].shape[:2]
-        return cls(welch.tiles(images), digest(images[0]), (width, height), list(scene.arguments), __version__), np.mean(images,
-                                                                                                                         axis=0)
+        means = welch.tiles(images)
+        made = cls(means, digest(images[0]), (width, height), list(scene.arguments), __version__)
+        return made, np.mean(images, axis=0), blind(seen(welch.compare(means, means), scene), scene)
 
     def write(self, path):
         about = {"first": self.first, "size": self.size, "arguments": self.arguments, "version": self.version}
@@ -92,11 +95,10 @@ class Golden:
 @dataclasses.dataclass
 class Result:
     """Of a comparison. `problem`: in words, empty where the picture is the same; `image`: the new one, or None where its
-    first render had the golden bits; `sees`: relative difference that a typical tile would show, 0 for equal bits"""
+    first render had the golden bits; `sees`: relative difference that most noisy tiles would show, 0 for equal bits"""
     problem: str = ""
     image: object = None
     sees: float = 0.0
-    hint: str = ""
 
 
 def compare(stage, scene, golden):
@@ -115,12 +117,40 @@ def compare(stage, scene, golden):
         return Result()
     images = [render(stage, OTHER_SEEDS + i, scene.arguments) for i in range(scene.renders)]
     interval = welch.compare(welch.tiles(images), golden.means)
-    result = Result(image=np.mean(images, axis=0), sees=scene.margin + float(np.median(interval.half)))
+    result = Result(image=np.mean(images, axis=0), sees=seen(interval, scene))
     which = interval.outside(scene.margin)
     if which.any():
         result.problem = (f"{which.any(axis=-1).sum()} of {which[..., 0].size} tiles differ by more than "
                           f"{100 * scene.margin:g} % (significance 1 % for all of them): {interval.worst(which)}")
-    elif result.sees > (1.0 + NOISE) * scene.margin:
-        result.hint = (f"noise hides differences of a tile below {100 * result.sees:.2g} %; more samples or renders show "
-                       "smaller ones")
+    else:
+        result.problem = blind(result.sees, scene)
     return result
+
+
+def seen(interval, scene):
+    """:param interval: welch.Interval
+    :returns: relative difference that shows in most tiles. Tiles without noise, such as a plain background, show any: they do
+        not count"""
+    noisy = interval.half[interval.half > 1e-9]
+    return scene.margin + (float(np.quantile(noisy, MOST)) if noisy.size else 0.0)
+
+
+def blind(sees, scene):
+    """:returns: why a test sees too little and what helps; empty where it sees what it has to"""
+    if sees <= scene.sees:
+        return ""
+    # Noise falls with the root of the number of samples.
+    samples = _samples(scene.arguments) * ((sees - scene.margin) / (scene.sees - scene.margin)) ** 2
+    return (f"the picture may be the same, but noise hides differences of a tile below {100 * sees:.2g} %, and the test has "
+            f"to see {100 * scene.sees:g} %: about --samples {math.ceil(samples / 16) * 16} would, or more renders; or accept "
+            f'what is seen by "sees" in scenes.json')
+
+
+def _samples(arguments):
+    """:returns: of `patina record` with these arguments"""
+    for i, word in enumerate(arguments):
+        value = word.partition("=")[2] if word.startswith("--samples=") else arguments[i + 1] if (
+            word == "--samples" and i + 1 < len(arguments)) else ""
+        if value.isdigit():
+            return int(value)
+    return DEFAULT_SAMPLES

@@ -8,14 +8,18 @@
 An installed Patina registers the plugin by itself; from a checkout it is `./patina python -m pytest -p
 patina.regression.plugin --patina-scenes FOLDER`. The tests need SciPy.
 """
+import importlib.util
 import os
+import shlex
 import warnings
 
 import pytest
 
 from patina.regression.scenes import Folder, SceneError
 
-HOW = "pytest --patina-scenes {folder} -k {name} --patina-update"
+HOW = "{pytest} --patina-scenes {folder} -k {name} --patina-update"
+PYTEST = "pytest"  # where Patina is installed
+FROM_CHECKOUT = "{command} python -m pytest -p patina.regression.plugin"
 
 
 def pytest_addoption(parser):
@@ -29,6 +33,8 @@ def pytest_configure(config):
     folder = config.getoption("--patina-scenes")
     if not folder:
         return
+    if not importlib.util.find_spec("scipy"):  # before anything is rendered, not at the first difference
+        raise pytest.UsageError("--patina-scenes needs SciPy: pip install scipy")
     try:
         config.patina_folder = Folder(folder)
     except SceneError as error:
@@ -51,7 +57,7 @@ class SceneFailure(Exception):
 
 
 class SceneWarning(UserWarning):
-    """A test that passes without having seen much."""
+    """Golden images by which a test will see too little."""
 
 
 class _Scenes(pytest.Directory):
@@ -73,23 +79,26 @@ class _Stage(pytest.Item):
         kept = folder.golden(self.name, ".npz")
         try:
             if self.config.getoption("--patina-update"):
-                made, image = golden.Golden.made(stage, scene)
+                made, image, problem = golden.Golden.made(stage, scene)
                 made.write(kept)
                 _write(folder.golden(self.name, ".exr"), image)
+                if problem:
+                    warnings.warn(SceneWarning(f"{self.name}: {problem}"))
                 return
             if not os.path.exists(kept):
                 raise SceneFailure(f"there is no golden image; make it, and look at it: {self._how()}")
             result = golden.compare(stage, scene, golden.Golden.read(kept))
         except golden.RenderError as error:
             raise SceneFailure(str(error)) from None
-        if result.hint:
-            warnings.warn(SceneWarning(f"{self.name}: {result.hint}"))
         if result.problem:
             raise SceneFailure("\n".join([result.problem, *self._pictures(folder, result.image),
                                           f"if the new one is right: {self._how()}"]))
 
     def _how(self):
-        return HOW.format(folder=self.config.getoption("--patina-scenes"), name=self.name)
+        command = os.environ.get("PATINA_COMMAND")  # of the launcher
+        pytest_command = FROM_CHECKOUT.format(command=shlex.quote(command)) if command else PYTEST
+        return HOW.format(pytest=pytest_command, folder=shlex.quote(self.config.getoption("--patina-scenes")),
+                          name=shlex.quote(self.name))
 
     def _pictures(self, folder, image):
         """Writes the new image, and where the golden one has its size, the difference.

@@ -20,10 +20,12 @@ class Scene:
     """How one stage is tested.
 
     `arguments`: of `patina record` after the image, without --seed; `renders`: with seeds of their own, 2 or more;
-    `margin`: relative difference of a tile's mean that is taken, 0 or more"""
+    `margin`: relative difference of a tile's mean that is taken, 0 or more; `sees`: relative difference that the test has to be
+    able to show, above `margin`: where noise hides it, the test fails and asks for samples"""
     arguments: tuple = ("--imageWidth", "160", "--samples", "32")
     renders: int = 8
     margin: float = 0.01
+    sees: float = 0.05
 
 
 def _checked(values, place):
@@ -41,6 +43,9 @@ def _checked(values, place):
         raise SceneError(f"{place}: renders is a whole number from 2 to 1000")
     if isinstance(margin, bool) or not isinstance(margin, (int, float)) or not 0.0 <= margin < float("inf"):
         raise SceneError(f"{place}: margin is a number of 0 or more")
+    sees = values.get("sees", 0.05)
+    if isinstance(sees, bool) or not isinstance(sees, (int, float)) or not margin < sees < float("inf"):
+        raise SceneError(f"{place}: sees is a number above the margin")
     return dict(values, arguments=tuple(arguments)) if "arguments" in values else values
 
 

@@ -75,19 +75,43 @@ def test_the_way_of_a_scene(folder):
     assert run(folder, "--patina-update")[0] == 0 and run(folder)[0] == 0
 
 
-def test_another_noise_is_the_same_picture(folder, monkeypatch):
+def test_another_noise_is_the_same_picture(folder):
     """The golden renders' own seeds would have their bits; others are judged by the statistics (at most 1 % are rejected)."""
     stage, scene = str(folder / "one.usda"), Folder(folder).scene("one.usda")
-    made, _ = golden.Golden.made(stage, scene)
+    made, _, _ = golden.Golden.made(stage, scene)
     assert golden.compare(stage, scene, made).image is None
     made.first = "another build's bits"
     result = golden.compare(stage, scene, made)
-    assert result.image is not None and not result.problem and result.sees > scene.margin
+    assert result.image is not None and "tiles differ" not in result.problem and result.sees > scene.margin
+
+
+def test_a_test_that_cannot_see_a_difference_says_so():
+    """Half of the tiles are a background without noise: those show any difference, and say nothing of the others. Noise of 10 %
+    in four renders hides far more than 5 %; seed 5."""
+    generator = np.random.default_rng(5)
+    means = np.ones((4, 6, 8, 3))
+    means[:, :, :4] += generator.normal(0.0, 0.1, (4, 6, 4, 3))
+    scene = Scene(arguments=("-w", "64", "--samples=16"))
+    seen = golden.seen(welch.compare(means, means), scene)
+    assert seen > 0.3
+    problem = golden.blind(seen, scene)
+    wanted = int(problem.partition("--samples ")[2].split()[0])
+    assert "has to see 5 %" in problem and wanted == pytest.approx(16 * ((seen - 0.01) / 0.04) ** 2, abs=16)
+    assert not golden.blind(0.05, scene)
+    assert golden.seen(welch.compare(np.ones_like(means), np.ones_like(means)), scene) == scene.margin  # there is no noise
+
+
+def test_the_way_to_accept_is_that_of_the_installation(monkeypatch):
+    item = type("Item", (), {"config": type("Config", (), {"getoption": lambda self, name: "my scenes"})(), "name": "a.usda"})()
+    monkeypatch.delenv("PATINA_COMMAND", raising=False)
+    assert plugin._Stage._how(item) == "pytest --patina-scenes 'my scenes' -k a.usda --patina-update"
+    monkeypatch.setenv("PATINA_COMMAND", "./patina")
+    assert plugin._Stage._how(item).startswith("./patina python -m pytest -p patina.regression.plugin --patina-scenes ")
 
 
 def test_what_cannot_be_compared_is_told(folder):
     stage, scene = str(folder / "one.usda"), Folder(folder).scene("one.usda")
-    made, _ = golden.Golden.made(stage, scene)
+    made, _, _ = golden.Golden.made(stage, scene)
     made.size = (31, 18)
     assert "the golden one 31 x 18" in golden.compare(stage, scene, made).problem
     other = Scene(arguments=("-w", "16"), renders=2)
@@ -103,6 +127,7 @@ def test_what_cannot_be_compared_is_told(folder):
 @pytest.mark.parametrize("text, words", [
     ("{", "scenes.json"), ("[]", "an object is expected"), ('{"*": {"sampels": 1}}', "there is no 'sampels'"),
     ('{"*": {"renders": 1}}', "from 2 to 1000"), ('{"*": {"margin": -1}}', "0 or more"),
+    ('{"*": {"margin": 0.1}}', "sees is a number above the margin"),
     ('{"*": {"arguments": "-w 3"}}', "list of texts"), ('{"*": {"arguments": ["--seed", "3"]}}', "--seed is chosen"),
     ('{"stages": "*"}', "list of patterns"), ('{"a": 1}', "is an object")])
 def test_settings_that_cannot_be_used(folder, text, words):

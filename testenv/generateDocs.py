@@ -249,9 +249,9 @@ def messages():
              "A message names a prim and an input, says what is wrong, and what is shown instead. In this list …",
              "stands for names and numbers of the scene. `/World/ball.points: are not all finite` is the message *are not all",
              "finite*, at the input `points` of the prim `/World/ball`.", "",
-             "- An *error* means that something that was authored is missing from the picture.",
-             "- A *warning* means that a default or an approximation is used.",
-             "- `patina record --strict` fails at either.", "",
+             "- *missing*: something that was authored is missing from the picture, and a fallback stands in its place.",
+             "- *changed*: a default or an approximation is used.",
+             "- Both are warnings, and the command goes on. `patina record --strict` fails at either.", "",
              "If a command can show nothing at all, it ends with one line that says why, and with status 1 (2 for",
              "wrong usage, 75 if the same may work later)."]
     for area, listed in messageTexts.texts().items():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many warnings of few causes: what matters stands first, and is not hidden by what is met often."""
 import json
+import re
 
 import pytest
 
@@ -19,8 +20,8 @@ def test_one_missing_file_is_one_cause():
     found = Causes([warning(MISSING, f"/m{i}", f"image{i}.file") for i in range(561)]
                    + [warning("the mesh has no faces and is not drawn", "/hull", "faceVertexCounts")])
     assert [(g["count"], g["culprit"]) for g in found.groups] == [(561, "/textures/wood.png"), (1, "faceVertexCounts")]
-    assert found.lines() == [f"error: /m0.image0.file: {MISSING} (561 times at 561 prims, first this)",
-                             "error: /hull.faceVertexCounts: the mesh has no faces and is not drawn"]
+    assert found.lines() == [f"warning: /m0.image0.file: {MISSING} (561 times at 561 prims, first this)",
+                             "warning: /hull.faceVertexCounts: the mesh has no faces and is not drawn"]
 
 
 @pytest.mark.parametrize("one, other", [
@@ -45,18 +46,18 @@ def test_numbers_and_the_own_path_make_no_other_cause():
     assert len(Causes([warning("/a/b: a loop at </a/b>", "/a/b"), warning("/c/d: a loop at </c/d>", "/c/d")])) == 1
 
 
-def test_errors_come_first_then_what_is_met_most_often():
+def test_what_is_missing_comes_first_then_what_is_met_most_often():
     found = Causes([warning("rare default is used", "/a"), warning("loop needs triangles; catmullClark is used", "/b", count=9),
                     warning("the material does not exist; displayColor is shown", "/c"),
                     warning("prims of type X are not drawn", "/d", count=3)])
     assert [(g["severity"], g["prim"]) for g in found.groups] == [
-        ("error", "/d"), ("error", "/c"), ("warning", "/b"), ("warning", "/a")]
+        ("missing", "/d"), ("missing", "/c"), ("changed", "/b"), ("changed", "/a")]
 
 
 @pytest.mark.parametrize("reason", ("the file does not exist", "the file is a device, not a regular file",
                                     "no tile of it exists"))
-def test_a_texture_that_is_missing_is_an_error_for_whatever_reason(reason):
-    assert causes.severity(warning(f"texture 'a.png': {reason}; its authored fallback, else magenta, is shown")) == "error"
+def test_a_texture_that_is_missing_is_missing_for_whatever_reason(reason):
+    assert causes.severity(warning(f"texture 'a.png': {reason}; its authored fallback, else magenta, is shown")) == "missing"
 
 
 def test_the_terminal_shows_twenty_causes_and_counts_the_rest():
@@ -64,7 +65,7 @@ def test_the_terminal_shows_twenty_causes_and_counts_the_rest():
     found = Causes([warning(f"{a}{a} is odd; box is used", f"/p{a}") for a in letters]
                    + [warning("the light is not finite; it is off", "/sun")])
     lines = found.lines()
-    assert len(lines) == causes.MAX_CAUSES + 1 and lines[0].startswith("error: /sun")
+    assert len(lines) == causes.MAX_CAUSES + 1 and lines[0].startswith("warning: /sun")
     assert lines[-1] == "warning: 7 more causes are in --json"
 
 
@@ -72,7 +73,7 @@ def test_where_there_are_too_many_culprits_of_one_kind_count_as_one():
     many = [warning(f"'{i}' is unknown; box is used", f"/p{i}", count=1 + (i == 7)) for i in range(30)]
     found = Causes(many + [warning("the light is not finite; it is off", "/sun"), warning("the default is used", "/q")])
     assert found.lines() == [
-        "error: /sun: the light is not finite; it is off",
+        "warning: /sun: the light is not finite; it is off",
         "warning: /p7: '7' is unknown; box is used (and 29 causes like it: 31 times, all in --json)",
         "warning: /q: the default is used"]
     assert len(found) == 32
@@ -148,9 +149,11 @@ def test_record_tells_causes(stage, tmp_path, capsys):
     found = json.loads(out.read_text())
     assert len([w for w in found["warnings"] if "missing.png" in w["message"]]) == 30
     assert {g["count"] for g in found["causes"] if "missing.png" in g["culprit"]} == {30}
-    assert any(g["prim"] == "/hull" and g["severity"] == "error" for g in found["causes"])
+    assert any(g["prim"] == "/hull" and g["severity"] == "missing" for g in found["causes"])
     assert main.main(["record", str(stage), str(image), "--imageWidth", "8", "--samples", "1", "--strict"]) == 1
-    assert "the worst: error:" in capsys.readouterr().err
+    said = capsys.readouterr().err.splitlines()
+    assert not any(line.startswith("error:") for line in said)
+    assert re.search(r"--strict: (1 warning|\d+ warnings, the worst): /", said[-1])
 
 
 def test_explain_and_check_tell_causes(stage, capsys):

@@ -24,6 +24,13 @@ def test_then_it_says_what_is_done_and_left(monkeypatch):
     assert shown(monkeypatch, fraction=0.25, samplesDone=16, secondsLeft=75.0) == "shot.exr:  25 %  16 samples  1:15 min left\n"
 
 
+def test_with_a_tolerance_it_says_how_far_the_noise_is(monkeypatch):
+    state = dict(fraction=0.25, samplesDone=16, samplesMean=533.7, secondsLeft=75.0, noise=0.123, noiseWanted=0.1)
+    assert shown(monkeypatch, **state) == (
+        "shot.exr:  25 %  noise 12 %, 10 % is asked for  533.7 samples  1:15 min left\n")
+    assert "noise" not in shown(monkeypatch, **{**state, "noise": -1.0}), "nobody has looked yet"
+
+
 def stepped(monkeypatch, stream):
     clock = [100.0]
     monkeypatch.setattr(progress.time, "monotonic", lambda: clock[0])

@@ -70,6 +70,25 @@ def test_each_frame_has_its_image(stage, tmp_path):
     assert numbers["samples"] == 2 * 16 * 8 * 4
 
 
+def test_the_last_line_tells_what_was_made(stage, tmp_path, capsys):
+    image = tmp_path / "a.exr"
+    assert main.main(["record", stage, str(image), "-w", "16", "--samples", "2", "--json"]) == 0
+    said = capsys.readouterr()
+    last = said.err.splitlines()[-1]
+    assert last.startswith(f"{image}: 2 samples in ") and " s, noise " in last
+    numbers = json.loads(said.out)["frames"][0]  # standard output is JSON alone
+    assert f"noise {100 * numbers['estimatedError']:.2g} %" in last and "left out" in numbers["estimatedErrorIs"]
+    assert record(stage, image, "-w", 16, "--samples", 1) == 0 and capsys.readouterr().err == ""  # --quiet
+
+
+def test_folders_are_made_when_asked(stage, tmp_path, capsys):
+    image = tmp_path / "new" / "folder" / "a.exr"
+    assert record(stage, image, "-w", 16, "--samples", 1) == 1
+    assert "--makeOutputPath" in capsys.readouterr().err and not image.parent.exists()
+    assert record(stage, image, "-w", 16, "--samples", 1, "--make-output-path", f"--json={tmp_path / 'j' / 'a.json'}") == 0
+    assert image.exists() and (tmp_path / "j" / "a.json").exists()
+
+
 def test_statistics(stage, tmp_path, capsys):
     assert record(stage, tmp_path / "a.png", "-w", 16, "--samples", 2, "--json") == 0
     numbers = json.loads(capsys.readouterr().out)

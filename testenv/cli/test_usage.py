@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every command has help; wrong usage has exit status 2 and one line."""
+import shutil
+import subprocess
+
 import pytest
 
 import inProcess
@@ -39,6 +42,57 @@ def test_wrong_usage(arguments):
     assert "Traceback" not in process.stderr
     if arguments:
         assert len(process.stderr.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize("arguments, hint", [
+    (["record", "a.usda", "b.png", "--sampels", "5"], "did you mean --samples?"),
+    (["record", "a.usda", "b.png", "--imagewidth=5"], "did you mean --imageWidth=5?"),
+    (["record", "a.usda", "b.png", "--tolerance", "5%"], "a share is written as a number: --tolerance 0.05"),
+    (["bsdf", "eval", "a.mtlx", "--wi", "0", "0", "1"], "write it with commas: --wi 0,0,1"),
+    (["bsdf", "eval", "a.mtlx", "--wo=0", "0", "1", "--wi", "0,0,1"], "write it with commas: --wo 0,0,1"),
+    (["recrod", "a.usda"], "did you mean record?")])
+def test_what_was_meant_is_said(arguments, hint):
+    process = run(*arguments)
+    assert process.returncode == 2 and hint in process.stderr, process.stderr
+
+
+def test_nothing_is_guessed_where_nothing_is_alike():
+    for arguments in (["record", "a.usda", "b.png", "--frobnicate"], ["bsdf", "eval", "a.mtlx", "--wi", "0,0,1", "7"]):
+        assert "did you mean" not in run(*arguments).stderr and "commas" not in run(*arguments).stderr
+
+
+def completed(tmp_path, *words):
+    """:returns: what bash completes the last word of a command to"""
+    script = tmp_path / "complete.sh"
+    script.write_text(run("completion", "bash").stdout + f"""
+COMP_WORDS=(patina {' '.join(words)})
+COMP_CWORD={len(words)}
+_patina
+printf '%s\n' "${{COMPREPLY[@]}}"
+""")
+    done = subprocess.run(["bash", str(script)], capture_output=True, text=True)
+    assert not done.stderr
+    return done.stdout.split()
+
+
+def test_bash_completes_commands_flags_and_values(tmp_path):
+    assert completed(tmp_path, "rec") == ["record"]
+    assert completed(tmp_path, "record", "a.usda", "--tol") == ["--tolerance"]
+    assert completed(tmp_path, "record", "--backend", "ra") == ["raster"]
+    assert completed(tmp_path, "record", "a.u") == []  # files are bash's own
+
+
+def test_both_shells_know_every_command_and_flag():
+    from patina.cli import completion
+
+    table = completion.table()
+    assert set(table) == set(main.COMMANDS) and "--samples" in table["record"]
+    for shell in completion.SHELLS:
+        text = run("completion", shell).stdout
+        assert all(flag in text for flags in table.values() for flag in flags), shell
+        checked = shutil.which(shell)
+        if checked:
+            assert subprocess.run([checked, "-n"], input=text, capture_output=True, text=True).returncode == 0
 
 
 @pytest.mark.parametrize("before, after", [

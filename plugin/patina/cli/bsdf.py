@@ -84,7 +84,7 @@ def _direction(text, flag):
     try:
         return _unit([float(word) for word in text.replace(",", " ").split()], 3)
     except ValueError:
-        raise UsageError(f"patina bsdf: {flag} {text}: write it as x,y,z, not all 0") from None
+        raise UsageError(f"patina bsdf: {flag} {text}: write it as x,y,z, such as {flag} 0,0,1, and not all 0") from None
 
 
 def _unit(numbers, count):

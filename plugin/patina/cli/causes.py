@@ -4,17 +4,18 @@
 A cause is the kind of a message and its culprit: the file, prim, node or type that the message names, or where it names none
 the input that it is about. How often comes with the first prim that it was met at. The order is:
 
-  error    something that was authored is missing from the result: a prim, a light, a texture, a material, a file
-  warning  everything is there, but not all as authored: a default, a fallback or an approximation is used
+  missing  something that was authored is missing from the result: a prim, a light, a texture, a material, a file; a fallback
+           stands in its place
+  changed  everything is there, but not all as authored: a default or an approximation is used
 
-and within each what was met most often first.
+and within each what was met most often first. All of them are warnings: the command goes on. An error is what ends it.
 """
 import re
 
 from patina.cli.advice import advice
 
 MAX_CAUSES = 20  # causes on the terminal; all of them are in --json
-SEVERITIES = ("error", "warning")
+SEVERITIES = ("missing", "changed")
 
 _LOOKED_AT = 2000  # characters of a message: names in it may have a million, and patterns try each place
 _SHOWN = 2000      # characters of a line on the terminal; --json has all
@@ -34,7 +35,7 @@ _NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.]*\w)", 
 
 
 def severity(warning):
-    """:returns: `error` or `warning`"""
+    """:returns: `missing` or `changed`"""
     return SEVERITIES[0] if _MISSING.search(warning["message"][:_LOOKED_AT]) else SEVERITIES[1]
 
 
@@ -134,7 +135,7 @@ def _cut(text):
 def line(group, json=True):
     """:returns: a group as one line"""
     where = group["prim"] + ("." + group["input"] if group["input"] else "")
-    text = printable(_cut(f"{group['severity']}: " + (where + ": " if where else "") + group["message"]))
+    text = printable(_cut("warning: " + (where + ": " if where else "") + group["message"]))
     if group.get("alike", 1) > 1:
         return f"{text} (and {group['alike'] - 1} causes like it: {group['count']} times{', all in --json' if json else ''})"
     if group["count"] == 1:

@@ -7,9 +7,9 @@
   weight       a sample's weight is f cos / pdf
   chi2         samples fall where the density says (chi-squared test; significance 1 % for the whole
                material, by Šidák)
-  reciprocity  f(a, b) = f(b, a) for directions above the surface. If not, it prints "no"; that is a
-               failure only with --reciprocal, since layers by albedo and media inside are not
-               reciprocal
+  reciprocity  f(a, b) = f(b, a) for directions above the surface. If not, it prints "note"; that is a
+               failure only with --reciprocal, since energy compensation, layers by albedo and
+               media inside are not reciprocal by design
 
 Materials that vary are checked at points of uv 0 to 1. Each material is shown when it is done; warnings come last, grouped by
 cause as in `patina record`. The exit status is 1 if a check fails.
@@ -126,7 +126,7 @@ def _steps(probe, arguments):
 
 def check(probe, arguments, step=lambda: None):
     """:param step: called after each direction, and after the numbers
-    :returns: check -> dict of failed, state ("ok", "FAIL", or "no": it does not hold and need not), worst (a number), text"""
+    :returns: check -> dict of failed, state ("ok", "FAIL", or "note": it does not hold and need not), worst (a number), text"""
     generator = np.random.default_rng(arguments.seed)
     varies = not probe.constant
     outcomes = {"finite": _finite(probe, arguments, generator, varies)}
@@ -160,7 +160,7 @@ def _at(degrees):
 
 
 def _outcome(failed, worst, text, holds=True):
-    return {"failed": bool(failed), "state": "FAIL" if failed else "ok" if holds else "no", "worst": worst, "text": text}
+    return {"failed": bool(failed), "state": "FAIL" if failed else "ok" if holds else "note", "worst": worst, "text": text}
 
 
 def _worst(kind, entries, arguments):
@@ -177,7 +177,10 @@ def _worst(kind, entries, arguments):
     else:
         text = f"largest error {number:.3g} {where}"
     # Without a limit it is no failure, and still not so.
-    return _outcome(failed, float(number), text, limit is not None or number <= arguments.tolerance)
+    holds = limit is not None or number <= arguments.tolerance
+    if not holds:
+        text = f"not reciprocal by design (energy compensation, layers by albedo and media are not): {text}"
+    return _outcome(failed, float(number), text, holds)
 
 
 def _finite(probe, arguments, generator, varies):

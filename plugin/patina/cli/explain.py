@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shows how a material is modelled: its network as authored, the simplified graph, the plan of lobes, the parts that were left
-out, and the method at each choice point that matters, with its predicted error and time. For a stage without a named material
-it shows all materials. Warnings come last, grouped by cause as in `patina record`.
+out, and the method at each choice point that matters, with its predicted error and time. A file of several materials begins
+with a summary, one line each; --verbose shows them all in full. Warnings come last, grouped by cause as in `patina record`.
 
   patina explain shot.usda --tolerance 0.01    what the planner would choose for 1 % of error
+  patina explain shot.usda:/looks/gold         one material in full
 
 For a whole stage with a tolerance it also builds the scene and prints the choices for it: the edges of subdivision surfaces
 (for an image of 960 pixels from the first camera), the length of paths, and for the rasterizer how each material is lit.
@@ -24,6 +25,7 @@ def add_arguments(parser):
     recordFlags.add_tolerance_flag(parser)
     parser.add_argument("--backend", default="embree", choices=["embree", "raster"],
                         help="the renderer whose choices for the scene are shown, with --tolerance (default: embree)")
+    parser.add_argument("--verbose", "-v", action="store_true", help="all materials in full, after the summary")
     parser.add_argument("--json", metavar="FILE", help="write texts and warnings as JSON: --json to standard "
                                                        "output, --json=FILE to a file")
 
@@ -47,16 +49,22 @@ def run(arguments):
             "lit": planText.lit(lit), "causes": statistics.Causes(warnings).groups,
             "warnings": warnings})
         return
-    for i, (name, text) in enumerate(texts):
-        if len(texts) > 1:
-            print(("\n" if i else "") + f"=== {causes.printable(name)}")
+    several = len(texts) > 1
+    if several:
+        print("\n".join(planText.summary_lines(texts, plans)))
+    for i, (name, text) in enumerate(texts if arguments.verbose or not several else ()):
+        if several:
+            print(f"\n=== {causes.printable(name)}")
         for line in text.rstrip("\n").split("\n"):
             print(causes.printable(line))
         print("\n".join(planText.lines(plans[i][1])))
-    if len(texts) > 1:
+    if several:
         print("\n" + "\n".join(planText.scene_lines(plans, tolerance)))
     if choices or lit:
         print("\n".join(planText.choice_lines(choices) + planText.lit_lines(lit)))
+    if several and not arguments.verbose:
+        one = causes.printable(f"{arguments.material}:{texts[0][0]}")
+        print(f"\n--verbose shows all of them in full, {one} one")
     statistics.report(warnings, sys.stderr)
 
 

@@ -8,7 +8,7 @@ import sys
 import traceback
 
 from patina import __version__, inputs, limits
-from patina.cli import causes, interrupts, standardStreams
+from patina.cli import causes, colours, interrupts, standardStreams, usageHints
 from patina.cli.errors import FAILED, TEMPORARY, USAGE, CommandError, UsageError, is_temporary
 
 _BATCH = ("record", "merge", "farm")  # what schedulers run: a signal that ended one may pass
@@ -29,6 +29,7 @@ COMMANDS = {
     "bench": "bench",
     "chart": "chart",
     "docs": "docs",
+    "completion": "completion",
     "fuzz": "fuzz",
     "test": "testRun",
 }
@@ -48,6 +49,7 @@ SUMMARIES = {
     "bench": "measure speed and memory, beside other renderers",
     "chart": "measure and draw the cost and the error of methods",
     "docs": "build the site of a checkout: tutorials, gallery, reference",
+    "completion": "print what makes bash or zsh complete commands and flags",
     "fuzz": "run the fuzzers of a checkout for a time",
     "test": "run the tests of a checkout, by tier and room",
 }
@@ -58,9 +60,10 @@ class _Parser(argparse.ArgumentParser):
 
     def __init__(self, **keywords):
         super().__init__(allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, **keywords)
+        self.words = []  # that were typed
 
     def error(self, message):
-        raise UsageError(f"{self.prog}: {message} (see {self.prog} --help)")
+        raise UsageError(f"{self.prog}: {message}{usageHints.hint(self, self.words, message)} (see {self.prog} --help)")
 
 
 def _normalise(argv):
@@ -108,7 +111,9 @@ def _dispatch(argv):
     name = argv[0]
     if name not in COMMANDS:
         _check_arguments(argv)
-        raise UsageError(f"patina: there is no command '{name}' (there are: {', '.join(COMMANDS)})")
+        found = usageHints.nearest(name, COMMANDS)
+        raise UsageError(f"patina: there is no command '{name}'" + (f"; did you mean {found}?" if found else "") +
+                         f" (there are: {', '.join(COMMANDS)})")
     module = importlib.import_module("patina.cli." + COMMANDS[name])
     if not getattr(module, "NAMES_OF_ANY_BYTES", False):
         _check_arguments(argv)
@@ -119,7 +124,7 @@ def _dispatch(argv):
         arguments, arguments_left = parser.parse_known_args(words)
         arguments.passed_on = arguments_left
     else:
-        words = _normalise(argv[1:])
+        words = parser.words = _normalise(argv[1:])
         # A file that may be left out is found wherever it stands among the flags.
         parse = parser.parse_intermixed_args if getattr(module, "INTERMIXED", False) else parser.parse_args
         arguments = parse(words)
@@ -184,13 +189,14 @@ def _failed(error, endings, command):
         traceback.print_exc()
     if isinstance(error, KeyboardInterrupt) or (endings.met and not isinstance(error, CommandError)):
         ended = True
-        print(f"patina: {endings.text()}", file=sys.stderr)
+        reason = f"patina: {endings.text()}"
     elif isinstance(error, UsageError):
-        print(_one_line(error), file=sys.stderr)
+        print(colours.painted(_one_line(error), sys.stderr), file=sys.stderr)
         return USAGE
     elif endings.met and isinstance(error.__cause__, ImportError):
         ended = True
-        print(f"patina: {endings.text()}", file=sys.stderr)
+        reason = f"patina: {endings.text()}"
     else:
-        print(f"patina: {_one_line(error)}", file=sys.stderr)
+        reason = f"patina: {_one_line(error)}"
+    print(colours.painted(reason, sys.stderr), file=sys.stderr)
     return TEMPORARY if is_temporary(error) or (ended and command and command[0] in _BATCH) else FAILED

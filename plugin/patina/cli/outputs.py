@@ -70,6 +70,21 @@ def make_folder(folder):
         raise CommandError(f"cannot make the folder {folder}: {error.strerror}") from error
 
 
+def need_folders(files, make):
+    """Of what `patina record` writes.
+
+    :param files: None and - (standard output) are left out
+    :param make: makes those that are missing
+    :raises CommandError: where one is missing, or cannot be made"""
+    for file in files:
+        folder = os.path.dirname(file or "")
+        if not folder or os.path.isdir(folder):
+            continue
+        if not make:
+            raise CommandError(f"cannot write '{file}': the folder '{folder}' does not exist (--makeOutputPath makes it)")
+        make_folder(folder)
+
+
 class Together:
     """Several files that appear together, when the block ends without an error."""
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A plan of methods as text: what was chosen at every choice point, and what that is expected to do."""
+from patina.cli import causes
 
 
 def seconds_of(plan, key="ns"):
@@ -31,6 +32,24 @@ def lines(plan):
                   f"{_ratio(spent, seconds_of(plan, 'nsDefault')):>12}")
     if tolerance > 0.0 and plan["error"] > tolerance:
         result.append(f"  the forced methods alone are expected to miss the tolerance {tolerance:g}")
+    return result
+
+
+def summary_lines(texts, plans):
+    """One line for each material.
+
+    :param texts: list of (name, what _patina.explain_material() says)
+    :param plans: list of (name, plan), likewise
+    :returns: list of lines of a table: lobes that a ray meets, parts that were left out, and as `lines` has them the error and
+        the time of all methods together"""
+    width = max([len("material")] + [len(causes.printable(name)) for name, _ in texts])
+    result = [f"{'material':<{width}}{'lobes':>7}{'left out':>10}{'predicted error':>17}{'of default':>12}  methods"]
+    for (name, text), (_, plan) in zip(texts, plans):
+        begins = [line.partition(" ")[0] for line in text.splitlines()]
+        spent = _ratio(seconds_of(plan), seconds_of(plan, "nsDefault"))
+        result.append(f"{causes.printable(name):<{width}}{begins.count('lobe'):>7}{begins.count('left'):>10}{plan['error']:>17.2g}"
+                      f"{spent:>12}  " + (", ".join(choice["method"] for choice in plan["choices"]) or "-")
+                      + (" (of displayColor, which is shown)" if plan["fallback"] else ""))
     return result
 
 

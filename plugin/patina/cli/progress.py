@@ -4,7 +4,7 @@ import shutil
 import sys
 import time
 
-from patina.cli import causes
+from patina.cli import causes, colours
 
 BAR = 30
 SPARSE_SECONDS = 10.0
@@ -17,6 +17,12 @@ def _clock(seconds):
     if seconds < 3600:
         return f"{seconds // 60}:{seconds % 60:02d} min"
     return f"{seconds // 3600}:{seconds // 60 % 60:02d} h"
+
+
+def _noise(state):
+    """:returns: the noise reached and that which ends the render, where a tolerance asks for one"""
+    wanted, reached = state.get("noiseWanted", 0.0), state.get("noise", -1.0)
+    return f"noise {100 * reached:.2g} %, {100 * wanted:.2g} % is asked for  " if wanted > 0.0 and reached >= 0.0 else ""
 
 
 class Progress:
@@ -34,7 +40,7 @@ class Progress:
         if not self._due():
             return
         fraction = min(max(state["fraction"], 0.0), 1.0)
-        text = f"{100 * fraction:3.0f} %  {state['samplesDone']} samples"
+        text = f"{100 * fraction:3.0f} %  {_noise(state)}{state.get('samplesMean', state['samplesDone']):.4g} samples"
         if fraction == 0.0 and state["samplesDone"] == 0:  # shapes, textures, and what drivers compile
             text = self._preparing(state, self.last)
         elif state["secondsLeft"] > 0.5:
@@ -92,4 +98,4 @@ class Progress:
     def say(self, text):
         if not self.quiet:
             self.clear()
-            print(causes.printable(text), file=self.stream)
+            print(colours.painted(causes.printable(text), self.stream), file=self.stream)

@@ -7,8 +7,8 @@
   patina record shot.usda shot.exr --part 3/8 --partial shot.3.part    an eighth of it, for `patina merge`
   patina record shot.usda --settings /Render/beauty --frames 1:10x3,20    all products of these settings
 
-Warnings are grouped by cause: first errors (something that was authored is missing from the image), then warnings (a default or
-an approximation is used), the most frequent first, 20 at most. --json has all of them.
+Warnings are grouped by cause: first where something that was authored is missing and a fallback stands in its place, then where
+a default or an approximation is used, the most frequent first, 20 at most. --json has all of them.
 
 Ctrl+C and SIGTERM end a render early: the image is written with the samples so far, IMAGE.checkpoint stays for --resume, and
 the command that continues is printed. SIGUSR1 writes a snapshot, and the render goes on. An existing image is replaced only by
@@ -20,8 +20,8 @@ a lost device) or ended by a signal: a scheduler may run the same again, with --
 import dataclasses
 import os
 
-from patina.cli import (checkpoints, compiled, denoiser, goOn, openStage, outputs, overrides, recordFlags, renderSettings,
-                        reports, shots, snapshots, statistics, verbose)
+from patina.cli import (checkpoints, compiled, denoiser, frames, goOn, openStage, outputs, overrides, recordFlags,
+                        renderSettings, reports, shots, snapshots, statistics, verbose)
 from patina.cli.errors import CommandError, TemporaryError
 from patina.cli.interrupts import Endings, Interrupts
 from patina.cli.progress import Progress
@@ -66,6 +66,9 @@ class _Job:
     def open(self):
         a = self.arguments
         # Before anything slow: will the image have a place to go to?
+        if not frames.has_place(os.path.dirname(a.image or "")):
+            outputs.need_folders([a.image], a.makeOutputPath)
+        outputs.need_folders([a.json, a.report], a.makeOutputPath)
         if a.image:
             self.module.check_image_path(a.image, ["color", "alpha"] + recordFlags.aovs_of(a))
         if a.denoise:
@@ -84,6 +87,7 @@ class _Job:
         self.shots = shots.plan(a, self.stage, prim)
         for warning in prim.warnings if prim else ():
             self.statistics.warn(*warning)
+        outputs.need_folders([image for shot in self.shots for image in shot.images], a.makeOutputPath)
         for shot in self.shots:
             if not a.image:
                 for output in shot.outputs:
@@ -122,6 +126,8 @@ class _Job:
         self.statistics.end_frame()
         if self.arguments.verbose:
             self._say_all(verbose.lines(self.statistics.frames()[-1]))
+        elif not self.arguments.quiet:
+            Progress("").say(verbose.line(self.statistics.frames()[-1], self.arguments.part and self.arguments.partial))
 
     def _denoise(self, film):
         with self.statistics.phase("denoise"):
@@ -275,7 +281,8 @@ class _Job:
         warnings = self.statistics.warnings()
         self._report(warnings)
         if self.arguments.strict and warnings:
-            raise CommandError(f"--strict: {len(warnings)} warnings, the worst: {statistics.lines(warnings)[0]}")
+            number = f"{len(warnings)} warnings, the worst" if len(warnings) > 1 else "1 warning"
+            raise CommandError(f"--strict: {number}: {statistics.lines(warnings)[0].removeprefix('warning: ')}")
 
     def _report(self, warnings, last=False):
         fresh, self.reported = len(warnings) != self.reported, len(warnings)

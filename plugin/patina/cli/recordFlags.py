@@ -81,6 +81,8 @@ def _add_output_flags(group):
     group.add_argument("--imageHeight", type=_size, metavar="PIXELS",
                        help="height of the image (default: from the width and the camera's aperture or fields of view)")
     settingFlags.add(group, "the image", _TEXTS)
+    group.add_argument("--makeOutputPath", "--make-output-path", action="store_true",
+                       help="make the folders of what is written, where they are not there")
     group.add_argument("--dataWindow", type=_window, metavar="X0,Y0,X1,Y1",
                        help="render only these pixels, both corners included, counted from the upper left")
     group.add_argument("--aov", action="append", default=[], metavar="NAME",

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The statistics of a render that --json shows: times by phase, rays, samples, memory, warnings."""
 import contextlib
+import math
 import time
 
 from patina import __version__
-from patina.cli import memory, outputs, planText
+from patina.cli import colours, memory, outputs, planText
 from patina.cli.causes import Causes
 
+ERROR_IS = ("noise of the samples, as --tolerance means it: the mean over the pixels of |luminance - its limit| / (limit + "
+            "0.01); left out: the error of methods (predictedError) and of the length of paths, and light that no sample found")
 PHASES = ("open", "translate", "build", "render", "write", "total")
 
 
@@ -25,7 +28,7 @@ def report(warnings, stream, json=True):
 
     :param json: whether the command has a --json that holds all warnings"""
     for text in Causes(warnings).lines(json=json):
-        print(text, file=stream)
+        print(colours.painted(text, stream), file=stream)
 
 
 class Statistics:
@@ -96,9 +99,10 @@ class Statistics:
         if state["plans"] or state["sceneChoices"]:
             self._frame["plan"] = planText.of_scene(state["plans"], state["sceneChoices"])
         if film.width:
-            error = _mean_relative_error(film)
-            if error is not None:
+            error = film.relative_error(shared=state["backend"] == "raster")
+            if samples and math.isfinite(error):
                 self._frame["estimatedError"] = error
+                self._frame["estimatedErrorIs"] = ERROR_IS
 
     @property
     def frame(self):
@@ -176,15 +180,3 @@ def of_snapshot(arguments, film, camera):
     """:returns: dict of what the file of a snapshot says about its making"""
     return {"Software": f"Patina {__version__}", "patina:stage": arguments.stage, "patina:camera": camera, "patina:snapshot": 1,
             "patina:seed": arguments.seed, "patina:samples": float(film.resolve("sampleCount").mean())}
-
-
-def _mean_relative_error(film):
-    """:returns: the mean over the pixels of standard error over luminance, as --tolerance means it"""
-    import numpy as np
-
-    sampled = film.resolve("sampleCount") > 0
-    color, variance = film.resolve("color").astype(np.float64), film.resolve("variance").astype(np.float64)
-    luminance = color @ np.array([0.2126, 0.7152, 0.0722])
-    # Half-normal mean of |error|; 0.01 keeps black pixels from deciding.
-    error = np.sqrt(2.0 / np.pi * np.maximum(variance, 0.0)) / (luminance + 0.01)
-    return float(error[sampled].mean()) if sampled.any() and np.isfinite(error).all() else None

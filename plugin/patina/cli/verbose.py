@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The lines of `patina record --verbose` on a frame: time and memory of each phase."""
+"""What `patina record` says of a frame that is done: one line, or with --verbose time and memory of each phase."""
 from patina.cli import memory
 
 # phase of the statistics -> what it is called; in their order
@@ -20,11 +20,24 @@ def lines(frame):
     return made
 
 
+def line(frame, file=None):
+    """:param frame: of the statistics, after its end
+    :param file: that is written in place of its images
+    :returns: what stands on the terminal when they are written"""
+    samples = f"{frame['samplesPerPixel']:.4g} sample" + "s" * (frame["samplesPerPixel"] != 1.0)
+    text = f"{file or ', '.join(frame['images'])}: {samples} in {sum(frame['seconds'].values()):.3g} s"
+    if "estimatedError" in frame:
+        text += f", noise {100.0 * frame['estimatedError']:.2g} %"
+        if frame.get("predictedError"):
+            text += f", methods {100.0 * frame['predictedError']:.2g} % by their measured errors"
+    return text
+
+
 def _more(name, frame):
     if name == "render":
         seconds, rays = frame["seconds"]["render"], frame.get("rays", 0)
         speed = f", {rays / seconds / 1e6:.3g} million rays per second" if rays and seconds > 0.0 else ""
-        error = f", error {100.0 * frame['estimatedError']:.2g} %" if "estimatedError" in frame else ""
+        error = f", noise {100.0 * frame['estimatedError']:.2g} %" if "estimatedError" in frame else ""
         return f"  {frame['samplesPerPixel']:.4g} samples per pixel of {frame['width']} x {frame['height']}{error}{speed}"
     if name == "build" and "bytes" in frame:
         return f"  {frame.get('trianglesStored', 0)} triangles, {memory.text(frame['bytes'])} of geometry"

@@ -63,7 +63,7 @@ def _head(facts):
     frame = facts.frame
     rays, spent = frame.get("rays", 0), frame["seconds"].get("render", 0.0)
     cards = [("resolution", f"{frame['width']} × {frame['height']}"), ("samples per pixel", f"{frame['samplesPerPixel']:.4g}"),
-             ("estimated error", f"{100.0 * frame['estimatedError']:.2g} %" if "estimatedError" in frame else "–"),
+             ("noise, estimated", f"{100.0 * frame['estimatedError']:.2g} %" if "estimatedError" in frame else "–"),
              ("time", _seconds(sum(frame["seconds"].values()))),
              ("rays per second", f"{rays / spent / 1e6:.3g} million" if rays and spent > 0.0 else "–"),
              ("peak memory", memory.text(memory.peak())), ("warnings", str(sum(w["count"] for w in facts.warnings))),
@@ -77,7 +77,10 @@ def _head(facts):
     if facts.interrupted:
         lines.append('<p class="bad">This render was interrupted: it has fewer samples than were asked for.</p>')
     cells = "".join(f"<div><dt>{escape(name)}</dt><dd>{escape(text)}</dd></div>" for name, text in cards)
-    return "\n".join([*lines, f'<dl class="cards">{cells}</dl>'])
+    lines.append(f'<dl class="cards">{cells}</dl>')
+    if "estimatedErrorIs" in frame:
+        lines.append(f'<p class="dim">Noise: {escape(frame["estimatedErrorIs"])}.</p>')
+    return "\n".join(lines)
 
 
 def _viewer(facts):
@@ -201,7 +204,7 @@ def _frames(facts):
     rows = [["–" if f["frame"] is None else f"{f['frame']:g}", escape(f["image"]), f"{f['samplesPerPixel']:.4g}",
              f"{100.0 * f['estimatedError']:.2g} %" if "estimatedError" in f else "–", _seconds(sum(f["seconds"].values()))]
             for f in facts.frames]
-    return "<h2>Frames</h2>" + _table(["frame", "image", "samples per pixel", "error", "time"], rows, ["n", "", "n", "n", "n"])
+    return "<h2>Frames</h2>" + _table(["frame", "image", "samples per pixel", "noise", "time"], rows, ["n", "", "n", "n", "n"])
 
 
 def command_of(arguments):

@@ -103,37 +103,45 @@ class _Translation:
                 self._value(node, name, attribute, shader.GetPrim())
 
     def _source(self, input_):
-        """Follows connections through node graphs.
+        """:returns: ((shader, output), attribute): the one that gives the value, or the other, or none"""
+        own = input_.GetAttr()
+        if own.HasAuthoredConnections():
+            self._check(input_)
+        sources = UsdShade.Utils.GetValueProducingAttributes(input_)
+        if not sources:
+            return None, own if own.HasValue() else None
+        name, kind = UsdShade.Utils.GetBaseNameAndType(sources[0].GetName())
+        if kind == UsdShade.AttributeType.Output and not UsdShade.ConnectableAPI(sources[0].GetPrim()).IsContainer():
+            return (UsdShade.Shader(sources[0].GetPrim()), name), own
+        return None, sources[0]
 
-        :returns: ((shader, output), attribute): the one that gives the value, or the other, or none"""
+    def _check(self, input_):
+        """Tells of connections that lead nowhere: pxr passes over them without a word."""
+        def tell(message):
+            self._warn(input_.GetPrim(), input_.GetBaseName(), message)
+
         port, met = input_, set()
-        while True:
+        while port:
             path = port.GetAttr().GetPath()
             if path in met:
-                self._warn(input_.GetPrim(), input_.GetBaseName(), f"is connected in a cycle through {path}; "
-                           "it has no value")
-                return None, None
+                self.context.reported.add("Found cycle with attribute")  # pxr says it without the input
+                tell(f"is connected in a cycle through {path}; its own value is used")
+                return
             met.add(path)
             sources, broken = port.GetConnectedSources()
+            if len(sources) > 1:
+                tell("has several connections; the first is used")
             if not sources:
                 if broken:
-                    self._warn(input_.GetPrim(), input_.GetBaseName(), f"is connected to {broken[0]}, which does "
-                               "not exist; its own value is used")
-                attribute = port.GetAttr()
-                return None, attribute if attribute.HasValue() else None
-            source = sources[0]
-            if len(sources) > 1:
-                self._warn(input_.GetPrim(), input_.GetBaseName(), "has several connections; the first is used")
-            api, is_output = source.source, source.sourceType == UsdShade.AttributeType.Output
-            prim = api.GetPrim()
+                    tell(f"is connected to {broken[0]}, which does not exist; its own value is used")
+                return
+            api, is_output = sources[0].source, sources[0].sourceType == UsdShade.AttributeType.Output
             if is_output and not api.IsContainer():
-                return (UsdShade.Shader(prim), source.sourceName), input_.GetAttr()
-            port = api.GetOutput(source.sourceName) if is_output else api.GetInput(source.sourceName)
-            if not port or not port.GetAttr().IsDefined():
-                self._warn(input_.GetPrim(), input_.GetBaseName(),
-                           f"is connected to {prim.GetPath()}.{source.sourceName}, which does not exist")
-                attribute = input_.GetAttr()
-                return None, attribute if attribute.HasValue() else None
+                return
+            name = sources[0].sourceName
+            port = api.GetOutput(name) if is_output else api.GetInput(name)
+            if not port:
+                tell(f"is connected to {api.GetPath()}.{name}, which does not exist; its own value is used")
 
     def _value(self, node, name, attribute, prim):
         type_ = attribute.GetTypeName()

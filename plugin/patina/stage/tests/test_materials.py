@@ -210,3 +210,23 @@ def test_materials_alone_are_read_past_broken_ones(tmp_path, statements, monkeyp
     monkeypatch.setattr(readMaterials, "network_of", fails)
     assert [path for path, _ in read_materials(stage, warnings)] == ["/n"]
     assert [(w["prim"], "cannot be read" in w["message"]) for w in warnings] == [("/m", True)]
+
+
+CONNECTED = {  # what the shader's input is connected to -> (lines of the material, value)
+    "an interface without a value": ("/m.inputs:none", "color3f inputs:none", "1 0 0"),
+    "an interface with a value": ("/m.inputs:tint", "", "0.1 0.2 0.3"),
+    "a graph's input whose own source is empty": ("/m/g.inputs:a", """color3f inputs:none
+        def NodeGraph "g" { color3f inputs:a = (0, 0, 1)  color3f inputs:a.connect = </m.inputs:none> }""", "0 0 1"),
+    "a graph's output with a value": ("/m/g.outputs:a", 'def NodeGraph "g" { color3f outputs:a = (0, 1, 0) }', "0 1 0"),
+    "a cycle": ("/m/g.inputs:a", """def NodeGraph "g" { color3f inputs:a.connect = </m/g.inputs:b>
+        color3f inputs:b.connect = </m/g.inputs:a> }""", "1 0 0"),
+}
+
+
+@pytest.mark.parametrize("what", CONNECTED)
+def test_values_come_from_where_usd_shade_finds_them(read, what):
+    path, lines, value = CONNECTED[what]
+    own = f"color3f inputs:diffuseColor = (1, 0, 0)\ncolor3f inputs:diffuseColor.connect = <{path}>"
+    reading = read(material(SHADER % own + lines))
+    assert reading.prim("/m")["color3 diffuseColor"] == value
+    assert len(reading.warnings) == (what == "a cycle"), reading.warnings

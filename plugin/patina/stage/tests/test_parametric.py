@@ -129,3 +129,21 @@ def test_both_back_ends_draw_them(read):
             # degrees.
             assert (pixel[np.array(wanted) == 0] < 0.25).all() and (pixel[np.array(wanted) == 1] > 0.5).all(), (
                 backend, name, pixel)
+
+
+def test_even_knots_stand_in_for_those_that_are_not_authored(read, numbers):
+    text = """def NurbsCurves "n" { int[] curveVertexCounts = [4, 5]  int[] order = [4, 3]  %s
+        point3f[] points = [(0,0,0), (1,1,0), (2,1,0), (3,0,0), (0,0,1), (3,0,1), (3,3,1), (0,3,1), (0,0,1)] }"""
+    without = read(text % "")
+    knots = "double[] knots = [0,0,0,0,1,1,1,1, 0,0,0,1,2,3,3,3]  double2[] ranges = [(0, 1), (0, 3)]"
+    assert without.prim("/n") == read(text % knots).prim("/n") and not without.warnings
+    ranged = read(text % "double2[] ranges = [(2, 4), (0, 6)]")
+    assert ranged.prim("/n")["curveVertexCounts"] == "4 10" and not ranged.warnings
+    broken = read("""def NurbsCurves "n" { int[] curveVertexCounts = [2]  int[] order = [3]
+        point3f[] points = [(0,0,0), (1,1,0)] }""")
+    assert any("curves are not drawn" in w for w in broken.warnings)
+
+
+def test_even_knots_of_patches(read):
+    even = PATCH.replace("double[] uKnots = [0, 0, 0, 1, 1, 1]  double[] vKnots = [0, 0, 1, 1]", "")
+    assert read('def NurbsPatch "p" { ' + even + " }").prim("/p") == read('def NurbsPatch "p" { ' + PATCH + " }").prim("/p")

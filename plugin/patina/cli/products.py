@@ -104,6 +104,9 @@ def _render_settings(prim, product, arguments, size):
     window = prim.numbers(product, "dataWindowNDC", 4) if arguments.dataWindow is None else None
     if window is not None and window != [0.0, 0.0, 1.0, 1.0]:
         # y up; pixels whose centres lie inside belong to it. Cut first: products of huge numbers overflow.
+        if min(window) < 0.0 or max(window) > 1.0:
+            prim.warn(prim.where(product, "dataWindowNDC"), "dataWindowNDC",
+                      "reaches beyond the image; no pixels are rendered outside of it")
         (x0, y0, x1, y1), (width, height) = (min(1.0, max(0.0, n)) for n in window), size
         settings["dataWindow"] = [round(x0 * width), round((1.0 - y1) * height),
                                   round(x1 * width) - 1, round((1.0 - y0) * height) - 1]

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The shots that `patina record` renders, one after the other."""
+import numpy as np
+
 from patina.cli import denoiser, frames, products, recordFlags
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.shot import Output, Shot
@@ -42,7 +44,7 @@ def size_of(shot, camera, pixel_aspect):
     if width is None:
         width = DEFAULT_WIDTH if height is None else max(1, round(height * aspect))
     if height is None:
-        height = max(1, round(width / aspect))
+        height = max(1, int(np.float32(width) / np.float32(aspect)))  # cut in single precision, as usdrecord does
     if width * height > recordFlags.MAX_PIXELS or max(width, height) > recordFlags.LARGEST_SIZE:
         raise CommandError(f"an image of {width} x {height} pixels is too large")
     return width, height

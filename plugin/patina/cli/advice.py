@@ -95,6 +95,7 @@ _ROWS = (
     (r"perspective is used|shutter|clippingRange|two numbers|clip nothing|ends before it starts|axis|is none of X",
      "correct the attribute; the schema of UsdGeomCamera or of the shape lists its values"),
     # Instances.
+    (r"not of length 1", "write quaternions of length 1 into the PointInstancer's `orientations`"),
     (r"protoIndices|prototype|holds itself|instances|instance is",
      "correct `protoIndices` and `prototypes` of the PointInstancer"),
     # Lights.
@@ -125,7 +126,7 @@ _ROWS = (
     (r"left out of Cryptomatte", "give instances that need no id of their own one name, by `primvars:patina:cryptoObject`"),
     (r"product|AOV|UsdRenderProduct|orderedVars",
      "correct the UsdRender prim; [AOVs](aovs.md) lists the names"),
-    (r"setting|back end|is not allowed|purpose|rendering in|holds no pixel",
+    (r"setting|back end|is not allowed|purpose|rendering in|holds no pixel|beyond the image",
      "correct the UsdRenderSettings prim; [flags](flags.md) lists settings and ranges"),
     (r"there is no prim", "correct the relationship: no prim has that path"),
     (r"cannot be read and is not drawn|cannot be used|cannot be read",

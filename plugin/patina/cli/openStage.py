@@ -16,7 +16,7 @@ def open_stage(path, mask=None, session_layer=None, layers=()):
     """:param mask: prim paths separated by commas or spaces, or None
     :param layers: files whose opinions are stronger than the stage's and the session layer's; later ones are stronger
     :returns: the Usd.Stage, whose session layer may be edited"""
-    from pxr import Ar, Sdf, Tf, Usd
+    from pxr import Ar, Tf
 
     from patina.stage import StageError, compat, errors
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which material each prim shows."""
-from pxr import UsdShade
+from pxr import UsdGeom, UsdShade
 
-from . import compat
+from . import compat, kinds
+from .context import shown
 
 
 class Bindings:
@@ -32,7 +33,7 @@ class Bindings:
 
     def resolve(self, founds):
         """:returns: for each found prim (material path, [(subset prim, material path)])"""
-        subsets = [_subsets(found.prim) for found in founds]
+        subsets = [self._subsets(found.prim) for found in founds]
         prims = []
         for found, own in zip(founds, subsets):
             prims.append(found.prim)
@@ -67,8 +68,16 @@ class Bindings:
             return group.material
         return self.name(material, group) if material else ""
 
-
-def _subsets(prim):
-    if not any(child.GetTypeName() == "GeomSubset" for child in prim.GetAllChildren()):
-        return []
-    return [s for s in UsdShade.MaterialBindingAPI(prim).GetMaterialBindSubsets() if s.GetPrim().IsActive()]
+    def _subsets(self, prim):
+        """:returns: list of UsdGeom.Subset of faces: other elements have no material in UsdShade"""
+        if not any("GeomSubset" in kinds.schemas_of(child) for child in prim.GetAllChildren()):
+            return []
+        found = []
+        for subset in UsdShade.MaterialBindingAPI(prim).GetMaterialBindSubsets():
+            elements = subset.GetElementTypeAttr().Get()
+            if elements != UsdGeom.Tokens.face:
+                self.context.warn(subset.GetPath(), "elementType", f"is {shown(elements)}, and materials are bound to subsets "
+                                  "of faces alone; the subset is left out")
+            elif subset.GetPrim().IsActive():
+                found.append(subset)
+        return found

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cameras: those of the stage, and the one that frames a stage without any."""
 import functools
+import itertools
 import math
+from dataclasses import dataclass
 
 import numpy as np
-from pxr import Gf, Tf, UsdGeom, UsdRender, UsdUtils
+from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdRender, UsdUtils
 
-from . import assets, compat
+from . import assets, compat, kinds
 from .context import array, get, number, shown
 from .errors import StageError, one_line
+from .state import Found, State
 from .transforms import matrix_at, transform_of
 
 FRAMING = "/patinaFramingCamera"
@@ -20,17 +23,25 @@ _FIELDS = {  # name on the stage -> (name in the scene, fallback)
 }
 
 
-def choose(context, founds):
-    """:param founds: all cameras of the stage
+def choose(context, walked):
+    """:param walked: gets the camera where it is inside of a native instance
     :returns: the Found camera to render from, None when the stage has none and is to be framed
     :raises StageError: when the one that was asked for is not there"""
-    wanted = context.options.camera
+    chosen = _choice(context, walked)
+    if chosen and not any(found is chosen for found in walked.cameras):
+        walked.cameras.append(chosen)
+    return chosen
+
+
+def _choice(context, walked):
+    wanted, founds = context.options.camera, walked.cameras
     by_path = {found.path: found for found in founds}
     if wanted:
         wanted = str(wanted)
-        if wanted in by_path:
-            return by_path[wanted]
-        named = [found for found in founds if found.prim.GetName() == wanted]
+        found = by_path.get(wanted) or _inside(context, wanted)
+        if found:
+            return found
+        named = [found for found in founds if found.prim.GetName() == wanted] or _inner(context, walked, {wanted})
         if named:
             return named[0]
         there = ", ".join(list(by_path)[:12]) or "none"
@@ -38,13 +49,29 @@ def choose(context, founds):
     settings = UsdRender.Settings.GetStageRenderSettings(context.stage)
     if settings:
         for target in settings.GetCameraRel().GetForwardedTargets():
-            if str(target) in by_path:
-                return by_path[str(target)]
+            found = by_path.get(str(target)) or _inside(context, str(target))
+            if found:
+                return found
     primary = [found for found in founds if found.prim.GetName() == UsdUtils.GetPrimaryCameraName()]
-    chosen = (primary or founds or [None])[0]
+    chosen = (primary or founds or _inner(context, walked, walked.inner_cameras) or [None])[0]
     if chosen and len(founds) > 1:
         context.notes.append(f"no camera was named; {chosen.path} of {len(founds)} is used")
     return chosen
+
+
+def _inside(context, path):
+    """:returns: the camera at a path inside of a native instance, None where there is none"""
+    prim = context.stage.GetPrimAtPath(path) if Sdf.Path.IsValidPathString(path) else None
+    return Found(prim, State(), path) if prim and prim.IsInstanceProxy() and "Camera" in kinds.schemas_of(prim) else None
+
+
+def _inner(context, walked, names):
+    """:returns: list of the first camera inside of native instances that has one of these names, if there is one"""
+    if not names & walked.inner_cameras:
+        return []
+    everything = Usd.PrimRange(context.stage.GetPseudoRoot(), Usd.TraverseInstanceProxies())
+    found = (_inside(context, str(prim.GetPath())) for prim in everything if prim.GetName() in names)
+    return list(itertools.islice(filter(None, found), 1))
 
 
 def shutter_of(context, found):
@@ -84,7 +111,18 @@ def inputs_of(context, prim):
     return found
 
 
+@dataclass
+class Placed:
+    """A camera in the scene."""
+    path: str
+    transform: object  # as set_camera() takes it
+    orthographic: bool = False
+    clip_near: float = 1.0
+    clip_far: float = 1e6
+
+
 def emit(context, found):
+    """:returns: a Placed"""
     prim, time = found.prim, context.time
     fields = {key: number(context, prim, name, fallback) for name, (key, fallback) in _FIELDS.items()}
     try:
@@ -102,13 +140,14 @@ def emit(context, found):
     projection = get(prim, "projection", time, "perspective")
     if projection not in ("perspective", "orthographic"):
         context.warn(prim.GetPath(), "projection", f"'{shown(projection)}' is not known; perspective is used")
+    placed = Placed(found.path, transform, projection == "orthographic", near, far)
     context.edit.set_camera(
-        found.path, transform=transform,
-        orthographic=projection == "orthographic",
+        found.path, transform=transform, orthographic=placed.orthographic,
         clip_near=near, clip_far=far, clipping_planes=planes,
         shutter_open=opens, shutter_close=closes,
         exposure_scale=compat.exposure_scale(UsdGeom.Camera(prim), time), inputs=inputs_of(context, prim), **fields)
     context.count("cameras")
+    return placed
 
 
 def _bounds(context, gprims):
@@ -182,7 +221,7 @@ def emit_framing(context, gprims):
     """A camera that shows everything.
 
     :param gprims: all that were found
-    :returns: (path, matrix)"""
+    :returns: a Placed"""
     box = _bounds(context, gprims)
     if not _is_usable(box):
         context.warn("/", "", "the stage has no extents to frame; the camera looks at the origin")
@@ -194,8 +233,9 @@ def emit_framing(context, gprims):
     distance = max(c[2] + 2.0 * focal * margin * max(abs(c[0]) / aperture[0], abs(c[1]) / aperture[1]) for c in corners)
     matrix.SetTranslateOnly(centre + matrix.TransformDir(Gf.Vec3d(0, 0, distance)))
     reach = max(box.GetSize().GetLength(), distance)
-    context.edit.set_camera(FRAMING, transform=np.array(matrix), horizontal_aperture=aperture[0],
+    placed = Placed(FRAMING, np.array(matrix), False, reach * 1e-4, reach * 100.0)
+    context.edit.set_camera(FRAMING, transform=placed.transform, horizontal_aperture=aperture[0],
                             vertical_aperture=aperture[1], focal_length=focal, focus_distance=distance,
-                            clip_near=reach * 1e-4, clip_far=reach * 100.0)
+                            clip_near=placed.clip_near, clip_far=placed.clip_far)
     context.notes.append("the stage has no camera; it is framed")
-    return FRAMING, matrix
+    return placed

@@ -4,6 +4,8 @@ import bisect
 
 from pxr import Usd
 
+from . import kinds
+
 MOST_STEPS = 5000000  # a stage that would take more is taken for one that has such instancers
 
 
@@ -41,7 +43,7 @@ def _holders(stage):
         for prim in Usd.PrimRange(root, Usd.PrimAllPrimsPredicate):
             if prim.IsInstance():
                 found[str(prim.GetPath())] = [str(prim.GetPrototype().GetPath())]
-            elif prim.GetTypeName() == "PointInstancer":
+            elif "PointInstancer" in kinds.schemas_of(prim):
                 found[str(prim.GetPath())] = [str(path) for path in prim.GetRelationship("prototypes").GetForwardedTargets()]
     return found
 

@@ -21,11 +21,11 @@ def of(prim, inherited):
     return mode, bool(component or get(prim, "model:applyDrawMode", 0.0, False))
 
 
-def emit(context, found, mode, module):
+def emit(context, found, module):
     """Draws a model's extents as lines or as cards, or the axes of its origin.
 
     :param module: `_patina`"""
-    prim = found.prim
+    prim, mode = found.prim, found.state.draw_mode
     if context.cyclic:
         return
     box = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)

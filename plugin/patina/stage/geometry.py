@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from . import marks, meshes, parametric, skinning, volumes
+from . import kinds, marks, meshes, parametric, skinning, volumes
 from .context import array, distinct, get, number, shown
 from .primvars import add_builtin, read_primvars, text
 from .transforms import transform_of
@@ -71,9 +71,9 @@ def points_of(context, prim, skin=None):
         offsets = skin.offsets(context) if context.moving else [0.0]
         return _sampled(context, prim, offsets, [skin.points(context, t) for t in offsets])
     offsets = context.attribute_offsets(attribute)
-    velocities = based.GetVelocitiesAttr() if context.moving else None
+    velocities = based.GetVelocitiesAttr() if not context.time.IsDefault() else None
     if velocities and velocities.HasAuthoredValue():
-        offsets = distinct(list(context.shutter))
+        offsets = distinct(list(context.shutter)) if context.moving else [0.0]
         values = based.ComputePointsAtTimes([context.time_at(t) for t in offsets], context.time)
         if len(values) == len(offsets):
             return _sampled(context, prim, offsets, values)
@@ -114,10 +114,10 @@ def _implicit(context, found, kind, common):
     prim, time = found.prim, context.time
     sizes = dict(_SIZES[kind])
     for name in sizes:
-        value = found.authored(name, time)
+        value = found.authored(name, time) if prim.GetTypeName() in kinds.GPRIMS else get(prim, name, time)
         if value is not None:
             sizes[name] = number(context, prim, name, sizes[name], value)
-    if prim.GetTypeName() in ("Cylinder_1", "Capsule_1"):
+    if kinds.schema_among(prim, ("Cylinder_1", "Capsule_1")):
         radius = sizes["radius"]
         sizes["radius"] = number(context, prim, "radiusBottom", radius)
         sizes["radius_top"] = number(context, prim, "radiusTop", radius)

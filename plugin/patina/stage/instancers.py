@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Point instancers and native instances."""
 import numpy as np
-from pxr import UsdGeom
+from pxr import Usd, UsdGeom
 
 from .context import array, get, merged
 from .primvars import in_rendering_space, numbers
@@ -11,18 +11,19 @@ from .transforms import is_finite, matrix_at, sample_times
 def emit_instancer(context, found, names, linking):
     """A point instancer. Instances that it hides or that are broken are left out."""
     prim, group = found.prim, found.state.group
-    path, schema = prim.GetPath(), UsdGeom.PointInstancer(prim)
+    path = prim.GetPath()
     indices = array(context, prim, "protoIndices", get(prim, "protoIndices", context.time), 1, np.int32)
     if not len(indices):
         return
-    offsets, samples = _matrices(context, schema, len(indices))
+    schema, _stage = _usable(context, UsdGeom.PointInstancer(prim), len(indices))
+    offsets, samples = _matrices(context, schema, prim, len(indices))
     if samples is None:
         context.warn(path, "positions", "or another array has another length than protoIndices; nothing is drawn of the "
                      "instancer")
         return
     with np.errstate(invalid="ignore", over="ignore"):  # told below
         samples = [local @ np.array(matrix_at(context, prim, group.anchor, t)) for t, local in zip(offsets, samples)]
-    keep = _mask(schema, context.time, len(indices))
+    keep = _mask(UsdGeom.PointInstancer(prim), context.time, len(indices))
     keep = keep & ((indices >= 0) & (indices < len(names)))
     broken = int(np.count_nonzero((indices < 0) | (indices >= len(names))))
     if broken:
@@ -44,10 +45,54 @@ def emit_instancer(context, found, names, linking):
     context.count("instances", int(keep.sum()))
 
 
-def _matrices(context, schema, count):
-    """:returns: (times, list of arrays of matrices without the prototypes' own transforms)"""
+_ARRAYS = ("positions", "orientations", "orientationsf", "scales", "velocities", "accelerations", "angularVelocities",
+           "protoIndices")
+_UNIT = 0.01  # how far a quaternion's length is from 1 where it was not meant to be: halves round by less
+
+
+def _usable(context, schema, count):
+    """:returns: (the instancer, None), or one with its arrays and the stage that keeps it: where they are longer than
+        protoIndices, which renderers cut, or hold quaternions that are no rotations, which renderers normalise. pxr refuses
+        the former and scales by the latter"""
+    prim, time = schema.GetPrim(), context.time
+    values = {name: get(prim, name, time) for name in _ARRAYS}
+    long = [name for name, value in values.items() if value is not None and hasattr(value, "__len__") and len(value) > count]
+    turns = [name for name in ("orientations", "orientationsf") if _far_from_unit(values[name])]
+    if not long and not turns:
+        return schema, None
+    if long:
+        context.warn(prim.GetPath(), long[0], f"has {len(values[long[0]])} values for {count} instances; the rest is "
+                     "not used")
+    if turns:
+        context.warn(prim.GetPath(), turns[0], "has quaternions that are not of length 1; they are normalised")
+    stage = Usd.Stage.CreateInMemory()
+    stage.SetTimeCodesPerSecond(context.time_codes_per_second)
+    own = UsdGeom.PointInstancer.Define(stage, "/own")
+    for name in _ARRAYS:
+        attribute = prim.GetAttribute(name)
+        times = attribute.GetTimeSamples() if attribute else []
+        for at in times or [Usd.TimeCode.Default()]:
+            value = attribute.Get(at) if attribute else None
+            if value is not None and hasattr(value, "__len__"):
+                value = value[:count]
+                if name in turns:
+                    value = type(value)([q.GetNormalized() for q in value])
+                own.GetPrim().GetAttribute(name).Set(value, at)
+    own.GetPrototypesRel().AddTarget("/own/prototype")
+    return own, stage
+
+
+def _far_from_unit(quaternions):
+    array = np.asarray(quaternions, dtype=np.float64) if quaternions is not None and len(quaternions) else np.ones((1, 1))
+    lengths = np.linalg.norm(array, axis=-1) if array.ndim == 2 else np.ones(1)
+    return bool((abs(lengths - 1.0) > _UNIT).any())
+
+
+def _matrices(context, schema, prim, count):
+    """:param schema: of the instancer, maybe as _usable() gives it
+    :returns: (times, list of arrays of matrices without the prototypes' own transforms)"""
     exclude, ignore = UsdGeom.PointInstancer.ExcludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
-    offsets = sample_times(context, schema.GetPrim(), None)
+    offsets = sample_times(context, prim, None)
     if context.moving:
         attributes = [schema.GetPositionsAttr(), schema.GetOrientationsAttr(), schema.GetScalesAttr(),
                       schema.GetPrim().GetAttribute("orientationsf")]
@@ -99,11 +144,12 @@ def _names(context, founds):
     return {"names": [found.path for found in founds], "assets": [found.state.asset for found in founds]}
 
 
-def emit_instances(context, outer, prototype, founds, linking):
+def emit_instances(context, outer, prototype, founds, linking, values):
     """All native instances of one prototype in one group, as one instancer.
 
     :param outer: name of the group that they appear in
-    :param prototype: name of the prototype's group"""
+    :param prototype: name of the prototype's group
+    :param values: InstanceValues"""
     moving = {}  # number of instance -> (times, matrices)
     matrices = np.empty((len(founds), 4, 4))
     for i, found in enumerate(founds):
@@ -130,5 +176,6 @@ def emit_instances(context, outer, prototype, founds, linking):
         founds[0].path, group=outer, prototypes=[prototype],
         prototype_indices=np.zeros(len(founds), dtype=np.int32),
         transforms=samples[0] if len(samples) == 1 else (times, samples),
-        categories=categories if any(categories) else None, **_names(context, founds))
+        categories=categories if any(categories) else None, primvars=values.of(founds),
+        **_names(context, founds))
     context.count("instances", len(founds))

@@ -2,7 +2,7 @@
 """Which prims are drawn, and as what."""
 import functools
 
-from pxr import Tf, UsdGeom, UsdLux
+from pxr import Tf, Usd, UsdGeom, UsdLux
 
 GPRIMS = {
     "Mesh": "mesh", "BasisCurves": "curves", "Points": "points", "Sphere": "sphere", "Cube": "cube",
@@ -23,8 +23,27 @@ def lights():
     return {schema: word for schemas, word in _patina.light_types().items() for schema in schemas.split()}
 
 
+@functools.lru_cache(maxsize=None)
+def _schemas(type_):
+    """:returns: names of a schema and of those that it derives from, the nearest first"""
+    names = [Usd.SchemaRegistry.GetSchemaTypeName(t) for t in (type_, *type_.GetAllAncestorTypes())]
+    return tuple(name for name in dict.fromkeys(names) if name)
+
+
+def schemas_of(prim):
+    """:returns: names of the prim's schema, or of the known one that the stage's `fallbackPrimTypes` put in its place, and of
+        those that it derives from, the nearest first"""
+    type_ = prim.GetPrimTypeInfo().GetSchemaType()
+    return _schemas(type_) if type_ != Tf.Type.Unknown else (str(prim.GetTypeName()),)  # newer than this OpenUSD
+
+
+def schema_among(prim, names):
+    """:returns: the nearest of the prim's schemas that is among names, or None"""
+    return next((name for name in schemas_of(prim) if name in names), None)
+
+
 class Kinds:
-    """Looks up type names; schemas derived from known ones count as those."""
+    """Looks up type names."""
 
     def __init__(self):
         self._known = {"": (None, False)}
@@ -33,25 +52,19 @@ class Kinds:
         """:returns: (kind, whether it is imageable); kinds are the values above, `unsupported` or None"""
         name = prim.GetTypeName()
         if name not in self._known:
-            self._known[name] = (self._kind(prim, name), prim.IsA(UsdGeom.Imageable))
+            self._known[name] = (self._kind(prim), prim.IsA(UsdGeom.Imageable))
         return self._known[name]
 
     @staticmethod
-    def _kind(prim, name):
-        for table in (GPRIMS, OTHER):
-            if name in table:
-                return table[name]
-        if name in lights():
-            return "light"
-        if name in UNSUPPORTED:
-            return "unsupported"
-        for base in ("Mesh", "BasisCurves", "Points", "NurbsPatch", "TetMesh", "NurbsCurves",
-                     "HermiteCurves", "PointInstancer", "Camera"):
-            if prim.IsA(Tf.Type.FindByName("UsdGeom" + base)):
-                return GPRIMS.get(base) or OTHER[base]
-        if prim.IsA(UsdGeom.Gprim) or prim.HasAPI(UsdLux.LightAPI):
-            return "unsupported"
-        return None
+    def _kind(prim):
+        for name in schemas_of(prim):
+            if name in GPRIMS or name in OTHER:
+                return GPRIMS.get(name) or OTHER[name]
+            if name in lights():
+                return "light"
+            if name in UNSUPPORTED:
+                return "unsupported"
+        return "unsupported" if prim.IsA(UsdGeom.Gprim) or prim.HasAPI(UsdLux.LightAPI) else None
 
 
 GPRIM_KINDS = frozenset(GPRIMS.values())

@@ -20,7 +20,7 @@ _SHADOW = {"shadow:distance": "shadow_distance", "shadow:falloff": "shadow_fallo
 def emit(context, found, linking):
     prim, group = found.prim, found.state.group
     is_mesh = prim.IsA(UsdGeom.Mesh)
-    type_ = "mesh" if is_mesh else kinds.lights().get(prim.GetTypeName())
+    type_ = "mesh" if is_mesh else kinds.lights().get(kinds.schema_among(prim, kinds.lights()))
     fields = {"type": type_, "group": group.name}
     _read(context, prim, fields)
     _read_shaping(context, prim, fields)
@@ -64,7 +64,7 @@ def _report_network(context, prim, is_mesh):
     for name in ("light:shaderId", "mtlx:light:shaderId"):
         attribute = prim.GetAttribute(name)
         value = attribute.Get() if attribute and attribute.HasAuthoredValue() and not is_mesh else None
-        if value is not None and value != prim.GetTypeName():
+        if value is not None and value not in kinds.schemas_of(prim):
             context.warn(prim.GetPath(), name, f"is {shown(value)}, which is not evaluated; the light is drawn by its type")
     for attribute in prim.GetAuthoredAttributes():
         name = attribute.GetName()
@@ -216,7 +216,7 @@ def _read_shadow(context, prim, fields):
 def _dome_pole(context, prim):
     """:returns: what turns a dome whose pole is not +Y: the pole of a DomeLight_1 may be the stage's
     up axis; a DomeLight stands on +Y until its own transform says otherwise"""
-    if prim.GetTypeName() != "DomeLight_1":
+    if "DomeLight_1" not in kinds.schemas_of(prim):
         return None
     pole = _plain(context, prim, "poleAxis") or "scene"
     if pole == "scene":

@@ -53,6 +53,6 @@ def fields(found):
     state, result = found.state, {}
     if state.asset:
         result["asset_name"] = state.asset
-    if found.marks:
-        result["marks"] = found.marks
+    if state.marks:
+        result["marks"] = state.marks
     return result

@@ -2,6 +2,7 @@
 """Portals that domes name: rectangles that guide their samples."""
 from pxr import Usd
 
+from . import kinds
 from .context import number
 from .transforms import transform_of
 
@@ -11,7 +12,7 @@ def of(context, dome, group):
     portals = []
     for path in _targets(dome):
         prim = context.stage.GetPrimAtPath(path)
-        if not prim or prim.GetTypeName() != "PortalLight":
+        if not prim or "PortalLight" not in kinds.schemas_of(prim):
             context.warn(dome.GetPath(), "portals", f"{path} is no PortalLight; it is left out")
             continue
         portal = {"path": str(path), "transform": transform_of(context, prim, group.anchor)}
@@ -23,7 +24,7 @@ def of(context, dome, group):
 
 def is_used(context, prim):
     """:returns: whether a dome of the stage names this portal"""
-    if prim.GetTypeName() != "PortalLight":
+    if "PortalLight" not in kinds.schemas_of(prim):
         return False
     if context.portals is None:
         domes = (p for p in Usd.PrimRange(context.stage.GetPseudoRoot()) if p.HasRelationship("portals"))

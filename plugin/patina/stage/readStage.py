@@ -8,7 +8,6 @@ from .context import Context, Guard
 from .kinds import Kinds
 from .linking import Linking
 from .options import StageInfo, StageOptions
-from .transforms import transform_of
 from .walk import Walk
 
 
@@ -43,27 +42,27 @@ def _read(context):
 
     bindings = Bindings(context)
     walked = Walk(context, bindings).run()
-    chosen = cameras.choose(context, walked.cameras)
+    chosen = cameras.choose(context, walked)
     context.shutter = cameras.shutter_of(context, chosen)
     linking = Linking(context)
     has_lights = _emit_lights(context, walked, linking)
     _emit_geometry(context, walked, bindings, linking, _patina)
+    camera = None
     for found in walked.cameras:
         with Guard(context, found.prim, needed=found is chosen):
-            cameras.emit(context, found)
+            placed = cameras.emit(context, found)
+            camera = placed if found is chosen else camera
     for path, material in bindings.materials.items():
         with Guard(context, material.GetPrim()):
             edit.set_material(path, networks.network_of(context, material, path, _patina))
             context.count("materials")
     info = _info(context, walked)
-    if chosen:
-        info.camera, placed = chosen.path, transform_of(context, chosen.prim, None)
-    else:
-        info.framed = True
-        info.camera, placed = cameras.emit_framing(context, walked.gprims)
+    if not camera:
+        info.framed, camera = True, cameras.emit_framing(context, walked.gprims)
+    info.camera = camera.path
     if not has_lights and context.options.headlight:
         info.headlight = True
-        headlight.emit(context, placed)
+        headlight.emit(context, camera)
     return info
 
 
@@ -84,12 +83,12 @@ def _emit_geometry(context, walked, bindings, linking, module):
     for found, names in walked.instancers:
         with Guard(context, found.prim):
             instancers.emit_instancer(context, found, names, linking)
-    for (outer, prototype), founds in walked.instances.items():
+    for (outer, prototype, _), founds in walked.instances.items():
         with Guard(context, founds[0].prim):
-            instancers.emit_instances(context, outer, prototype, founds, linking)
-    for found, mode in walked.boxes:
+            instancers.emit_instances(context, outer, prototype, founds, linking, walked.values)
+    for found in walked.boxes:
         with Guard(context, found.prim):
-            drawModes.emit(context, found, mode, module)
+            drawModes.emit(context, found, module)
 
 
 def _info(context, walked):

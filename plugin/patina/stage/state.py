@@ -13,6 +13,7 @@ class Group:
     material: str = ""  # bound by the instance; the prototype's own bindings are stronger ...
     material_rules: bool = False  # ... unless this is set
     chain: tuple = ()  # prototypes of point instancers that this one is drawn inside of
+    above: object = field(default=None, compare=False)  # state at the root of the native prototype that holds it
 
     def path(self, prim):
         """:returns: the path of a prim in the scene"""
@@ -22,14 +23,14 @@ class Group:
 
 @dataclass(frozen=True)
 class State:
-    """Inherited state."""
+    """What a prim and those below it have: its own or inherited."""
     group: Group = Group()
     purpose: str = "default"
     primvars: tuple = ()  # inheritable ones
     skinning: object = None  # inside a SkelRoot: prim path -> its skinning
     draw_mode: str = "default"
     hidden: bool = False
-    marks: dict = field(default_factory=dict, compare=False)  # of prims above, see marks.py
+    marks: dict = field(default_factory=dict, compare=False)  # see marks.py
     asset: str = ""  # path of the model that prims belong to, within the group
 
     def with_(self, **changes):
@@ -43,7 +44,6 @@ class Found:
     state: State
     path: str  # in the scene
     names: tuple = ()  # of authored properties: asking for each one's value takes far longer
-    marks: dict = field(default_factory=dict)  # its own and those that it inherits, see marks.py
 
     def authored(self, name, time):
         """:returns: an attribute's value where one is authored, else None"""
@@ -56,9 +56,11 @@ class Found:
 @dataclass
 class Walked:
     """Everything that the walk found, in the stage's order."""
+    values: object  # InstanceValues, of native instances
     gprims: list = field(default_factory=list)
     lights: list = field(default_factory=list)
     cameras: list = field(default_factory=list)
+    inner_cameras: set = field(default_factory=set)  # names of those inside of prototypes
     instancers: list = field(default_factory=list)  # (Found, group names of the prototypes)
-    instances: dict = field(default_factory=dict)  # (group, prototype group) -> list of Found
-    boxes: list = field(default_factory=list)  # (Found, draw mode)
+    instances: dict = field(default_factory=dict)  # (group, prototype group, signature of values) -> list of Found
+    boxes: list = field(default_factory=list)  # what stands for its subtree by its state's draw mode

@@ -2,6 +2,7 @@
 """UsdVolVolume: fields of OpenVDB files."""
 from pxr import UsdGeom, UsdVol
 
+from . import kinds
 from .assets import resolve
 from .context import get
 
@@ -14,7 +15,7 @@ def emit(context, found, common):
         if not prim:
             context.warn(found.prim.GetPath(), f"field:{name}", f"there is no prim {path}; the field is left out")
             continue
-        if prim.GetTypeName() != "OpenVDBAsset":
+        if "OpenVDBAsset" not in kinds.schemas_of(prim):
             context.warn(path, "", f"fields of type {prim.GetTypeName() or 'none'} are not read")
             continue
         if _moved(context, prim, found.prim):

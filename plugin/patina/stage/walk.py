@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """The walk over a stage: finds what is to be drawn, each prototype once.
 
-Native instances stay instances. Prims of a prototype are walked once for each set of things that
-they inherit from outside (material, purpose, primvars), since those make them look different.
+Native instances stay instances. Prims of a prototype are walked once for each set of things that they inherit from outside
+and that change what is drawn (material, purpose, draw mode, marks). Primvars are values of the instances.
 """
+from dataclasses import replace
+
 from pxr import Usd, UsdGeom
 
 from patina import limits
 
 from . import drawModes, marks, portals
 from .context import Guard, get
+from .instanceValues import InstanceValues
 from .kinds import GPRIM_KINDS, Kinds
 from .skinning import skinning_of
 from .state import Found, Group, State, Walked
@@ -24,12 +27,13 @@ _PROXIES = Usd.TraverseInstanceProxies()  # what is skinned differs from instanc
 class Walk:
     def __init__(self, context, bindings):
         self.context, self.bindings = context, bindings
-        self.walked = Walked()
+        self.walked = Walked(InstanceValues(context))
         self._kinds = Kinds()
         self._pending = []  # native instances whose prototype is not chosen yet
         self._todo = []  # (prims, state, predicate)
         self._native = {}  # what prims of a prototype inherit -> group
-        self._pointed = {}  # the same for prototypes of point instancers
+        self._pointed = {}  # (prototype of a point instancer, group that it stands in) -> name of its group
+        self._above = {}  # states of prims above such prototypes
         self._nested = 0  # of these, those inside of others
         self._told = False  # that there are too many
         self._most = {name: limits.value(name) for name in ("prims", "instances")}
@@ -44,6 +48,7 @@ class Walk:
             while self._todo:
                 self._walk(*self._todo.pop())
             self._place_instances()
+        self._drop_empty()
         return self.walked
 
     def _walk(self, prims, state, predicate):
@@ -66,51 +71,29 @@ class Walk:
             if kind == "camera":
                 self._camera(prim, state)
             return state
-        own = state  # what the prim itself inherits
-        names, found_marks = (), state.marks
-        if imageable:
-            names = prim.GetAuthoredPropertyNames()
-            if "visibility" in names and get(prim, "visibility", self.context.time) == "invisible":
-                return self._visit(prim, state.with_(hidden=True))
-            if "purpose" in names:
-                purpose = get(prim, "purpose", self.context.time) or state.purpose
-                if purpose not in _PURPOSES and purpose not in self.context.purposes:
-                    self.context.warn(prim.GetPath(), "purpose",
-                                      f"there is no purpose '{purpose}'; nothing is drawn of the prim")
-                own = state = state.with_(purpose=purpose)
-            if any(name.startswith("primvars:") for name in names):
-                inherited = UsdGeom.PrimvarsAPI(prim).FindIncrementallyInheritablePrimvars(state.primvars)
-                if inherited:
-                    state = state.with_(primvars=tuple(inherited))
-                found_marks = marks.authored(self.context, prim, names, state.marks)
-                if found_marks is not state.marks:
-                    state = state.with_(marks=found_marks)
-        if prim.IsModel():
-            asset = marks.asset(prim, state.group.path(prim), state.asset)
-            if asset != state.asset:
-                own, state = own.with_(asset=asset), state.with_(asset=asset)
-            mode, applied = drawModes.of(prim, state.draw_mode)
-            if mode != state.draw_mode:
-                state = state.with_(draw_mode=mode)
-            if applied:
-                if self._drawn(state) and self._has_room(prim, state, self.walked.boxes):
-                    self.walked.boxes.append((Found(prim, own, state.group.path(prim), names, found_marks), mode))
-                return None
+        names = prim.GetAuthoredPropertyNames() if imageable else ()
+        if "visibility" in names and get(prim, "visibility", self.context.time) == "invisible":
+            return self._visit(prim, state.with_(hidden=True))
+        state, stands_for_all = self._inherit(prim, state, names)
+        if stands_for_all:
+            if self._drawn(state):
+                self._add(prim, state, names, self.walked.boxes)
+            return None
         if kind == "instancer":
-            if self._drawn(state) and self._has_room(prim, state, self.walked.instancers):
-                self._instancer(prim, own, state)
+            if self._has_room(prim, state, self.walked.instancers):
+                self._instancer(Found(prim, state, state.group.path(prim), names))
             return None
         if kind == "skelRoot":
             state = state.with_(skinning=skinning_of(self.context, prim))
         elif kind == "camera":
-            self._camera(prim, own)
-        elif kind == "light" and self._has_room(prim, state, self.walked.lights):
-            self.walked.lights.append(Found(prim, own, state.group.path(prim), names))
+            self._camera(prim, state)
+        elif kind == "light":
+            self._add(prim, state, names, self.walked.lights)
         elif kind == "unsupported" and not portals.is_used(self.context, prim):
             self.context.warn(prim.GetPath(), "", f"prims of type {prim.GetTypeName()} are not drawn")
         elif kind in GPRIM_KINDS:
-            if self._drawn(own) and self._has_room(prim, state, self.walked.gprims):
-                self.walked.gprims.append(Found(prim, own, state.group.path(prim), names, found_marks))
+            if self._drawn(state):
+                self._add(prim, state, names, self.walked.gprims)
             if prim.IsInstance():
                 return None
         if prim.IsInstance() and state.skinning is None:
@@ -120,8 +103,37 @@ class Walk:
             return None
         return state
 
+    def _inherit(self, prim, state, names):
+        """:param names: of the prim's authored properties where it is imageable
+        :returns: (state of the prim and of what is below it, whether it stands for all of that by its draw mode)"""
+        if "purpose" in names:
+            purpose = get(prim, "purpose", self.context.time) or state.purpose
+            if purpose not in _PURPOSES and purpose not in self.context.purposes:
+                self.context.warn(prim.GetPath(), "purpose",
+                                  f"there is no purpose '{purpose}'; nothing is drawn of the prim")
+            state = state.with_(purpose=purpose)
+        if any(name.startswith("primvars:") for name in names):
+            inherited = UsdGeom.PrimvarsAPI(prim).FindIncrementallyInheritablePrimvars(state.primvars)
+            if inherited:
+                state = state.with_(primvars=tuple(inherited))
+            found_marks = marks.authored(self.context, prim, names, state.marks)
+            if found_marks is not state.marks:
+                state = state.with_(marks=found_marks)
+        if not prim.IsModel():
+            return state, False
+        asset = marks.asset(prim, state.group.path(prim), state.asset)
+        mode, applied = drawModes.of(prim, state.draw_mode)
+        if (asset, mode) != (state.asset, state.draw_mode):
+            state = state.with_(asset=asset, draw_mode=mode)
+        return state, applied
+
     def _drawn(self, state):
         return state.purpose in self.context.purposes
+
+    def _add(self, prim, state, names, found):
+        """Adds a prim to what was found of a kind, if there is room."""
+        if self._has_room(prim, state, found):
+            found.append(Found(prim, state, state.group.path(prim), names))
 
     def _has_room(self, prim, state, found, limit="prims"):
         """:param found: what there is of a kind
@@ -136,7 +148,9 @@ class Walk:
         return False
 
     def _camera(self, prim, state):
-        if not state.group.name and self._has_room(prim, state, self.walked.cameras):
+        if state.group.name:
+            self.walked.inner_cameras.add(prim.GetName())
+        elif self._has_room(prim, state, self.walked.cameras):
             self.walked.cameras.append(Found(prim, state, str(prim.GetPath())))
 
     def _place_instances(self):
@@ -150,58 +164,92 @@ class Walk:
             rules = stronger
             if outer.material and (outer.material_rules or not material):
                 material, rules = outer.material, outer.material_rules
-            key = (str(prototype.GetPath()), material, rules, state.purpose, _paths(state.primvars))
+            split = self.walked.values.split(state.primvars)
+            key = (str(prototype.GetPath()), material, rules, state.purpose, state.draw_mode,
+                   tuple(sorted(state.marks.items())), split.key)
             group = self._native.get(key)
             if group is None:
                 if not self._has_room(found.prim, state, self._native):
                     continue
+                above = state.with_(primvars=split.copied, asset="")
                 group = Group(name=found.path, anchor=prototype, source=str(prototype.GetPath()),
                               shown=found.path, material=material or "", material_rules=rules,
-                              chain=outer.chain)
+                              chain=outer.chain, above=above)
                 self._native[key] = group
-                self._todo.append((prototype.GetChildren(), state.with_(group=group, asset=""),
-                                   Usd.PrimDefaultPredicate))
-            self.walked.instances.setdefault((outer.name, group.name), []).append(found)
+                self._todo.append((prototype.GetChildren(), above.with_(group=group), Usd.PrimDefaultPredicate))
+            self.walked.instances.setdefault((outer.name, group.name, split.signature), []).append(found)
 
-    def _instancer(self, prim, own, state):
-        found = Found(prim, own, own.group.path(prim))
+    def _instancer(self, found):
         names = []
-        for index, target in enumerate(prim.GetRelationship("prototypes").GetForwardedTargets()):
-            names.append(self._prototype(prim, target, state, f"{found.path}[{index}]"))
+        for index, target in enumerate(found.prim.GetRelationship("prototypes").GetForwardedTargets()):
+            names.append(self._prototype(found.prim, target, found.state.group, f"{found.path}[{index}]"))
         self.walked.instancers.append((found, names))
 
-    def _prototype(self, instancer, target, state, name):
-        """:returns: the name of the group of one prototype of a point instancer"""
+    def _prototype(self, instancer, target, outer, name):
+        """:param outer: group that the instancer stands in
+        :returns: the name of the group of one prototype of a point instancer"""
         root = self.context.stage.GetPrimAtPath(target)
         if not root or not root.IsActive():
             self.context.warn(instancer.GetPath(), "prototypes", f"there is no prim {target}; it is not drawn")
             return name
-        if instancer.GetPath().HasPrefix(target) or str(target) in state.group.chain:
+        if instancer.GetPath().HasPrefix(target) or str(target) in outer.chain:
             self.context.warn(instancer.GetPath(), "prototypes", f"{target} holds itself; it is not drawn")
             return name
-        key = (str(target), state.group.name, state.purpose, _paths(state.primvars))
+        key = (str(target), outer.name)
         if key in self._pointed:
             return self._pointed[key]
-        if len(state.group.chain) >= MAX_NESTED or state.group.chain and self._nested >= limits.value("groups"):
+        if len(outer.chain) >= MAX_NESTED or outer.chain and self._nested >= limits.value("groups"):
             if not self._told:
                 self.context.warn(instancer.GetPath(), "prototypes", f"instancers are nested more than {MAX_NESTED} deep, or "
                                   f"more of their prototypes are in others than {limits.value('groups')} (--limit groups); "
                                   "this one's prototypes are not drawn, nor those of others like it")
             self._told = True
             return name
-        self._nested += bool(state.group.chain)
+        self._nested += bool(outer.chain)
         self._pointed[key] = name
-        outer = state.group
         inside = root.GetPath().HasPrefix(instancer.GetPath())
         shown = outer.path(root) if inside else f"{outer.path(instancer)}/{root.GetName()}"
-        group = Group(name=name, anchor=root.GetParent(), source=str(target), shown=shown,
-                      material=outer.material, material_rules=outer.material_rules,
-                      chain=outer.chain + (str(target),))
+        group = Group(name=name, anchor=root.GetParent(), source=str(target), shown=shown, chain=outer.chain + (str(target),))
+        if root.IsInPrototype():  # of a native instance, as the instancer is
+            group = replace(group, material=outer.material, material_rules=outer.material_rules, above=outer.above)
         concrete = root.IsDefined() and not root.IsAbstract()
-        self._todo.append(([root], state.with_(group=group, asset=""),
+        self._todo.append(([root], self._state_above(root, group.above).with_(group=group, asset=""),
                            Usd.PrimDefaultPredicate if concrete else _ANY))
         return name
 
+    def _state_above(self, prim, root_state):
+        """What a prototype of a point instancer inherits by namespace, wherever its instancer stands. Prims above may be
+        invisible, as in Hydra: that is how many hide prototypes.
 
-def _paths(primvars):
-    return tuple(str(p.GetAttr().GetPath()) for p in primvars)
+        :param root_state: of the native prototype that holds it, None for the world"""
+        chain, state, prim = [], root_state or State(), prim.GetParent()
+        while not prim.IsPseudoRoot() and not prim.IsPrototype():
+            known = self._above.get((prim.GetPath(), id(root_state)))
+            if known is not None:
+                state = known
+                break
+            chain.append(prim)
+            prim = prim.GetParent()
+        for prim in reversed(chain):
+            kind, imageable = self._kinds.of(prim)
+            state, _ = self._inherit(prim, state, prim.GetAuthoredPropertyNames() if imageable else ())
+            if kind == "skelRoot":
+                state = state.with_(skinning=skinning_of(self.context, prim))
+            self._above[prim.GetPath(), id(root_state)] = state
+        return state
+
+    def _drop_empty(self):
+        """Leaves out instancers of which nothing is drawn: prototypes have purposes of their own."""
+        holders = {}  # group -> those that hold instances of it
+        for found, names in self.walked.instancers:
+            for name in names:
+                holders.setdefault(name, set()).add(found.state.group.name)
+        for outer, name, _ in self.walked.instances:
+            holders.setdefault(name, set()).add(outer)
+        filled = {f.state.group.name for f in (*self.walked.gprims, *self.walked.lights, *self.walked.boxes)}
+        waiting = list(filled)
+        while waiting:
+            more = holders.get(waiting.pop(), set()) - filled
+            filled |= more
+            waiting += more
+        self.walked.instancers = [item for item in self.walked.instancers if filled.intersection(item[1])]

@@ -176,3 +176,26 @@ def test_a_broken_prim_leaves_the_rest_framed(read, numbers, broken):
     reading = read(BROKEN[broken] + "\n    " + good)
     assert reading.info.framed and reading.has("/good") and any("bad" in w for w in reading.warnings)
     assert numbers(reading.prim(reading.info.camera)["transform"])[13] > 10
+
+
+RIG = """class Xform "rig" { def Camera "shot" { float focalLength = 7
+        double3 xformOp:translate = (0, 0, 10)  uniform token[] xformOpOrder = ["xformOp:translate"] } }
+    class Xform "outer" { def Xform "in" (instanceable = true; inherits = </rig>) { } }
+    def Xform "a" (instanceable = true; inherits = </outer>) {
+        double3 xformOp:translate = (1, 0, 0)  uniform token[] xformOpOrder = ["xformOp:translate"] }
+    def RenderSettings "rs" { rel camera = </a/in/shot> }
+    """
+
+
+@pytest.mark.parametrize("way", ["path", "name", "settings", "the only one"])
+def test_cameras_inside_of_native_instances(read, numbers, way):
+    head = '(renderSettingsPrimPath = "/rs")' if way == "settings" else ""
+    other = "" if way == "the only one" else 'def Camera "main_cam" { }'
+    reading = read(head + RIG + other, camera={"path": "/a/in/shot", "name": "shot"}.get(way))
+    camera = reading.prim("/a/in/shot")
+    assert reading.info.camera == "/a/in/shot" and "/a/in/shot" in reading.info.cameras
+    assert camera["focalLength"] == "7" and numbers(camera["transform"])[12:] == [1, 0, 10, 1]
+
+
+def test_other_cameras_are_chosen_before_those_of_instances(read):
+    assert read(RIG + 'def Camera "plain" { }').info.cameras == ["/plain"]

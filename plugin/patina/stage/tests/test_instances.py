@@ -54,7 +54,7 @@ def test_instances_inherit_from_where_they_stand(read):
     assert reading.prim("/a")["instances"] == "2"
     assert reading.prim("/a/crown")["material"] == '"/red"'
     assert reading.prim("/b/crown")["material"] == '"/blue"'
-    assert reading.prim("/b/crown")["primvar displayColor constant x3"] == "1 0 0"
+    assert reading.prim("/b")["primvar displayColor constant x3"] == "1 0 0"
     assert reading.prim("/b/leaf/blade")["material"] == '"/blue"'
     assert not reading.has("/hidden") and not reading.has("/guides/d/crown")
 
@@ -227,7 +227,7 @@ def test_moving_instances_have_no_more_times_than_others(read):
 
 
 def test_prototypes_are_walked_no_longer_than_limits_allow(read, limit, monkeypatch):
-    """Each instance with a primvar of its own walks the prototype anew: instances times meshes."""
+    """Each instance with a light group of its own walks the prototype anew: instances times meshes."""
     found = []
 
     class Counted(walk.Found):
@@ -238,7 +238,7 @@ def test_prototypes_are_walked_no_longer_than_limits_allow(read, limit, monkeypa
     limit(prims=100)
     reading = read('class Xform "leaf" { ' + "".join(f'def Sphere "s{i}" {{ }}\n' for i in range(200)) + "}\n"
                    + "".join(f'def Xform "i{i}" (instanceable = true; inherits = </leaf>) '
-                             f'{{ float primvars:own = {i} (interpolation = "constant") }}\n' for i in range(200))
+                             f'{{ string primvars:lightGroup = "g{i}" }}\n' for i in range(200))
                    + 'def Camera "after" { }')
     assert len(found) < 500 and reading.info.camera == "/after"
     told = [w for w in reading.warnings if "there are more prims of a kind than 100 (--limit prims)" in w]
@@ -297,3 +297,40 @@ def test_moving_instances_that_are_not_finite_later_stand_still(read):
                    frame=10.0, shutter=(0.0, 1.0))
     assert reading.prim("/i0")["instances"] == "2" and "nan" not in reading.text
     assert any("not finite" in w for w in reading.warnings)
+
+
+def test_arrays_longer_than_proto_indices_are_cut(read, numbers):
+    reading = read("""def Camera "c" { }
+    def PointInstancer "pi" { rel prototypes = </pi/s>  int[] protoIndices = [0, 0]
+        point3f[] positions = [(-2, 0, 0), (2, 0, 0), (6, 0, 0)]
+        float3[] scales = [(1, 1, 1), (2, 2, 2), (3, 3, 3), (4, 4, 4)]
+        vector3f[] velocities = [(24, 0, 0), (24, 0, 0)]
+        def Sphere "s" { } }""")
+    pi = reading.prim("/pi")
+    assert pi["instances"] == "2" and numbers(pi["transform 1"])[:1] + numbers(pi["transform 1"])[12:] == [2, 2, 0, 0, 1]
+    assert reading.warnings == ["/pi positions: has 3 values for 2 instances; the rest is not used"]
+
+
+@pytest.mark.parametrize("moving", [False, True])
+def test_cut_arrays_move(read, numbers, moving):
+    reading = read("""(timeCodesPerSecond = 10)
+    def PointInstancer "pi" { rel prototypes = </pi/s>  int[] protoIndices = [0]
+        point3f[] positions.timeSamples = { 0: [(0, 0, 0), (9, 9, 9)], 4: [(4, 0, 0), (9, 9, 9)] }
+        vector3f[] velocities.timeSamples = { 0: [(20, 0, 0), (0, 0, 0)], 4: [(20, 0, 0), (0, 0, 0)] }
+        def Sphere "s" { } }""", frame=1.0, shutter=(0.0, 1.0) if moving else None)
+    pi = reading.prim("/pi")
+    if moving:
+        assert numbers(pi["transform 0@0"])[12] == pytest.approx(2) and numbers(pi["transform 0@1"])[12] == pytest.approx(4)
+    else:
+        assert numbers(pi["transform 0"])[12] == pytest.approx(2)
+
+
+@pytest.mark.parametrize("name, type_", [("orientations", "quath"), ("orientationsf", "quatf")])
+def test_quaternions_are_normalised(read, numbers, name, type_):
+    reading = read(f"""def PointInstancer "pi" {{ rel prototypes = </pi/s>  int[] protoIndices = [0, 0, 0]
+        point3f[] positions = [(0, 0, 0), (0, 0, 0), (0, 0, 0)]
+        {type_}[] {name} = [(2, 0, 0, 2), (0.7071, 0, 0, 0.7071), (0, 0, 0, 0)]
+        def Sphere "s" {{ }} }}""")
+    pi = reading.prim("/pi")
+    assert numbers(pi["transform 0"])[:8] == pytest.approx([0, 1, 0, 0, -1, 0, 0, 0], abs=1e-3)
+    assert "transform 2" not in pi and any("not of length 1" in w for w in reading.warnings)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """UsdLux lights, linking, and the headlight."""
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
 
@@ -114,8 +117,10 @@ def test_pole_of_a_dome(read, numbers, up, pole, turned):
 
 def test_headlight_only_without_lights(read):
     dark = read('def Sphere "s" { }', headlight=True)
-    assert dark.info.headlight and dark.prim("/patinaHeadlight/distant")["normalize"] == "true"
+    assert dark.info.headlight and dark.prim("/patinaHeadlight/eye")["treatAsPoint"] == "true"
     assert any("headlight" in note for note in dark.info.notes)
+    flat = read('def Camera "c" { token projection = "orthographic" }', headlight=True).prim("/patinaHeadlight/eye")
+    assert flat["type"] == "distant" and flat["shadowEnable"] == "false"
     assert not read('def Sphere "s" { }  def DistantLight "l" { }', headlight=True).info.headlight
     assert not read('def Sphere "s" { }').info.headlight
 
@@ -165,3 +170,23 @@ def test_long_values_are_not_told_in_full(read):
         assert any(w.startswith(f"{prim} {field}: ") and "an array of 4000 values" in w for w in reading.warnings), field
     cut, = [w for w in reading.warnings if w.startswith("/m interpolateBoundary: ")]
     assert cut.endswith("xxx...") and max(map(len, reading.warnings)) < 600
+
+
+@pytest.mark.parametrize("near, far", [(1, 1e6), (0.1, 50), (0, 100), (-5, 1e4), (float("nan"), float("inf")), (1e-30, 1e30)])
+def test_the_headlight_is_as_bright_near_as_far(near, far):
+    """An irradiance of 0.75 pi: with the dome's quarter a matte surface shows its own albedo. Lines between knots lie above a
+    square by (step - 1)^2 / 4 of it at most."""
+    pytest.importorskip("pxr")
+    from patina.stage import cameras, headlight
+    lights = {}
+    edit = SimpleNamespace(set_light=lambda path, **fields: lights.update({path: fields}))
+    place = np.array([[0, 2, 0, 0], [2, 0, 0, 0], [0, 0, 2, 0], [1, 2, 3, 1]], float)  # turned, and twice as large
+    headlight.emit(SimpleNamespace(edit=edit, notes=[]), cameras.Placed("/c", place, False, near, far))
+    eye = lights[headlight.EYE]
+    assert np.array_equal(eye["transform"], [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [1, 2, 3, 1]])
+    ramp = eye["filters"][0]
+    distance = np.geomspace(ramp["rampKnots"][0], 1.0, 500) * ramp["endDistance"]
+    intensity = 0.25 * eye["intensity"]  # of a normalized sphere that is a point
+    irradiance = intensity / distance ** 2 * np.interp(distance / ramp["endDistance"], ramp["rampKnots"], ramp["rampFloats"])
+    assert (irradiance > 0.75 * np.pi * (1.0 - 1e-6)).all()
+    assert (irradiance < 0.75 * np.pi * (1.0 + 0.2 ** 2 / 4 + 1e-6)).all()

@@ -100,11 +100,18 @@ def test_subsets_and_inherited_bindings(read):
                 rel material:binding = </blue>
             }
             def GeomSubset "other" { uniform token familyName = "selection"  int[] indices = [0] }
+            def GeomSubset "points" (prepend apiSchemas = ["MaterialBindingAPI"]) {
+                uniform token elementType = "point"
+                uniform token familyName = "materialBind"
+                int[] indices = [0]
+                rel material:binding = </blue>
+            }
         } }""")
     mesh = reading.prim("/x/m")
     assert mesh["material"] == '"/red"'
     assert mesh['subset /x/m/part material "/blue"'] == "0"
-    assert not any("other" in key for key in mesh)
+    assert not any("other" in key or "points" in key for key in mesh if key.startswith("subset"))
+    assert [w for w in reading.warnings if w.startswith("/x/m/points elementType: is point, ")]
     assert reading.prim("/blue")["terminal surface"] == "/blue/s.out"
     assert reading.info.counts["materials"] == 2
 

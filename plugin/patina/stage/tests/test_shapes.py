@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Implicit prims, curves, points and transforms."""
+import os
+import subprocess
+import sys
+
+import pytest
 
 
 def test_every_implicit_prim(read):
@@ -91,3 +96,54 @@ def test_no_motion_without_a_shutter(read, numbers):
     assert numbers(reading.prim("/x/moved")["transform"])[12] == 1.0
     assert "points@0.25" not in reading.prim("/samples")
     assert "transform" not in read(MOVING).prim("/x/moved")  # default time
+
+
+def test_types_that_are_newer_fall_back_as_the_stage_says(read):
+    reading = read("""(fallbackPrimTypes = { token[] Globe = ["Ball", "Sphere"]
+        token[] Lamp = ["SphereLight"] })
+    def Globe "a" { double radius = 3 }
+    def Lamp "b" { float inputs:radius = 2 }
+    def Nothing "c" { }""")
+    assert reading.prim("/a")["shape"] == "sphere" and reading.prim("/a")["radius"] == "3"
+    assert reading.prim("/b")["type"] == "sphere" and reading.prim("/b")["radius"] == "2" and not reading.has("/c")
+
+
+PLUGIN = """{"Plugins": [{"Type": "resource", "Name": "own", "Root": ".", "ResourcePath": ".", "LibraryPath": "",
+    "Info": {"Types": {"OwnTypesBall": {"bases": ["UsdGeomSphere"], "schemaKind": "concreteTyped",
+                                   "alias": {"UsdSchemaBase": "OwnBall"}},
+                       "OwnTypesSky": {"bases": ["UsdLuxDomeLight_1"], "schemaKind": "concreteTyped",
+                                  "alias": {"UsdSchemaBase": "OwnSky"}}}}}]}"""
+SCHEMA = """#usda 1.0
+class OwnBall "OwnBall" { double radius = 4 }
+class OwnSky "OwnSky" { token poleAxis = "Z" }
+"""
+DERIVED = """import sys, _patina
+from pxr import Usd
+from patina.stage import StageOptions, read_stage
+scene = _patina.Scene()
+with scene.edit() as edit:
+    read_stage(Usd.Stage.Open(sys.argv[1]), edit, StageOptions())
+print(scene.dump(64), scene.warnings())"""
+
+
+def test_types_derived_from_known_ones_are_those(tmp_path, statements):
+    """In a process of its own: OpenUSD reads plugins once."""
+    pytest.importorskip("_patina")
+    (tmp_path / "plugInfo.json").write_text(PLUGIN)
+    (tmp_path / "generatedSchema.usda").write_text(statements(SCHEMA))
+    (tmp_path / "stage.usda").write_text("#usda 1.0\n" + 'def OwnBall "a"\n{\n}\ndef OwnSky "b"\n{\n}\n')
+    done = subprocess.run([sys.executable, "-c", DERIVED, str(tmp_path / "stage.usda")], capture_output=True, text=True,
+                          check=False, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path),
+                                            "PXR_PLUGINPATH_NAME": str(tmp_path)})
+    assert done.returncode == 0 and done.stdout.endswith(" []\n"), done.stdout + done.stderr
+    assert "shape = sphere" in done.stdout and "radius = 4" in done.stdout, done.stdout
+    assert "type = dome" in done.stdout and "transform = 1 0 0 0" in done.stdout, done.stdout
+
+
+def test_velocities_place_points_between_samples(read, numbers):
+    moving = """def Points "p" { point3f[] points.timeSamples = { 0: [(0,0,0)], 4: [(100,0,0)] }
+        vector3f[] velocities.timeSamples = { 0: [(24,0,0)], 4: [(24,0,0)] }%s }"""
+    assert numbers(read(moving % "", frame=1.0).prim("/p")["points"]) == [1, 0, 0]
+    faster = "  vector3f[] accelerations.timeSamples = { 0: [(0,1152,0)], 4: [(0,0,0)] }"
+    assert numbers(read(moving % faster, frame=1.0).prim("/p")["points"]) == [1, 1, 0]
+    assert numbers(read(moving % "", frame=4.0).prim("/p")["points"]) == [100, 0, 0]

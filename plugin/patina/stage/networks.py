@@ -44,6 +44,7 @@ class _Translation:
         self._names = {}  # path on the stage -> path in the network
         self._todo = []
         self._spaces = context.color_spaces
+        self._definition_of = module.node_definition
 
     def run(self):
         for terminal, compute in _TERMINALS:
@@ -51,7 +52,7 @@ class _Translation:
             if shader:
                 node = self._node(shader)
                 if node:
-                    self.network.set_terminal(terminal, node, output)
+                    self.network.set_terminal(terminal, node, self._known_output(shader, terminal, output))
         while self._todo:
             self._inputs(*self._todo.pop())
         for output in self.material.GetOutputs():
@@ -63,6 +64,13 @@ class _Translation:
             self._warn(self.material.GetPrim(), "", "has no surface, displacement or volume that can be shown"
                        + (f" (it has {', '.join(others)})" if others else "") + "; displayColor is shown")
         return self.network
+
+    def _known_output(self, shader, terminal, output):
+        """:returns: the output of a terminal's node; of one with another name the node's output for the terminal, or its first:
+            Hydra does not tell renderers which output it is"""
+        definition = self._definition_of(shader.GetShaderId() or "")
+        names = [name for name, _ in definition["outputs"]] if definition else []
+        return output if output in names or not names else terminal if terminal in names else names[0]
 
     def _warn(self, prim, input_, message):
         self.context.warn(prim.GetPath(), input_, message)

@@ -33,7 +33,7 @@ def test_values_of_each_type(read):
         double inputs:d = 0.5
         float inputs:unset
     """)).prim("/m")
-    assert m["terminal surface"] == "/m/s.out" and m["node /m/s"] == "UsdPreviewSurface"
+    assert m["terminal surface"] == "/m/s.surface" and m["node /m/s"] == "UsdPreviewSurface"
     assert m["float roughness"] == "0.25" and m["integer useSpecularWorkflow"] == "1"
     assert m["color3 diffuseColor"] == "1 0.5 0" and m["colorSpace diffuseColor"] == "lin_rec709"
     assert m["vector3 normal"] == "0 0 1" and m["string mode"] == '"word"' and m["boolean flag"] == "1"
@@ -86,7 +86,7 @@ def test_mtlx_context_is_preferred(read):
         token outputs:displacement.connect = </m/plain.outputs:out>
         def Shader "plain" { uniform token info:id = "UsdPreviewSurface"  token outputs:out }
         def Shader "x" { uniform token info:id = "ND_standard_surface_surfaceshader"  token outputs:out }""")).prim("/m")
-    assert m["terminal surface"] == "/m/x.out" and m["terminal displacement"] == "/m/plain.out"
+    assert m["terminal surface"] == "/m/x.out" and m["terminal displacement"] == "/m/plain.displacement"
 
 
 BROKEN = {
@@ -230,3 +230,12 @@ def test_values_come_from_where_usd_shade_finds_them(read, what):
     reading = read(material(SHADER % own + lines))
     assert reading.prim("/m")["color3 diffuseColor"] == value
     assert len(reading.warnings) == (what == "a cycle"), reading.warnings
+
+
+@pytest.mark.parametrize("name, kind", [("UsdPreviewSurface", "surface"), ("UsdPreviewSurface", "displacement"),
+                                        ("ND_standard_surface_surfaceshader", "surface"), ("Unknown", "surface")])
+def test_outputs_of_terminals_may_have_any_name(read, name, kind):
+    m = read(material(f"""token outputs:{kind}.connect = </m/s.outputs:mine>
+        def Shader "s" {{ uniform token info:id = "{name}"  token outputs:mine }}""")).prim("/m")
+    known = {"UsdPreviewSurface": kind, "Unknown": "mine"}.get(name, "out")
+    assert m[f"terminal {kind}"] == f"/m/s.{known}"

@@ -112,7 +112,7 @@ def test_subsets_and_inherited_bindings(read):
     assert mesh['subset /x/m/part material "/blue"'] == "0"
     assert not any("other" in key or "points" in key for key in mesh if key.startswith("subset"))
     assert [w for w in reading.warnings if w.startswith("/x/m/points elementType: is point, ")]
-    assert reading.prim("/blue")["terminal surface"] == "/blue/s.out"
+    assert reading.prim("/blue")["terminal surface"] == "/blue/s.surface"
     assert reading.info.counts["materials"] == 2
 
 

@@ -45,21 +45,27 @@ def _file_of(context, attribute):
     return resolved
 
 
+def _layers(attribute, context):
+    """Yields the layers that may say what an attribute's value is, the strongest first."""
+    for spec in attribute.GetPropertyStack(context.time):
+        if spec.HasInfo("default") or spec.HasInfo("timeSamples"):
+            yield spec.layer
+
+
 def _anchored(attribute, context, path):
     """:returns: a path relative to the layer that says it, as an absolute one"""
-    for spec in attribute.GetPropertyStack(context.time):
-        if not spec.HasInfo("default") and not spec.HasInfo("timeSamples"):
-            continue
-        anchored = Sdf.ComputeAssetPathRelativeToLayer(spec.layer, path) or path
+    for layer in _layers(attribute, context):
+        anchored = Sdf.ComputeAssetPathRelativeToLayer(layer, path) or path
         if anchored == path and not os.path.isabs(path) and ":" not in path:
             # Looked up along the resolver's search path, where patterns are never found.
-            anchored = Sdf.ComputeAssetPathRelativeToLayer(spec.layer, "./" + path) or path
+            anchored = Sdf.ComputeAssetPathRelativeToLayer(layer, "./" + path) or path
         return anchored
     return path
 
 
 def _resolve_tiles(attribute, context, path):
-    anchored = _anchored(attribute, context, path)
+    layer = next(_layers(attribute, context), None)
+    anchored = compat.resolve_tiles(context.stage, path, layer) or _anchored(attribute, context, path)
     if not Ar.IsPackageRelativePath(anchored):
         return anchored
     found = ""

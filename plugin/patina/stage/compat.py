@@ -25,6 +25,16 @@ def composition_errors(stage):
     return found
 
 
+def resolve_tiles(stage, path, layer):
+    """:param path: with <UDIM>, as a layer says it
+    :returns: the same as an absolute path of tiles that are there, in a package or beside it; empty where there are none"""
+    utils = getattr(UsdShade, "UdimUtils", None)
+    if not utils or not layer:
+        return ""
+    with Ar.ResolverContextBinder(stage.GetPathResolverContext()):
+        return str(utils.ResolveUdimPath(path, layer))
+
+
 def read_asset(path):
     """:param path: of a file, or of one in a package: "a.usdz[b.png]", "a.usdz[b.usdz[c.png]]"
     :returns: its bytes, None when it cannot be read"""

@@ -138,7 +138,10 @@ def test_textures_are_resolved(read, tmp_path):
 
 def test_textures_inside_a_package(read, statements, tmp_path):
     inner = tmp_path / "inner.usda"
-    textures = "asset inputs:file = @tex/a.png@\nasset inputs:tiles = @tex/t.<UDIM>.png@\n"
+    textures = "".join(f"asset inputs:{name} = @{path}@\n" for name, path in (
+        ("file", "tex/a.png"), ("tiles", "tex/t.<UDIM>.png"), ("beside", "out/b.<UDIM>.png")))
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/b.1003.png").write_bytes(b"beside")
     inner.write_text("#usda 1.0\n" + statements(material(SHADER % textures)))
     package = tmp_path / "p.usdz"
     with zipfile.ZipFile(package, "w", zipfile.ZIP_STORED) as z:
@@ -153,6 +156,7 @@ def test_textures_inside_a_package(read, statements, tmp_path):
         assert file.read() == b"first"
     tiles = m["filename tiles"].strip('"')
     assert "<UDIM>" in tiles and os.path.exists(tiles.replace("<UDIM>", "1002"))
+    assert m["filename beside"] == f'"{tmp_path}/out/b.<UDIM>.png"'
 
 
 def test_a_type_that_usd_does_not_know_is_told(read):

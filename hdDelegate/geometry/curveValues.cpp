@@ -14,6 +14,7 @@ bool CurveValues::read(const Primvar& primvar, const CurveBatch& batch, const st
     const size_t elements = primvar.indices.empty() ? stored : primvar.indices.size();
     // On curves there is no difference between varying and faceVarying.
     if (_interpolation == Interpolation::FaceVarying) _interpolation = Interpolation::Varying;
+    if (elements == 1) _interpolation = Interpolation::Constant;
     if (_interpolation == Interpolation::Varying && elements != counts.varying &&
         elements == batch.shortVarying) {
         _short = true;

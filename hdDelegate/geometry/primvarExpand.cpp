@@ -63,7 +63,8 @@ bool expandPrimvar(const Primvar& primvar, const ElementCounts& counts, const st
     const size_t elements = primvar.indices.empty() ? stored : primvar.indices.size();
     const size_t expected = counts.of(primvar.interpolation);
     const bool constant = primvar.interpolation == Interpolation::Constant;
-    if (constant ? elements < 1 : elements != expected) {
+    const bool one = elements == 1; // one for all, whatever is authored, as Storm and RenderMan take it
+    if (constant ? elements < 1 : elements != expected && !one) {
         diagnostics.warn(prim, input,
                          std::to_string(elements) + " elements where " +
                              nameOf(primvar.interpolation) + " interpolation needs " +
@@ -71,12 +72,13 @@ bool expandPrimvar(const Primvar& primvar, const ElementCounts& counts, const st
         return false;
     }
     size_t badIndices = 0, badValues = 0;
+    out.assign(expected * n, 0.0f);
     if (primvar.indices.empty()) {
-        out.assign(primvar.values.begin(), primvar.values.begin() + expected * n);
+        for (size_t i = 0; i < expected * n; ++i)
+            out[i] = primvar.values[one ? i % n : i];
     } else {
-        out.assign(expected * n, 0.0f);
         for (size_t i = 0; i < expected; ++i) {
-            const int index = primvar.indices[i];
+            const int index = primvar.indices[one ? 0 : i];
             if (index < 0 || size_t(index) >= stored) {
                 ++badIndices;
                 continue;

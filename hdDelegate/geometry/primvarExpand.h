@@ -14,7 +14,7 @@ struct ElementCounts {
 };
 
 /// Values of a primvar, one per element, with its indices resolved. Constant primvars give one
-/// element, the first of an array.
+/// element, the first of an array. A single value stands for all elements.
 ///
 /// Reported with prim and primvar: a wrong number of elements and a number of components outside
 /// 1..16 (nothing is returned), indices out of range and values that are not finite (read as 0).

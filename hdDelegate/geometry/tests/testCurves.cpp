@@ -163,6 +163,11 @@ TEST(Curves, widthsOfEveryInterpolation) {
     Curves curves = makeCurves(CurveBasis::Bspline, CurveWrap::Nonperiodic, {5, 4}, line(9));
     curves.primvars = {makePrimvar("widths", Interpolation::Constant, 1, {3})};
     EXPECT_FLOAT_EQ(evaluate(build(curves), 2, 0.7f).w, 1.5f);
+    for (const Interpolation one :
+         {Interpolation::Uniform, Interpolation::Vertex, Interpolation::Varying}) {
+        curves.primvars = {makePrimvar("widths", one, 1, {3})};
+        EXPECT_FLOAT_EQ(evaluate(build(curves), 2, 0.7f).w, 1.5f) << "one value is for all";
+    }
     curves.primvars = {makePrimvar("widths", Interpolation::Uniform, 1, {3, 5})};
     EXPECT_FLOAT_EQ(evaluate(build(curves), 0, 0.7f).w, 1.5f);
     EXPECT_FLOAT_EQ(evaluate(build(curves), 2, 0.7f).w, 2.5f);
@@ -345,7 +350,7 @@ TEST(Points, widthsNormalsAndPrimvars) {
     ASSERT_TRUE(evalAttribute(set, *set.attribute("displayColor"), 2, out));
     EXPECT_EQ(out[2], 1.0f);
     points.primvars = {makePrimvar("normals", Interpolation::Constant, 3, {0, 5, 0}),
-                       makePrimvar("widths", Interpolation::Constant, 1, {3})};
+                       makePrimvar("widths", Interpolation::Vertex, 1, {3})};
     const PointSet disks = buildPoints(points, {}, diagnostics);
     EXPECT_EQ(disks.normals[0], (std::vector<vec3>(3, vec3(0, 1, 0))));
     EXPECT_EQ(disks.points[0][2].w, 1.5f);

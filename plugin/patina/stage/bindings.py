@@ -4,6 +4,7 @@ from pxr import UsdGeom, UsdShade
 
 from . import compat, kinds
 from .context import shown
+from .primvars import read_primvars
 
 
 class Bindings:
@@ -12,6 +13,7 @@ class Bindings:
     def __init__(self, context):
         self.context = context
         self.materials = {}  # path in the scene -> UsdShade.Material
+        self._primvars = {}  # path in the scene -> what primvars_of() gave
         self._checked = set()  # paths of prims whose own bindings were looked at
 
     def compute(self, prims):
@@ -30,6 +32,13 @@ class Bindings:
             path = group.path(material.GetPrim())
         self.materials.setdefault(path, material)
         return path
+
+    def primvars_of(self, path):
+        """:returns: what the prims that show a material get where they have no primvar of that name, as in RenderMan"""
+        if path not in self._primvars:
+            prim = self.materials[path].GetPrim() if path in self.materials else None
+            self._primvars[path] = read_primvars(self.context, prim, ()) if prim else []
+        return self._primvars[path]
 
     def resolve(self, founds):
         """:returns: for each found prim (material path, [(subset prim, material path)])"""

@@ -16,8 +16,9 @@ _SIZES = {  # kind -> attributes that are sizes, with the schemas' fallbacks
 }
 
 
-def emit(context, found, kind, bound, categories):
-    """:param bound: what Bindings.resolve() tells of the prim"""
+def emit(context, found, kind, bound, categories, fallbacks):
+    """:param bound: what Bindings.resolve() tells of the prim
+    :param fallbacks: primvars that it has unless others of their names are authored"""
     prim, group = found.prim, found.state.group
     material, subsets = bound
     skin = skinning.skin_of(found)
@@ -31,6 +32,9 @@ def emit(context, found, kind, bound, categories):
         "left_handed": found.authored("orientation", context.time) == "leftHanded",
         "primvars": read_primvars(context, prim, found.state.primvars) if found.has_primvars() else [],
     }
+    if fallbacks:
+        own = {item[0] for item in common["primvars"]}
+        common["primvars"] += [item for item in fallbacks if item[0] not in own and item[1] == "constant"]
     if "primvars:lightGroup" in found.names or found.state.primvars:
         common["light_group"] = text(context, prim, found.state.primvars, "lightGroup")
     if subsets:

@@ -77,9 +77,11 @@ def _emit_lights(context, walked, linking):
 
 def _emit_geometry(context, walked, bindings, linking, module):
     kinds = Kinds()
+    valued = {name for _, _, signature in walked.instances for name, _ in signature}  # stand above a material's
     for found, bound in zip(walked.gprims, bindings.resolve(walked.gprims)):
         with Guard(context, found.prim):
-            geometry.emit(context, found, kinds.of(found.prim)[0], bound, linking.categories(found))
+            fallbacks = [item for item in bindings.primvars_of(bound[0]) if item[0] not in valued or not found.state.group.name]
+            geometry.emit(context, found, kinds.of(found.prim)[0], bound, linking.categories(found), fallbacks)
     for found, names in walked.instancers:
         with Guard(context, found.prim):
             instancers.emit_instancer(context, found, names, linking)

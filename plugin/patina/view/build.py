@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """From the arguments of `patina view` to the text of a page."""
 import json
-import os
 
 import numpy as np
 

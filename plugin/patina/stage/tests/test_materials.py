@@ -243,3 +243,17 @@ def test_outputs_of_terminals_may_have_any_name(read, name, kind):
         def Shader "s" {{ uniform token info:id = "{name}"  token outputs:mine }}""")).prim("/m")
     known = {"UsdPreviewSurface": kind, "Unknown": "mine"}.get(name, "out")
     assert m[f"terminal {kind}"] == f"/m/s.{known}"
+
+
+def test_primvars_of_a_material_are_those_of_prims_without(read):
+    reading = read(material(SHADER % "" + "float primvars:level = 3  color3f[] primvars:displayColor = [(1, 0, 0)]") + """
+    def Sphere "own" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </m>  float primvars:level = 1 }
+    def Xform "above" { float primvars:level = 2
+        def Sphere "s" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </m> } }
+    def Sphere "unbound" { }
+    class Xform "ball" { def Sphere "s" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </m> } }
+    def Xform "i" (instanceable = true; inherits = </ball>) { float primvars:level = 4 }""")
+    assert "primvar level constant" not in reading.prim("/i/s") and reading.prim("/i")["primvar level constant"] == "4"
+    levels = {path: reading.prim(path).get("primvar level constant") for path in ("/ballm", "/own", "/above/s", "/unbound")}
+    assert levels == {"/ballm": "3", "/own": "1", "/above/s": "2", "/unbound": None}
+    assert reading.prim("/own")["primvar displayColor constant x3"] == "1 0 0"

@@ -86,6 +86,24 @@ def instanced(primvars, own="", bound=False):
 """
 
 
+def native(primvars, own="", bound=False):
+    """The same as native instances below prims that have the values."""
+    prototype = 'class Xform "prototype"\n{\n' + ball("ball", (0, 0, 0), own, bound) + "}\n"
+    return prototype + "".join(f"""def Xform "above{i}"
+{{
+{"".join(primvar(kind, name, values[i:i + 1], False) for name, (kind, values) in primvars.items())}
+    double3 xformOp:translate = {place}
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+    def Xform "copy" (
+        instanceable = true
+        inherits = </prototype>
+    )
+    {{
+    }}
+}}
+""" for i, place in enumerate(PLACES))
+
+
 def copies(primvars, own="", bound=False):
     return "".join(ball(f"copy{i}", place, own + "".join(primvar(kind, name, values[i:i + 1], False)
                                                          for name, (kind, values) in primvars.items()), bound)
@@ -99,8 +117,8 @@ def render(folder, name, text, *arguments):
     return image
 
 
-def same(folder, primvars, *arguments, **more):
-    a = color(render(folder, "instances", instanced(primvars, **more), *arguments))
+def same(folder, primvars, *arguments, make=instanced, **more):
+    a = color(render(folder, "instances", make(primvars, **more), *arguments))
     b = color(render(folder, "copies", copies(primvars, **more), *arguments))
     assert a.std() > 0.05  # something is seen
     # A prototype's place is rounded otherwise than a copy's: a ray that grazes an edge may go another way. That is one
@@ -124,6 +142,11 @@ def test_opacity_lets_shadows_and_eyes_through(tmp_path):
 
 def test_materials_read_them_by_name(tmp_path):
     same(tmp_path, {"tint": ("color3f", COLOURS)}, bound=True)
+
+
+def test_native_instances_are_like_copies(tmp_path):
+    same(tmp_path, {"tint": ("color3f", COLOURS), "glow": ("color3f", [(0, 0, 0), (0.3, 0.3, 0), (0, 0, 0)])}, bound=True,
+         make=native)
 
 
 def test_what_glows_by_them_lights_alike(tmp_path):

@@ -46,6 +46,15 @@ Plan planMaterial(const Network& network, Diagnostics& diagnostics, const Method
     return makePlan(std::move(simple), std::move(cuts), diagnostics, methods);
 }
 
+/// Lobes have no weights of their own in layers that are walked, so `returned` stands for these.
+MethodPlan planOf(const Plan& plan, const MaterialIr& ir, const MethodChoices& methods,
+                  double tolerance) {
+    MethodChoices probed = methods;
+    if (chosenMethod(methods, "layering") == "positionFree") probed["layering"] = "returned";
+    return planMethods(plan, MaterialProgram::make(ir, MethodSet(probed))->code(),
+                       {methods, tolerance});
+}
+
 } // namespace
 
 std::shared_ptr<const MaterialProgram>
@@ -53,10 +62,8 @@ compileMaterial(const Network& network, TextureSource& textures, Diagnostics& di
                 const MethodChoices& methods, double tolerance) {
     const Plan plan = planMaterial(network, diagnostics, methods);
     const MaterialIr ir = compileIr(plan, textures, diagnostics);
-    const MethodSet forced(methods);
-    if (tolerance < 0.0) return MaterialProgram::make(ir, forced, plan.planned);
-    const MethodPlan planned =
-        planMethods(plan, MaterialProgram::make(ir, forced)->code(), {methods, tolerance});
+    if (tolerance < 0.0) return MaterialProgram::make(ir, MethodSet(methods), plan.planned);
+    const MethodPlan planned = planOf(plan, ir, methods, tolerance);
     return MaterialProgram::make(ir, MethodSet(methodsOf(planned, methods)), planned);
 }
 
@@ -64,9 +71,7 @@ MethodPlan planMaterialMethods(const Network& network, TextureSource& textures,
                                Diagnostics& diagnostics, const MethodChoices& methods,
                                double tolerance) {
     const Plan plan = planMaterial(network, diagnostics, methods);
-    const MaterialIr ir = compileIr(plan, textures, diagnostics);
-    return planMethods(plan, MaterialProgram::make(ir, MethodSet(methods))->code(),
-                       {methods, tolerance});
+    return planOf(plan, compileIr(plan, textures, diagnostics), methods, tolerance);
 }
 
 std::string explainMaterial(const Network& network, Diagnostics& diagnostics,

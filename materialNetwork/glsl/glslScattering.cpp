@@ -167,7 +167,7 @@ std::vector<std::string> glslWalksLeftOut(const MaterialIr& code) {
         }
     if (code.walkedLayers > 0)
         lines.push_back("layering=positionFree is for the path tracer alone; "
-                        "albedoScaling is shown");
+                        "returned is shown");
     return lines;
 }
 

@@ -30,15 +30,14 @@ public:
 
     void run() {
         _ir.layerTransmittance = _methods.get<method::LayerTransmittance>();
-        if (_ir.topsAreVast && _ir.layerTransmittance == LayerTransmittance::Returned)
-            _ir.layerTransmittance = LayerTransmittance::Largest;
         _ir.slabsHaveTwoFaces = _methods.get<method::ThinWalled>() != method::ThinWalled::Sheet;
         bool changed = false;
         for (LobeTemplate& t : _ir.lobes)
             changed |= bindLobe(t);
         if (changed) leaveOutUnread();
-        if (_ir.layerTransmittance == LayerTransmittance::Returned) markReturning();
-        if (_methods.get<method::Layering>() == method::Layering::PositionFree) markWalked();
+        const method::Layering layering = _methods.get<method::Layering>();
+        if (layering != method::Layering::AlbedoScaling && !_ir.topsAreVast) markReturning();
+        if (layering == method::Layering::PositionFree) markWalked();
         setFacts();
     }
 

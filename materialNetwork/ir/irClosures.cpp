@@ -137,10 +137,10 @@ void IrBuilder::markVastTops(const std::vector<ClosureOp>& ops) {
         ways[i] = std::min(ways[i], mostWays);
         _ir.topsAreVast |= ops[i].kind == ClosureKind::Layer && ways[i] == mostWays;
     }
-    if (_ir.topsAreVast)
+    if (_ir.topsAreVast && chosenMethod(_plan.methods, "layering") != "albedoScaling")
         _diagnostics.warn(_plan.graph.path, "",
-                          "its layers share too many closures; what they lay over is darkened as "
-                          "by the method layerTransmittance=largest");
+                          "its layers share too many closures; light that they send back down is "
+                          "left out, as by the method layering=albedoScaling");
 }
 
 void IrBuilder::markLobes(std::vector<ClosureOp>& ops) const {

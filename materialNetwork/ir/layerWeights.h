@@ -21,7 +21,7 @@ namespace patina {
 template <class Out>
 typename Out::Color coverOf(LayerTransmittance method, const typename Out::Color& c, Out& out) {
     switch (method) {
-    case LayerTransmittance::Returned: break;
+    case LayerTransmittance::PerChannel: break;
     case LayerTransmittance::Largest: return PATINA_CLOSURE(out, shareLargest, c);
     case LayerTransmittance::Average: return PATINA_CLOSURE(out, shareAverage, c);
     case LayerTransmittance::Tinted: break;
@@ -29,7 +29,7 @@ typename Out::Color coverOf(LayerTransmittance method, const typename Out::Color
     return PATINA_CLOSURE(out, unitColor, c);
 }
 
-/// Weights where tops take from their bases, and what comes back is not counted.
+/// Weights where tops take from their bases, as albedo scaling means it.
 template <class Out> struct PlainLayers {
     using Color = typename Out::Color;
     using Number = typename Out::Number;
@@ -75,10 +75,10 @@ private:
         case ClosureKind::Add:
             return PATINA_CLOSURE(out, passBeside, passesOf(op.a), passesOf(op.b));
         case ClosureKind::Multiply: {
-            // A factor is a tint where what comes back counts.
+            // A factor tints the top alone.
             const LayerTransmittance method = code.layerTransmittance;
             const Color cover = coverOf(
-                method == LayerTransmittance::Returned ? LayerTransmittance::Largest : method,
+                method == LayerTransmittance::PerChannel ? LayerTransmittance::Largest : method,
                 out.factor(i, op), out);
             return PATINA_CLOSURE(out, passCovered, passesOf(op.a), cover);
         }
@@ -89,7 +89,8 @@ private:
     }
 };
 
-/// Weights where layers count what their tops send back down: closure/layers.glsl.
+/// Weights where layers count what their tops send back down, as `returned` means it:
+/// closure/layers.glsl.
 template <class Out> struct ReturnedLayers {
     using Color = typename Out::Color;
     using Number = typename Out::Number;

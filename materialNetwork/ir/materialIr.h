@@ -134,7 +134,7 @@ struct MaterialIr {
     MaterialFacts facts;
     int walkedLayers = 0;          ///< of `bsdf`
     bool slabsHaveTwoFaces = true; ///< thin slabs
-    LayerTransmittance layerTransmittance = LayerTransmittance::Returned;
+    LayerTransmittance layerTransmittance = LayerTransmittance::PerChannel;
     bool returnsLight = false; ///< a layer of `bsdf` returns light
 };
 

@@ -35,7 +35,7 @@ template <class Type> struct ChoiceOf;
 struct Method {
     std::string name;
     std::string description; ///< what it costs and where it errs
-    bool walks = false;      ///< of the path tracer alone; others show the default
+    bool walks = false;      ///< of the path tracer alone
 };
 
 /// A place where something can be computed in several ways, or where the field leaves a meaning

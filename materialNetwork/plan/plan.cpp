@@ -319,7 +319,7 @@ Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnosti
         for (size_t i = 0; i < layers.size(); ++i)
             if (!layers[i].reason.empty())
                 plan.leftOut.push_back(plan.graph.nodes[size_t(plan.closures[i].node)].path +
-                                       ": layering is albedoScaling here, for " + layers[i].reason);
+                                       ": layering is returned here, for " + layers[i].reason);
     }
     return plan;
 }

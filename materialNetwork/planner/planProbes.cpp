@@ -15,7 +15,6 @@ namespace {
 
 constexpr int varyingPlaces = 64;
 constexpr int cosines = 4;
-constexpr float metalShare = 0.95f; ///< of a base that is called metal
 
 /// What is no number, or below zero, counts as none.
 float amountOf(const glm::vec3& c) {
@@ -69,13 +68,6 @@ void describe(const BsdfLobe& l, ClosureContribution& out) {
     }
 }
 
-/// Schlick's curve stands for metals where it begins this high, and lets nothing through.
-bool isMetallic(const BsdfLobe& l) {
-    if (l.kind == LobeKind::Conductor) return true;
-    return l.kind == LobeKind::Schlick && l.schlick.mode == sh::SCATTER_R &&
-           amountOf(sh::fresnelSchlick(1.0f, l.schlick.fresnel)) > 0.2f;
-}
-
 /// Whether a walk between layers asks for the albedo of an interface on top anew at each of its
 /// steps: it is seen from both sides, so no table over the cosine serves, and light does not bounce
 /// between its facets.
@@ -126,20 +118,14 @@ private:
         if (!(probe.albedo > 0.0f)) return probe;
         for (size_t i = 0; i < code.bsdf.size(); ++i) {
             const ClosureOp& op = code.bsdf[i];
+            if (op.lobe < 0) continue;
+            const BsdfLobe& l = bsdf.lobe(op.lobe);
             ClosureContribution contribution;
             contribution.closure = int(i);
-            if (op.lobe >= 0) {
-                const BsdfLobe& l = bsdf.lobe(op.lobe);
-                describe(l, contribution);
-                contribution.share = light[size_t(op.lobe)] / probe.albedo;
-                contribution.tabulated =
-                    !code.lobes[size_t(op.lobe)].energy.empty() && !(isTop(int(i)) && asksAnew(l));
-            } else if (op.kind == ClosureKind::Layer && op.a >= 0 && op.b >= 0) {
-                layer(op, bsdf, light, contribution);
-                contribution.share /= probe.albedo;
-            } else {
-                continue;
-            }
+            describe(l, contribution);
+            contribution.share = light[size_t(op.lobe)] / probe.albedo;
+            contribution.tabulated =
+                !code.lobes[size_t(op.lobe)].energy.empty() && !(isTop(int(i)) && asksAnew(l));
             if (contribution.share > 0.0f) probe.closures.push_back(contribution);
         }
         for (ClosureContribution& contribution : probe.closures)
@@ -152,44 +138,6 @@ private:
         return std::any_of(_code.bsdf.begin(), _code.bsdf.end(), [&](const ClosureOp& op) {
             return op.kind == ClosureKind::Layer && op.a == closure;
         });
-    }
-
-    /// A layer shows as its roughest interface over an albedo; over metals their roughness counts
-    /// too.
-    void layer(const ClosureOp& op, const Bsdf& bsdf, const std::vector<float>& light,
-               ClosureContribution& out) const {
-        out.kind = "layer";
-        glm::vec3 weights(0.0f), bases(0.0f);
-        float weight = 0.0f, base = 0.0f, metal = 0.0f, rough = 0.0f;
-        for (int lobe : lobesOf(op.a)) {
-            ClosureContribution top;
-            describe(bsdf.lobe(lobe), top);
-            out.roughness = std::max(out.roughness, top.roughness);
-            out.share += light[size_t(lobe)];
-        }
-        for (int lobe : lobesOf(op.b)) {
-            const BsdfLobe& l = bsdf.lobe(lobe);
-            const float w = amountOf(l.weight);
-            weight += w;
-            base += w * amountOf(l.albedo);
-            weights += l.weight;
-            bases += l.weight * l.albedo;
-            out.share += light[size_t(lobe)];
-            if (!isMetallic(l)) continue;
-            ClosureContribution below;
-            describe(l, below);
-            metal += w * amountOf(l.albedo);
-            rough = std::max(rough, below.roughness);
-        }
-        if (metal > 0.0f && metal >= metalShare * base) {
-            out.kind = "layerOverMetal";
-            out.roughness = std::max(out.roughness, rough);
-        }
-        out.reflectance = weight > 0.0f ? std::min(base / weight, 1.0f) : 0.0f;
-        for (int c = 0; c < 3; ++c) {
-            const float albedo = weights[c] > 0.0f ? bases[c] / weights[c] : 0.0f;
-            out.base[c] = std::isfinite(albedo) ? std::clamp(albedo, 0.0f, 1.0f) : 0.0f;
-        }
     }
 
     std::set<int> lobesOf(int closure) const {

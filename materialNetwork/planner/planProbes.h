@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/glm.hpp>
-
 #include <vector>
 
 namespace patina {
 
 struct ProgramCode;
 
-/// A lobe, or a layer as a whole, as one place of a material shows it from one angle.
+/// A lobe as one place of a material shows it from one angle.
 struct ClosureContribution {
     int closure = -1; ///< in Plan::closures
-    const char* kind =
-        "";               ///< `dielectric`, `conductor`, `schlick`, `layer`...; as in methodTable.h
+    const char* kind = "";    ///< `dielectric`, `conductor`, `schlick`...; as in methodTable.h
     float share = 0.0f;   ///< of the luminance of the directional albedo, 0..1
     float beneath = 0.0f; ///< share of what lies under it in layers
-    float reflectance = 0.0f; ///< luminance at normal incidence; of a layer the albedo of its base
-    glm::vec3 base{0.0f};     ///< of a layer: the albedo of its base by channel
+    float reflectance = 0.0f; ///< luminance at normal incidence
     float roughness = 0.0f;   ///< root of alpha, mean of both axes; 0: a mirror
     float thickness = 0.0f;   ///< of a film, nm
     bool tabulated = false;   ///< its albedo is looked up over the cosine, by all who ask for it

@@ -33,14 +33,14 @@ constexpr double depthShare = 0.1;
 /// - The mean over the quarters and the worst quarter count half each. Of places with different
 ///   parameters the worst counts.
 /// - The error counts by the lobe's share of the material's albedo. On the lobes beneath it counts
-///   over the light that is let through. Layers are predicted channel by channel of their base.
+///   over the light that is let through.
 /// - Light meets several surfaces and takes the error along each time (bounceFactor).
 ///
 /// Among methods without bias (sampling) the one with the least noise for its time is taken. Where
 /// the default is not measured, it stays.
 /// @param plan with the default methods; meanings (points without a truth) are left as they are
 /// @param code made from the same plan, with the forced methods and otherwise the defaults; errors
-///        are the worst over the values that its textures show
+///        are the worst over the values that its textures show; without layers that are walked
 MethodPlan planMethods(const Plan& plan, const ProgramCode& code, const Planning& planning);
 
 /// How often light that a camera sees has met surfaces of such an albedo, on the average:
@@ -48,8 +48,8 @@ MethodPlan planMethods(const Plan& plan, const ProgramCode& code, const Planning
 double bounceFactor(double albedo);
 
 /// @returns the plan as a back end shows it that has no random walks within a surface
-/// (energyCompensation = randomWalk, layering = positionFree): with the defaults in their place,
-/// and the errors that these are expected to make
+/// (energyCompensation = randomWalk): with the defaults in their place, and the errors that these
+/// are expected to make
 MethodPlan withoutWalks(MethodPlan plan);
 
 /// @returns the choices of a plan as they go into Plan::methods

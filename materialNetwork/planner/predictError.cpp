@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/planner/predictError.h"
 
-#include "materialNetwork/plan/layering.h"
 #include "materialNetwork/plan/methodTable.h"
 
 #include <algorithm>
@@ -16,8 +15,6 @@ namespace {
 /// Tabulating an albedo when a material is compiled is spread over so many evaluations.
 constexpr double evaluationsPerTable = 1e6;
 constexpr double tableNodes = 512;
-
-constexpr double luminanceOf[3] = {0.2126, 0.7152, 0.0722};
 
 /// A row and how much it counts.
 struct Near {
@@ -106,11 +103,8 @@ bool onlyRough(const std::string& point) {
 class Predictor {
 public:
     Predictor(const Plan& plan, const std::string& point, const std::string& method)
-        : _plan(plan), _point(point), _rows(rowsOf(plan, point, method)) {
-        if (point == "layering")
-            _walks = layerWalkability(plan, MethodSet(plan.methods).get<method::Subsurface>());
-        _choice = Choice(findChoicePoint(point) - choicePoints().data());
-    }
+        : _plan(plan), _point(point), _rows(point, method),
+          _choice(Choice(findChoicePoint(point) - choicePoints().data())) {}
 
     Prediction run(const std::vector<std::vector<DirectionProbe>>& places) {
         for (const auto& angles : places) {
@@ -132,13 +126,8 @@ private:
         double sum = 0.0;
         for (const ClosureContribution& contribution : probe.closures) {
             if (!matters(_plan, _plan.closures[size_t(contribution.closure)], _choice)) continue;
-            const bool alike = !_walks.empty() && !_walks[size_t(contribution.closure)].walks;
-            if (alike || (onlyRough(_point) && contribution.roughness <= 0.0f)) {
+            if (onlyRough(_point) && contribution.roughness <= 0.0f) {
                 _result.measured = true;
-                continue;
-            }
-            if (_point == "layering") {
-                sum += layered(contribution, quarter, ns);
                 continue;
             }
             double between = 0.0, worst = 0.0, time = 0.0, weights = 0.0;
@@ -163,35 +152,6 @@ private:
         return sum;
     }
 
-    /// Layers channel by channel: what scaling is off grows less than the albedo of the base, so
-    /// that a grey base as bright as a coloured one is further off.
-    double layered(const ClosureContribution& contribution, int quarter, double& ns) {
-        double error = 0.0, truth = 0.0;
-        for (int c = 0; c < 3; ++c) {
-            ClosureContribution channel = contribution;
-            channel.reflectance = contribution.base[c];
-            for (const Near& near : _rows.around(channel)) {
-                const Cell cell = cellOf(*near.row, channel, quarter);
-                _result.measured = true;
-                error += luminanceOf[c] * near.weight * cell.error;
-                truth += luminanceOf[c] * near.weight * cell.truth;
-                ns += near.weight * near.row->ns / 3.0;
-            }
-        }
-        return std::min(error / std::max(truth, 1e-6), 1.0) * contribution.share;
-    }
-
-    /// Scaling is measured with the default of layerTransmittance; its other methods have rows of
-    /// their own.
-    static MethodRows rowsOf(const Plan& plan, const std::string& point,
-                             const std::string& method) {
-        const std::string meaning = chosenMethod(plan.methods, "layerTransmittance");
-        if (point != "layering" || method != "albedoScaling" ||
-            meaning == chosenMethod({}, "layerTransmittance"))
-            return {point, method};
-        return {"layerTransmittance", meaning};
-    }
-
     double contributedError(const MeasuredMethod& row, const ClosureContribution& contribution,
                             const Cell& cell) const {
         if (!cell.known) return 1.0; // nothing is known of films that thick
@@ -212,7 +172,6 @@ private:
     const std::string& _point;
     MethodRows _rows;
     Choice _choice;
-    std::vector<LayerWalkability> _walks; ///< of layering: others are scaled by every method
     Prediction _result;
 };
 

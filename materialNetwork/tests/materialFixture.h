@@ -114,8 +114,8 @@ struct Compiled {
     Diagnostics diagnostics;
     std::shared_ptr<const MaterialProgram> program;
 
-    explicit Compiled(const Network& network)
-        : program(compileMaterial(network, textures, diagnostics)) {}
+    explicit Compiled(const Network& network, const MethodChoices& methods = {})
+        : program(compileMaterial(network, textures, diagnostics, methods)) {}
 };
 
 inline std::string warnings(const Diagnostics& diagnostics) {

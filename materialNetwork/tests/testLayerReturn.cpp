@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The method `returned` of layerTransmittance, the default: layers lose nothing where nothing is
-// absorbed, gain nothing, and count what an interface sends back down to its base.
+// Layers by albedo scaling, the default, and by the method `returned`: both lose nothing where nothing
+// is absorbed, and gain nothing. The first follows its definition, the second counts what an
+// interface sends back down to its base.
 #include "materialNetwork/cpu/programCode.h"
+#include "materialNetwork/planner/planner.h"
 #include "materialNetwork/tests/statistics.h"
 #include "shaders/oracle.h"
 
@@ -30,7 +32,9 @@ NetworkNode layer(const char* name, const char* top, const char* base) {
     return makeNode(name, "ND_layer_bsdf", {}, {{"top", {top, ""}}, {"base", {base, ""}}});
 }
 
-glm::vec3 albedoOf(const Network& network, float degrees, const MethodChoices& methods = {}) {
+const MethodChoices scaled = {}, returned = {{"layering", "returned"}};
+
+glm::vec3 albedoOf(const Network& network, float degrees, const MethodChoices& methods) {
     const auto program = compiled(network, methods);
     ShadingPoint point;
     point.viewDirection = direction(degrees);
@@ -78,17 +82,41 @@ std::vector<std::pair<const char*, Network>> lossless() {
 
 // The method `largest` takes in all channels what the brightest reflects.
 TEST(LayerReturn, LosesNothingWhereNothingAbsorbs) {
-    for (const auto& [name, network] : lossless())
-        for (const float degrees : {0.0f, 60.0f, 80.0f}) {
-            const glm::vec3 a = albedoOf(network, degrees);
-            for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(a[c], 1.0f, 2e-3f) << name << " " << degrees << " " << c;
-        }
+    for (const MethodChoices& methods : {scaled, returned})
+        for (const auto& [name, network] : lossless())
+            for (const float degrees : {0.0f, 60.0f, 80.0f}) {
+                const glm::vec3 a = albedoOf(network, degrees, methods);
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(a[c], 1.0f, 2e-3f) << name << " " << degrees << " " << c;
+            }
     const glm::vec3 largest =
         albedoOf(lossless()[0].second, 60.0f, {{"layerTransmittance", "largest"}});
     EXPECT_NEAR(largest.x, 1.0f, 2e-3f);
     EXPECT_LT(largest.y, 0.9f);
     EXPECT_LT(largest.z, 0.96f);
+}
+
+// A base of albedo a under an interface of reflectance F shows F + (1 - F) a, whatever the tolerance
+// is, and whatever the base is.
+TEST(LayerScaling, SmoothOverAnythingIsItsDefinition) {
+    FakeTextures textures;
+    Diagnostics diagnostics;
+    for (const float ior : {1.2f, 1.5f, 2.0f, 3.0f})
+        for (const float a : {0.05f, 0.5f, 1.0f})
+            for (const float degrees : {0.0f, 70.0f})
+                for (const NetworkNode& base :
+                     {diffuse("base", grey(a)), metal("base", grey(a), 0.0f)}) {
+                    const Network network = bsdfNetwork(
+                        {interface("top", ior, 0.0f), base, layer("bsdf", "top", "base")});
+                    const float f = sh::fresnelDielectric(direction(degrees).z, ior);
+                    for (const double tolerance : {-1.0, 0.0, 0.01, 0.5}) {
+                        const MethodPlan plan =
+                            planMaterialMethods(network, textures, diagnostics, {}, tolerance);
+                        EXPECT_NEAR(albedoOf(network, degrees, methodsOf(plan, {})).x,
+                                    f + (1.0f - f) * a, 1e-3f)
+                            << ior << " " << a << " " << degrees << " " << tolerance;
+                    }
+                }
 }
 
 // F + (1 - F) a (1 - R) / (1 - a R), with R the reflectance for diffuse light from inside.
@@ -109,7 +137,7 @@ TEST(LayerReturn, SmoothOverDiffuseIsAGeometricSeries) {
                 const glm::vec3 found =
                     albedoOf(bsdfNetwork({interface("top", ior, 0.0f), diffuse("base", grey(a)),
                                           layer("bsdf", "top", "base")}),
-                             degrees);
+                             degrees, returned);
                 EXPECT_NEAR(double(found.x), truth, 3e-3) << ior << " " << a << " " << degrees;
             }
     }
@@ -123,7 +151,7 @@ TEST(LayerReturn, SmoothOverMirrorIsASeriesOfMirrors) {
         const glm::vec3 found =
             albedoOf(bsdfNetwork({interface("top", 1.5f, 0.0f), metal("base", grey(0.5f), 0.0f),
                                   layer("bsdf", "top", "base")}),
-                     degrees);
+                     degrees, returned);
         EXPECT_NEAR(double(found.x), truth, 1e-4) << degrees;
     }
 }
@@ -134,38 +162,40 @@ TEST(LayerReturn, GainsNothing) {
     for (const Value& a : shades)
         for (const Value& b : shades)
             for (const float alpha : {0.0f, 0.3f})
-                for (const float cover : {0.4f, 1.0f})
-                    for (const float degrees : {0.0f, 75.0f}) {
-                        const glm::vec3 found = albedoOf(
-                            bsdfNetwork({interface("top", 1.6f, alpha, {{"weight", number(cover)}}),
-                                         interface("inner", 1.3f, 0.2f), metal("a", a, 0.3f),
-                                         layer("lower", "inner", "b"), diffuse("b", b),
-                                         makeNode("base", "ND_mix_bsdf", {{"mix", number(0.6f)}},
-                                                  {{"fg", {"a", ""}}, {"bg", {"lower", ""}}}),
-                                         layer("bsdf", "top", "base")}),
-                            degrees);
-                        for (int c = 0; c < 3; ++c) {
-                            EXPECT_LE(found[c], 1.002f);
-                            EXPECT_GE(found[c], 0.0f);
+                for (const float cover : {0.4f, 1.0f}) {
+                    const Network network =
+                        bsdfNetwork({interface("top", 1.6f, alpha, {{"weight", number(cover)}}),
+                                     interface("inner", 1.3f, 0.2f), metal("a", a, 0.3f),
+                                     layer("lower", "inner", "b"), diffuse("b", b),
+                                     makeNode("base", "ND_mix_bsdf", {{"mix", number(0.6f)}},
+                                              {{"fg", {"a", ""}}, {"bg", {"lower", ""}}}),
+                                     layer("bsdf", "top", "base")});
+                    for (const MethodChoices& methods : {scaled, returned})
+                        for (const float degrees : {0.0f, 75.0f}) {
+                            const glm::vec3 found = albedoOf(network, degrees, methods);
+                            for (int c = 0; c < 3; ++c) {
+                                EXPECT_LE(found[c], 1.002f);
+                                EXPECT_GE(found[c], 0.0f);
+                            }
                         }
-                    }
+                }
 }
 
 // A tint of the interface colours the top alone; so does a factor on it.
 TEST(LayerReturn, TintsColourTheTopAlone) {
-    const glm::vec3 tinted =
-        albedoOf(bsdfNetwork({interface("top", 1.5f, 0.0f, {{"tint", color(1.0f, 0.5f, 0.0f)}}),
-                              diffuse("base", grey(1.0f)), layer("bsdf", "top", "base")}),
-                 0.0f);
-    const glm::vec3 factored =
-        albedoOf(bsdfNetwork({interface("bare", 1.5f, 0.0f),
-                              makeNode("top", "ND_multiply_bsdfC",
-                                       {{"in2", color(1.0f, 0.5f, 0.0f)}}, {{"in1", {"bare", ""}}}),
-                              diffuse("base", grey(1.0f)), layer("bsdf", "top", "base")}),
-                 0.0f);
-    for (const glm::vec3& found : {tinted, factored})
-        for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(found[c], 1.0f - 0.02f * float(c), 1e-4f) << c;
+    const Value orange = color(1.0f, 0.5f, 0.0f);
+    const Network tinted = bsdfNetwork({interface("top", 1.5f, 0.0f, {{"tint", orange}}),
+                                        diffuse("base", grey(1.0f)), layer("bsdf", "top", "base")}),
+                  factored = bsdfNetwork({interface("bare", 1.5f, 0.0f),
+                                          makeNode("top", "ND_multiply_bsdfC", {{"in2", orange}},
+                                                   {{"in1", {"bare", ""}}}),
+                                          diffuse("base", grey(1.0f)),
+                                          layer("bsdf", "top", "base")});
+    for (const MethodChoices& methods : {scaled, returned})
+        for (const Network& network : {tinted, factored})
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(albedoOf(network, 0.0f, methods)[c], 1.0f - 0.02f * float(c), 1e-4f)
+                    << c;
 }
 
 // Of a layer that is the other half of one interface nothing comes back.
@@ -174,16 +204,14 @@ TEST(LayerReturn, GlassOfTwoHalvesStaysWhole) {
         const NetworkNode half = interface("base", 1.5f, alpha, {{"scatter_mode", text("T")}});
         const Network glass =
             bsdfNetwork({interface("top", 1.5f, alpha), half, layer("bsdf", "top", "base")});
-        EXPECT_NEAR(albedoOf(glass, 30.0f).x,
-                    albedoOf(glass, 30.0f, {{"layerTransmittance", "largest"}}).x, 1e-6f);
+        EXPECT_NEAR(albedoOf(glass, 30.0f, scaled).x, albedoOf(glass, 30.0f, returned).x, 1e-6f);
     }
 }
 
 TEST(LayerReturn, SamplesAndValuesAgree) {
-    for (const auto& [name, network] : lossless()) {
-        const auto program = compiled(network, {});
-        expectSamplesAndValuesAgree(*program, direction(50.0f), name, 20000, 7);
-    }
+    for (const MethodChoices& methods : {scaled, returned})
+        for (const auto& [name, network] : lossless())
+            expectSamplesAndValuesAgree(*compiled(network, methods), direction(50.0f), name, 20000, 7);
 }
 
 } // namespace patina

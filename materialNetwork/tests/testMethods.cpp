@@ -157,14 +157,14 @@ TEST(Methods, LayerTransmittance) {
     const NetworkNode coloured =
         makeNode("top", "ND_generalized_schlick_bsdf",
                  {{"color0", color(0.8f, 0.2f, 0.2f)}, {"roughness", pair(0.0f)}});
-    expectColor(of(coloured, "returned"), 1.0f, 1.0f, 1.0f);
+    expectColor(of(coloured, "perChannel"), 1.0f, 1.0f, 1.0f);
     expectColor(of(coloured, "largest"), 1.0f, 0.4f, 0.4f);
     expectColor(of(coloured, "average"), 1.4f, 0.8f, 0.8f);
     expectColor(of(coloured, "tinted"), 1.0f, 1.0f, 1.0f);
     const NetworkNode tinted =
         makeNode("top", "ND_dielectric_bsdf",
                  {{"tint", color(1.0f, 0.5f, 0.0f)}, {"roughness", pair(0.0f)}});
-    expectColor(of(tinted, "returned"), 1.0f, 0.98f, 0.96f);
+    expectColor(of(tinted, "perChannel"), 1.0f, 0.98f, 0.96f);
     expectColor(of(tinted, "largest"), 1.0f, 0.98f, 0.96f);
     expectColor(of(tinted, "average"), 1.0f, 0.98f, 0.96f);
     expectColor(of(tinted, "tinted"), 1.0f, 1.0f, 1.0f);
@@ -180,7 +180,7 @@ TEST(Methods, LayerTransmittance) {
                        {{"layerTransmittance", method}})
             .albedo;
     };
-    expectColor(factored("returned"), 0.5f, 0.25f, 0.0f);
+    expectColor(factored("perChannel"), 0.5f, 0.25f, 0.0f);
     expectColor(factored("largest"), 0.5f, 0.25f, 0.0f);
     expectColor(factored("average"), 1.0f, 0.75f, 0.5f);
     expectColor(factored("tinted"), 0.5f, 0.75f, 1.0f);
@@ -228,7 +228,7 @@ TEST(Methods, ExplainNamesThoseThatMatter) {
     EXPECT_FALSE(has(plain, "method ")) << plain;
     const Network glass =
         layered(makeNode("top", "ND_dielectric_bsdf"), makeNode("base", "ND_dielectric_btdf"));
-    EXPECT_TRUE(has(explained(glass), "method layerTransmittance = returned: "));
+    EXPECT_TRUE(has(explained(glass), "method layering = albedoScaling: "));
     EXPECT_TRUE(has(explained(glass), "method reflectionOverTransmission = sharedInterface: "));
     EXPECT_FALSE(has(explained(glass), "method thinWalled"));
     EXPECT_EQ(explained(glass, {{"reflectionOverTransmission", "fused"}}),

@@ -6,7 +6,6 @@
 #include "hdDelegate/image/textureSystem.h"
 #include "hdDelegate/raster/measure/measureDome.h"
 #include "materialNetwork/material.h"
-#include "materialNetwork/measure/measureLayers.h"
 #include "materialNetwork/plan/methodTable.h"
 #include "plugin/python/plans.h"
 #include "shaders/measure/measure.h"
@@ -108,8 +107,6 @@ py::list measured(const std::string& point, bool timed) {
             for (measure::Row& row : rows(timed))
                 found.push_back(std::move(row));
         };
-        add("layering", measure::layering);
-        add("layerTransmittance", measure::layerTransmittance);
         add("domeLight", measure::domeLight);
     }
     py::list rows;

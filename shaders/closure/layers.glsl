@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers that count what the interface on top sends back down to its base: the method `returned` of
-// layerTransmittance. All numbers are shares of light per channel.
+// layering. All numbers are shares of light per channel.
 //
 // Light of three kinds leaves a base: mirrored as in a polished metal, spread as by a diffuse
 // surface, and transmitted, which leaves downwards and never comes back. Of what is mirrored the interface

@@ -145,8 +145,7 @@ def prepare(folder):
             "maxDepth": scene["depth"], "filterRadius": 0.5, "checkpointSeconds": 0.0,
             "aovs": list(denoiser.GUIDES) if denoise else [],
             "rouletteDepth": 1 if scene.get("roulette", True) else 4096,
-            "methods": {"layerTransmittance": "largest",  # as peers do, so that pictures are equally bright
-                        **scene.get("methods", {})}}, film)
+            "methods": scene.get("methods", {})}, film)
         renderer.wait()
         state = renderer.progress()
         if state["failed"]:

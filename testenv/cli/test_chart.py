@@ -11,7 +11,7 @@ from patina.chart import lobes, measurePaths, measureSubdivision, svg
 from patina.cli import compiled, main
 
 MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse", "sheen",
-            "layering", "layerTransmittance", "subsurface", "areaLight", "domeLight")
+            "subsurface", "areaLight", "domeLight")
 
 
 def test_rows_csv_and_charts(capsys, tmp_path):

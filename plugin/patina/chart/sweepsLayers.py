@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Layers: what lies below scaled by what the top lets through, against a walk between the interfaces."""
+"""The meanings of a layer, against a walk between the interfaces: how far a varnish is from what MaterialX defines."""
 import numpy as np
 
 from patina.chart import probes
@@ -11,15 +11,15 @@ def _stack(name, fails, label, x, make, cosine, bound, walks):
     """:param make: x -> interfaces and base, as layers.STACKS has them"""
     generator = np.random.default_rng(probes.SEED)
     wo = probes.towards(cosine)
-    curves, truth = {"largest": [], "returned": [], "positionFree": []}, []
+    curves, truth = {"albedoScaling": [], "returned": [], "positionFree": []}, []
     for v in x:
         interfaces, base = make(v)
-        for method in ("largest", "returned"):
-            curves[method].append(probes.albedo(layers.scaled(interfaces, base, {"layerTransmittance": method}), wo))
+        for method in ("albedoScaling", "returned"):
+            curves[method].append(probes.albedo(layers.scaled(interfaces, base, {"layering": method}), wo))
         curves["positionFree"].append(probes.sampled(layers.scaled(interfaces, base, {"layering": "positionFree"}), wo, walks))
         truth.append(float(layers.walk(layers.parts(interfaces, base, {}), wo[0], walks, generator)[0][0]))
     return Sweep(name, "layers", fails, label, x, f"albedo at cosine {cosine}", curves, truth, always("positionFree", x), bound,
-                 "largest", shows=2)
+                 "albedoScaling", shows=2)
 
 
 def sweeps(count):
@@ -29,7 +29,7 @@ def sweeps(count):
     walks = 1000 * min(count, 20)
     return [
         _stack("layer over grey",
-               "Light that the interface sends back down counts as leaving in one method: grey bases come out too bright.",
+               "Light that the interface sends back down counts as leaving in one meaning: grey bases are brighter than under a varnish.",
                "colour of the base", base, lambda v: ([(1.5, 0.0)], (float(v),) * 3), 0.8, 0.03, walks),
         _stack("layer over roughness", "The same, whatever the roughness of the interface.", "alpha",
                rough, lambda v: ([(1.5, float(v))], (0.5,) * 3), 0.8, 0.03, walks),

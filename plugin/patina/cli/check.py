@@ -14,8 +14,8 @@
 Materials that vary are checked at points of uv 0 to 1. Each material is shown when it is done; warnings come last, grouped by
 cause as in `patina record`. The exit status is 1 if a check fails.
 
---layers takes no material. Layers scale their base by the light that the top lets through and sends back down (`--method
-layerTransmittance=...`). It prints the error of their albedo beside a random walk between the interfaces.
+--layers takes no material. It prints how far the albedo of layers as they are meant (`--method layering=...`) is from that of
+a varnish: a random walk between the interfaces.
 """
 import math
 import sys
@@ -37,7 +37,7 @@ ANGLES = (0.0, 30.0, 60.0, 80.0, 89.0)
 def add_arguments(parser):
     parser.add_argument("material", metavar="STAGE|MATERIAL", nargs="?", help=materials.MATERIAL_HELP.replace(
         "the only material", "every material"))
-    parser.add_argument("--layers", action="store_true", help="the error of layers, as a table")
+    parser.add_argument("--layers", action="store_true", help="layers beside a random walk, as a table")
     parser.add_argument("--samples", type=int, default=65536, metavar="N", help="samples per direction (default: 65536)")
     parser.add_argument("--places", type=int, default=3, metavar="N",
                         help="points of uv per material that varies (default: 3; finite: its square times 16)")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Layers by albedo scaling against a position-free random walk (Guo, Hasan and Zhao 2018, "Position-Free Monte Carlo
+"""Layers as they are meant against a position-free random walk (Guo, Hasan and Zhao 2018, "Position-Free Monte Carlo
 Simulation for Arbitrary Layered BSDFs"): light bounces between the interfaces and the base, each with its whole
 lobes, until it leaves. Nothing lies between the layers and they are infinitely thin, so positions do not matter.
 """
@@ -59,7 +59,7 @@ class _Builder:
 
 
 def scaled(interfaces, base, methods):
-    """:returns: probe of the stack as the renderer has it: layers by albedo scaling, unless `methods` say otherwise"""
+    """:returns: probe of the stack as the renderer has it: layers by albedo scaling, unless `methods` give them another meaning"""
     builder = _Builder()
     bsdf = builder.base(base)
     for ior, alpha in reversed(interfaces):
@@ -111,7 +111,7 @@ def walk(probes, wo, count, generator):
 
 
 def compare(interfaces, base, methods, count, generator):
-    """Yields (degrees, albedo by scaling, albedo of the walk, its standard error)."""
+    """Yields (degrees, albedo of the layers, albedo of the walk, its standard error)."""
     layered, probes = scaled(interfaces, base, methods), parts(interfaces, base, methods)
     for degrees in ANGLES:
         t = math.radians(degrees)
@@ -120,7 +120,7 @@ def compare(interfaces, base, methods, count, generator):
         yield degrees, layered.albedo(wo[None])[0].astype(float), true, error
 
 
-HEAD = f"{'stack':<24}{'degrees':>8}{'scaled':>9}{'walk':>9}{'error':>9}{'noise':>9}"
+HEAD = f"{'stack':<24}{'degrees':>8}{'layers':>9}{'walk':>9}{'less':>9}{'noise':>9}"
 
 
 def rows(methods, count, seed):
@@ -138,7 +138,7 @@ def report(methods, count, seed):
 
 
 def line(row):
-    """:returns: a row as text; the error is that of the channel where it is largest"""
+    """:returns: a row as text, of the channel where layers are furthest from the walk"""
     errors = [a - b for a, b in zip(row["scaled"], row["walk"])]
     c = max(range(3), key=lambda i: abs(errors[i]))
     return (f"{row['stack']:<24}{row['degrees']:>8.0f}{row['scaled'][c]:>9.4f}{row['walk'][c]:>9.4f}"

@@ -92,8 +92,7 @@ def test_values_reach_the_surface_converted(tmp_path, space, expected):
             f"color3f inputs:diffuseColor = {value} {here}\nfloat inputs:ior = 1", world))
         warnings = []
         (_, network), = read_materials(stage, warnings)
-        # The base alone: what the interface above it sends back down has no part in this.
-        probe = _patina.MaterialProbe(network, {"layerTransmittance": "largest"})
+        probe = _patina.MaterialProbe(network)
         assert not warnings and not probe.warnings
         assert probe.albedo(np.array([[0, 0, 1]], np.float32))[0] == pytest.approx(expected, abs=2e-4)
 

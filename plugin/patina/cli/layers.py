@@ -59,7 +59,7 @@ class _Builder:
 
 
 def scaled(interfaces, base, methods):
-    """:returns: probe of the stack as the renderer has it: layers by albedo scaling, unless `methods` give them another meaning"""
+    """:returns: probe of the stack as the renderer has it: layers by albedo scaling, unless `methods` give another meaning"""
     builder = _Builder()
     bsdf = builder.base(base)
     for ior, alpha in reversed(interfaces):

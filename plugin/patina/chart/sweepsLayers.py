@@ -29,7 +29,7 @@ def sweeps(count):
     walks = 1000 * min(count, 20)
     return [
         _stack("layer over grey",
-               "Albedo scaling counts light that the interface sends back down as leaving: grey is brighter than under a varnish.",
+               "Albedo scaling counts light that an interface sends back down as leaving: grey is brighter.",
                "colour of the base", base, lambda v: ([(1.5, 0.0)], (float(v),) * 3), 0.8, 0.03, walks),
         _stack("layer over roughness", "The same, whatever the roughness of the interface.", "alpha",
                rough, lambda v: ([(1.5, float(v))], (0.5,) * 3), 0.8, 0.03, walks),

@@ -27,6 +27,7 @@ void translateRuntimeError(std::exception_ptr pointer) {
 } // namespace
 
 void bindMachine(py::module_& m);
+void bindSignals(py::module_& m);
 void bindLimits(py::module_& m);
 void bindNetwork(py::module_& m);
 void bindScene(py::module_& m);
@@ -117,6 +118,7 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
     });
 #endif
     patina::bindMachine(m);
+    patina::bindSignals(m);
     patina::bindLimits(m);
     patina::bindNetwork(m);
     patina::bindScene(m);

@@ -11,7 +11,7 @@ import pytest
 _patina = pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
-from patina.cli import checkpoints, interrupts, main, record  # noqa: E402
+from patina.cli import checkpoints, interrupts, main, record, snapshots  # noqa: E402
 
 STAGE = """#usda 1.0
 def Sphere "ball"
@@ -201,6 +201,65 @@ for _ in range(1000):
     finally:
         sys.modules.pop("slowImport", None)
     assert capfd.readouterr().err == "patina: terminated\n"
+
+
+# In the place of a module of Python that the command line imports first.
+ARGPARSE = """import importlib.machinery, os, sys
+os.kill(os.getpid(), int(os.environ["EARLY"]))
+sys.path.remove(os.path.dirname(__file__))
+spec = importlib.machinery.PathFinder.find_spec("argparse")
+spec.loader.exec_module(sys.modules["argparse"])
+"""
+
+
+@pytest.mark.parametrize("launched", (False, True), ids=("python", "held"))
+@pytest.mark.parametrize("number, status, said", [
+    (signal.SIGINT, 75, "patina: interrupted\n"), (signal.SIGTERM, 75, "patina: terminated\n"),
+    (signal.SIGUSR1, 2, "patina record: ")], ids=("SIGINT", "SIGTERM", "SIGUSR1"))
+def test_a_signal_before_there_is_a_command(number, status, said, launched, folder):
+    """It comes while Python imports the command, or while Python starts: the launcher holds it until it is heard."""
+    command, variables = [sys.executable, "-m", "patina", "record"], dict(os.environ, EARLY="0")
+    if launched:
+        command = [sys.executable, "-c", "import os, signal, sys; signal.pthread_sigmask(signal.SIG_BLOCK, [1, 2, 15, 10]); "
+                   f"os.kill(os.getpid(), {int(number)}); os.execv(sys.argv[1], sys.argv[1:])", *command]
+    else:
+        (folder / "early").mkdir()
+        (folder / "early" / "argparse.py").write_text(ARGPARSE)
+        variables.update(EARLY=str(int(number)), PYTHONPATH=f"{folder / 'early'}:{os.environ['PYTHONPATH']}")
+    done = subprocess.run(command, env=variables, capture_output=True, text=True, timeout=60)
+    assert done.returncode == status and done.stderr.startswith(said), done.stderr
+
+
+def test_a_snapshot_that_is_asked_for_early_is_taken(monkeypatch):
+    before = {n: signal.getsignal(n) for n in (*interrupts.NUMBERS, signal.SIGUSR1)}
+    try:
+        interrupts.begin(["record"])
+        os.kill(os.getpid(), signal.SIGUSR1)
+        with snapshots.Snapshots(0.0) as asked:
+            assert asked._asked
+        with snapshots.Snapshots(0.0) as asked:
+            assert not asked._asked
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def test_the_second_signal_ends_what_hears_none(folder):
+    """As a library does that computes without end: both come in one call into C, after which Python's handlers would run."""
+    program = """
+import os, signal, sys
+from patina.cli import compiled, explain, main
+def run(_):
+    compiled.load()
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT, signal.SIGTERM])
+    for number in (signal.SIGINT, signal.SIGTERM):
+        os.kill(os.getpid(), number)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT, signal.SIGTERM])
+explain.run = run
+sys.exit(main.main(["explain", "m.mtlx"]))
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert done.returncode in (-signal.SIGINT, -signal.SIGTERM) and done.stderr == ""
 
 
 def test_ignored_signals_stay_ignored(folder):

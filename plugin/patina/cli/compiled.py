@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The compiled module, or a reason why it is not there."""
+from patina.cli import interrupts
 from patina.cli.errors import CommandError
 
 
@@ -10,4 +11,5 @@ def load():
     except ImportError as error:
         raise CommandError(f"the compiled module is missing or of another Python ({error}); "
                            "run ./patina of a checkout, which builds it") from error
+    interrupts.harden()
     return _patina

@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The `patina` command of an installed package, as `python -m patina` is."""
-import runpy
+import sys
+
+from patina.cli import interrupts
 
 
 def run():
+    interrupts.begin(sys.argv[1:2])
+    import runpy
+
     runpy.run_module("patina", run_name="__main__", alter_sys=False)

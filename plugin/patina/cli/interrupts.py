@@ -2,9 +2,44 @@
 """Ctrl+C, the end of a batch job and of a terminal: noted, and not resisted twice."""
 import os
 import signal
+import sys
 import threading
 
 NUMBERS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+_early = []  # numbers of signals that came before there was a command
+
+
+def begin(command):
+    """Notes signals while the command is imported. To be called before all else; the launcher holds signals until then.
+
+    :param command: list of its name"""
+    for number in NUMBERS:
+        if signal.getsignal(number) not in (signal.SIG_IGN, None):
+            signal.signal(number, _note_early)
+    if command == ["record"] and hasattr(signal, "SIGUSR1"):  # it asks for a snapshot, and would end the process
+        signal.signal(signal.SIGUSR1, _note_early)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [*NUMBERS, getattr(signal, "SIGUSR1", signal.SIGINT)])
+
+
+def _note_early(number, _frame):
+    _early.append(number)
+    if number in NUMBERS:
+        signal.signal(number, signal.SIG_DFL)
+
+
+def came_early(number):
+    """:returns: whether a signal came before there was a command; it is told once"""
+    found = number in _early
+    _early[:] = [other for other in _early if other != number]
+    return found
+
+
+def harden():
+    """Ends the process at the second signal, also while it is in the code of a library, where no handler of Python runs: as
+    while OpenUSD composes a stage. Needs the compiled module."""
+    module = sys.modules.get("_patina")
+    if module and threading.current_thread() is threading.main_thread():
+        module.end_at_second_signal(NUMBERS)
 
 
 class _Handlers:
@@ -18,11 +53,14 @@ class _Handlers:
             for number in NUMBERS:
                 if signal.getsignal(number) not in (signal.SIG_IGN, None):
                     self._before[number] = signal.signal(number, self._note)
+            harden()
         return self
 
     def __exit__(self, *_):
         for number, handler in self._before.items():
             signal.signal(number, handler)
+        if Endings.open:
+            harden()
         return False
 
 
@@ -44,7 +82,7 @@ class Endings(_Handlers):
     Imports are let end first: libraries print an exception that comes into theirs. `met` stays set, because libraries also
     turn it into others or drop it: check() then raises it again."""
 
-    _open = None
+    open = None  # that of the command that runs
     _POLL_SECONDS = 0.01
 
     def __init__(self):
@@ -54,11 +92,13 @@ class Endings(_Handlers):
         self._settled = False
 
     def __enter__(self):
-        Endings._open = self
-        return super().__enter__()
+        Endings.open = self
+        super().__enter__()
+        self.met = next(filter(came_early, NUMBERS), 0)
+        return self
 
     def __exit__(self, *problem):
-        Endings._open = None
+        Endings.open = None
         self._disarm()
         if self._timer is not None:
             signal.signal(signal.SIGALRM, self._timer)
@@ -67,8 +107,8 @@ class Endings(_Handlers):
     @staticmethod
     def check():
         """:raises KeyboardInterrupt: where the command that runs was told to end"""
-        if Endings._open and Endings._open.met:
-            Endings._open._disarm()  # one exception: a second one would come into what tidies up after the first
+        if Endings.open and Endings.open.met:
+            Endings.open._disarm()  # one exception: a second one would come into what tidies up after the first
             raise KeyboardInterrupt
 
     def settle(self):

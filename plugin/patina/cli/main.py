@@ -169,6 +169,7 @@ def main(argv=None):
     with standardStreams.Streams(), interrupts.Endings() as endings:
         try:
             try:
+                endings.check()  # what came while this was imported
                 inputs.forget()
                 status = _dispatch(sys.argv[1:] if argv is None else argv)
                 sys.stdout.flush()

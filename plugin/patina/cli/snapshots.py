@@ -6,7 +6,7 @@ import signal
 import threading
 import time
 
-from patina.cli import outputs
+from patina.cli import interrupts, outputs
 from patina.cli.errors import CommandError, is_temporary
 
 SUFFIX = "_part"  # husk's
@@ -34,6 +34,7 @@ class Snapshots:
     def __enter__(self):
         if hasattr(signal, "SIGUSR1") and threading.current_thread() is threading.main_thread():
             self._before = signal.signal(signal.SIGUSR1, self._ask)
+            self._asked = interrupts.came_early(signal.SIGUSR1)
         return self
 
     def __exit__(self, *_):

@@ -15,6 +15,9 @@ def _watch(parent):
 
 
 def run(arguments):
+    from patina.cli import interrupts
+
+    interrupts.begin(arguments[1:2])
     from patina.cli import main
 
     threading.Thread(target=_watch, args=(int(arguments[0]),), daemon=True).start()

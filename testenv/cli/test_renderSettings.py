@@ -156,6 +156,31 @@ def test_all_products_are_written_and_those_that_are_alike_share_a_render(folder
     assert not np.array_equal(pixels("beauty.0001.exr"), pixels("beauty.0003.exr"))  # the ball has left
 
 
+@pytest.mark.parametrize("name", ("../victim.exr", "{folder}/../victim.exr", "link/victim.exr"))
+def test_a_stage_names_no_file_outside_of_the_folder_of_products(name, folder, capsys):
+    """An image of the user's, which somebody else's stage would replace."""
+    work, victim = folder / "work", folder / "victim.exr"
+    work.mkdir()
+    victim.write_text("precious")
+    os.symlink(folder, work / "link")
+    os.chdir(work)
+    one = name.format(folder=work)
+    flags = ["record", "../stage.usda", "--settings", "/Render/main", "--set", f"/Render/beauty.productName={one}",
+             "--frames", "1", "-w", "4", "--samples", "1", "--quiet"]
+    assert main.main(flags) == 1
+    assert capsys.readouterr().err == (f"patina: /Render/beauty names the file '{one}', which is outside of the folder {work}: "
+                                       "--outputFolder FOLDER names another folder for products, --allowOutside lets the stage "
+                                       "name any\n")
+    assert victim.read_text() == "precious" and os.listdir() == ["link"]
+    if name.startswith("../"):
+        assert main.main([*flags, "--allowOutside"]) == 0
+        assert victim.read_bytes() != b"precious" and "victim.exr" not in os.listdir()
+        flags[6 - 1] = "/Render/beauty.productName=here.exr"
+        assert main.main([*flags, "--outputFolder", "made/deep"]) == 0
+        assert set(os.listdir("made/deep")) == {"here.exr", "depth.001.exr", "other.01.exr"}
+        assert main.main([*flags, "a.exr", "--outputFolder", "made"]) == 2
+
+
 def test_a_product_has_the_pixels_of_the_flags_that_mean_the_same(folder):
     assert record("--settings", "/Render/main") == 0  # of the stage's start, whose place the names have
     assert os.path.exists("other.01.exr")

@@ -283,7 +283,7 @@ def Scope "Render"
 def test_products_have_light_paths(tmp_path):
     stage, image = tmp_path / "stage.usda", tmp_path / "product.exr"
     stage.write_text(PRODUCT.format(stage=os.path.join(SCENES, "lightRect.usda"), image=image))
-    told = patina("record", stage, "--settings", "/Render/settings")
+    told = patina("record", stage, "--settings", "/Render/settings", "--outputFolder", tmp_path)
     assert "/Render/wrong.sourceName" in told.stderr.replace(": ", ".") and "column 5" in told.stderr
     assert layer(image, "bounce").max() > layer(image, "straight").max() * 0.99 > 0.0
     assert color(image).max() > 0.0

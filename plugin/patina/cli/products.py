@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The products of a UsdRenderSettings prim as shots: those that are rendered alike share one.
 
-Names of products may hold places for the frame.
+Names of products may hold places for the frame. They lead out of the folder of products only where a flag allows it: the stage
+may be somebody else's.
 """
+import os
 from collections import OrderedDict
 
 from patina.cli import frames, recordFlags, rows, settingFlags, shot
@@ -66,12 +68,27 @@ def _shot(prim, product, arguments, time, decimals):
     if time is None and frames.has_place(image):
         raise CommandError(f"{image} has a place for frames, but the default time is rendered")
     image = frames.named(image, time, decimals)
+    if not arguments.image:
+        image = _placed(product.GetPath(), image, arguments)
     aovs, half = _aovs(prim, product)
     extra = [name for name in recordFlags.aovs_of(arguments) if name not in aovs]
     output = shot.Output(image, tuple([*aovs, *extra]), arguments.half or half)
     size = _size(prim, product, arguments)
     camera = arguments.camera or prim.target(product, "camera")
     return shot.Shot(time, [output], camera, size, _render_settings(prim, product, arguments, size))
+
+
+def _placed(product, name, arguments):
+    """:param product: path of the prim
+    :param name: of its file, as the stage has it
+    :returns: the file, by a name that is meant from the folder of products
+    :raises CommandError: where it is outside of that"""
+    file = os.path.join(arguments.outputFolder or "", name)
+    folder = os.path.realpath(arguments.outputFolder or os.curdir)
+    if not arguments.allowOutside and os.path.commonpath([folder, os.path.realpath(file)]) != folder:
+        raise CommandError(f"{product} names the file '{name}', which is outside of the folder {folder}: --outputFolder FOLDER "
+                           "names another folder for products, --allowOutside lets the stage name any")
+    return file
 
 
 def _size(prim, product, arguments):

@@ -84,6 +84,7 @@ class _Job:
             if a.denoise:
                 denoiser.prepare(self.module)
         self.settings, self.purposes = recordFlags.settings_of(a), recordFlags.purposes_of(a)
+        outputs.make_folder(a.outputFolder)
         self.shots = shots.plan(a, self.stage, prim)
         for warning in prim.warnings if prim else ():
             self.statistics.warn(*warning)

@@ -101,6 +101,11 @@ def _add_output_flags(group):
                        choices=["disabled", "sRGB", "openColorIO"],
                        help="disabled writes linear values; sRGB and openColorIO show them through the display "
                             "transform (default: openColorIO, which is sRGB unless $OCIO says otherwise)")
+    group.add_argument("--outputFolder", metavar="FOLDER",
+                       help="of products that --settings writes to their own names: names are meant from here, and it is made "
+                            "where it is missing (default: the current folder)")
+    group.add_argument("--allowOutside", action="store_true",
+                       help="write products whose names lead out of that folder, wherever the stage says")
 
 
 def _add_run_flags(group):

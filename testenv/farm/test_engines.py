@@ -3,15 +3,18 @@
 import os
 import re
 import shutil
+import stat
 import subprocess
 import time
+import urllib.error
+import urllib.request
 
 import pytest
 
 import movie
 from inProcess import patina
-from patina.cli.errors import UsageError
-from patina.farm import engines
+from patina.cli.errors import CommandError, TemporaryError, UsageError
+from patina.farm import certificates, engines
 
 FLAGS = ["--imageWidth=48", "--samples=16"]
 
@@ -51,8 +54,8 @@ def test_a_cut_movie_has_the_bits_of_one_process(shot):
     assert not movie.different(names, folder / "once", folder / "cut")
     assert sorted(os.listdir(folder / "cut")) == names, "parts and logs are gone when images are there"
     table = result.stdout.splitlines()
-    assert table[0].split() == ["worker", "host", "tasks", "seconds", "a", "task", "busy", "failed"]
-    assert re.match(r"all +6 .* 0 +in ", table[-1]), "2 frames of 2 parts and a merge"
+    assert table[0].split() == ["worker", "host", "tasks", "seconds", "a", "task", "busy", "failed", "lost"]
+    assert re.match(r"all +6 .* 0 +0 +in ", table[-1]), "2 frames of 2 parts and a merge"
     # Goes on: one image is missing, and a part of it is there; the other part is of another seed.
     before = {name: os.stat(folder / "cut" / name).st_mtime_ns for name in names}
     os.remove(folder / "cut" / names[1])
@@ -75,7 +78,7 @@ def test_what_fails_is_tried_on_others_and_told(shot):
     assert result.returncode == 1
     assert "1 of 1 images are not written" in result.stderr and "/none" in result.stderr
     assert len(result.stdout.splitlines()) == 4, "a head, two workers that it failed on, and their sum"
-    assert re.search(r"^all +0 .* 4 +in ", result.stdout, re.MULTILINE)
+    assert re.search(r"^all +0 .* 4 +0 +in ", result.stdout, re.MULTILINE)
     logs = [os.path.join(root, name) for root, _, names in os.walk(folder / "failing") for name in names]
     assert len(logs) == 4 and all("/none" in open(log, encoding="utf-8").read() for log in logs)
 
@@ -108,13 +111,79 @@ def test_the_words_of_a_queue_that_refuses_are_told(tmp_path):
     assert not (tmp_path / "a.exr.parts").exists()
 
 
+def nobody_else_comes_in(cluster):
+    """Another user of this machine finds the ports, and has no key, or one of his own. Pages that need none show nothing."""
+    import distributed
+
+    found = cluster.client.scheduler_info(n_workers=-1)["workers"]
+    addresses = [cluster._cluster.scheduler_address, *found, *(one["nanny"] for one in found.values())]
+    own = distributed.Security.temporary()
+    for address in addresses:
+        place = address.partition("://")[2]
+        assert address == f"tls://{place}"
+        for other, security in ((f"tcp://{place}", None), (f"tls://{place}", own)):
+            with pytest.raises(OSError):
+                distributed.Client(other, security=security, timeout="5s")
+    pages = [cluster._cluster.scheduler.http_server.port, *(one["services"]["dashboard"] for one in found.values())]
+    for port in pages:
+        for name in ("", "status", "info/main/workers.html", "metrics"):
+            with pytest.raises(urllib.error.HTTPError, match="404"):
+                urllib.request.urlopen(f"http://127.0.0.1:{port}/{name}", timeout=10)
+    assert cluster.dashboard() == ""
+    for one in found.values():
+        folder = os.path.dirname(os.path.dirname(one["local_directory"]))
+        assert stat.S_IMODE(os.stat(folder).st_mode) == 0o700
+
+
+def test_certificates_are_files_that_are_there(tmp_path):
+    (tmp_path / "key").write_text("")
+    every = [f"{name}={tmp_path}/key" for name in certificates.FILES]
+    assert engines.parse("dask://farm", every).address == engines.parse("tls://farm", every).address == "tls://farm:8786"
+    for engine, options, words in (("dask://farm", every[:2], "tls_client_key=FILE too"),
+                                   ("dask://farm", [*every, f"tls_ca_file={tmp_path}/none"], "there is no such file"),
+                                   ("tcp://farm", every, "with certificates write tls:// or dask://")):
+        with pytest.raises(UsageError, match=words):
+            engines.parse(engine, options)
+
+
+def test_keys_lie_in_a_folder_of_the_user_alone(tmp_path, monkeypatch):
+    with certificates.private_folder(str(tmp_path)) as folder:
+        assert stat.S_IMODE(os.stat(folder).st_mode) == 0o700
+        made = os.stat(tmp_path)
+    assert os.listdir(tmp_path) == []
+    monkeypatch.setattr(certificates.os, "stat", lambda _: made)  # as of a file system without permissions
+    os.chmod(tmp_path, 0o755)
+    made = os.lstat(tmp_path)
+    with pytest.raises(CommandError, match="keeps nothing private"), certificates.private_folder(str(tmp_path)):
+        pass
+
+
+@pytest.mark.parametrize("error, status", [(RuntimeError("Nanny failed to start worker process"), TemporaryError),
+                                           (TypeError("no such option"), CommandError)])
+def test_a_worker_that_dies_while_it_starts_may_start_the_next_time(error, status, monkeypatch):
+    pytest.importorskip("distributed")
+
+    def start(*_):
+        try:
+            raise error
+        except (RuntimeError, TypeError) as first:
+            raise RuntimeError("Nanny failed to start.") from first
+
+    monkeypatch.setattr(engines.Cluster, "_start", start)
+    with pytest.raises(CommandError, match=f"no workers of local: {error}") as told:
+        engines.Cluster(engines.parse("local:1", []), "").__enter__()
+    assert type(told.value) is status
+
+
 @pytest.mark.parametrize("forgotten", (False, True), ids=("known", "forgotten"))
-def test_workers_that_do_not_come_back_are_replaced(monkeypatch, forgotten):
+def test_workers_that_do_not_come_back_are_replaced(tmp_path, monkeypatch, forgotten):
     """A worker whose keeper is closed, too, is started by nobody else."""
     pytest.importorskip("distributed")
-    with engines.Cluster(engines.parse("local:2", [])) as cluster:
+    with engines.Cluster(engines.parse("local:2", []), str(tmp_path)) as cluster:
         cluster.client.wait_for_workers(2, timeout=60)
         local = cluster._cluster
+        if forgotten:
+            nobody_else_comes_in(cluster)
         before = set(cluster.client.scheduler_info(n_workers=-1)["workers"])
         for name, nanny in list(local.workers.items()):
             local.sync(nanny.close)

@@ -14,7 +14,7 @@ import pytest
 import _patina
 import patina
 from patina.cli.errors import CommandError, is_temporary
-from patina.farm import cut, identity, job, owner, sender, work, worker
+from patina.farm import cut, folders, identity, job, owner, sender, work, worker
 
 
 def frame(folder, tiles=2):
@@ -24,7 +24,8 @@ def frame(folder, tiles=2):
 def test_what_is_not_the_jobs_own_stays(tmp_path):
     one = frame(tmp_path)
     one.prepare("job")
-    own = ["1.part", "12.part", "2.log", "image.log", "3.20250101-101500.77.failed.log", "image.20250101-101500.7.failed.log"]
+    own = ["1.part", "12.part", "2.log", "image.log", "3.20250101-101500.77.failed.log", "image.20250101-101500.7.failed.log",
+           "image.20250101-101500.7.2.failed.log"]
     others = ["7.2.part", "stage.usda", "notes.log", "kept.failed.log", "1.part.txt"]
     for name in own + others:
         (tmp_path / "a.exr.parts" / name).write_text("")
@@ -36,6 +37,59 @@ def test_what_is_not_the_jobs_own_stays(tmp_path):
     one.leave()
     assert not os.path.exists(one.folder)
     one.forget()  # nothing is there
+
+
+@pytest.mark.parametrize("resume", [False, True])
+def test_a_link_in_the_place_of_the_parts_is_refused(tmp_path, resume):
+    other, one = tmp_path / "other", frame(tmp_path)
+    other.mkdir()
+    for name in ("1.part", "1.log", owner.NAME):
+        (other / name).write_text("{}")
+    os.symlink(other, one.folder)
+    (tmp_path / "a.exr").write_text("")  # as if --resume had only to tidy up
+    with pytest.raises(CommandError, match=f"cannot use the folder {one.folder}: it is a link; remove it"):
+        owner.check(one.folder, "job")
+    with pytest.raises(CommandError, match="it is a link"):
+        prepare("job", one, resume=resume)
+    one.job = "job"
+    for end in (one.forget, one.tidy, lambda: one.tidy_after("job"), one.leave):
+        end()
+    with pytest.raises(worker.PartFailed, match="cannot write "):
+        version(tmp_path, os.path.join(one.folder, "1.log"), "links")
+    assert sorted(os.listdir(other)) == ["1.log", "1.part", owner.NAME]
+
+
+def test_a_folder_of_somebody_else_is_refused(tmp_path, monkeypatch):
+    """But not on a file system that gives all files to one user, as those of other systems do."""
+    one = frame(tmp_path)
+    os.mkdir(one.folder)
+    (tmp_path / "a.exr.parts" / "1.part").write_text("")
+    uid = os.stat(one.folder).st_uid
+    monkeypatch.setattr(folders.os, "geteuid", lambda: uid + 1)
+    owner.check(one.folder, "job")
+    monkeypatch.setattr(folders, "_maker", lambda _: uid + 1)
+    with pytest.raises(CommandError, match=f"cannot use the folder {one.folder}: it belongs to .+; remove it"):
+        owner.check(one.folder, "job")
+    with pytest.raises(CommandError, match="it belongs to"):
+        prepare("job", one)
+    one.forget()
+    assert os.listdir(one.folder) == ["1.part"]
+
+
+@pytest.mark.parametrize("newer", [False, True])
+def test_parts_that_a_killed_job_left_behind_its_image_go(tmp_path, dead, newer):
+    """--resume looks no more at an image that is there. Newer parts are of another render that was not done."""
+    one = frame(tmp_path)
+    if owned(one, **dead)["begun"] is None:
+        pytest.skip("the system does not tell when a process began")
+    (tmp_path / "a.exr.parts" / "2.part").write_text("")
+    (tmp_path / "a.exr").write_text("")
+    begun = os.stat(tmp_path / "a.exr.parts" / "2.part").st_mtime_ns
+    os.utime(tmp_path / "a.exr", ns=(begun, begun - (1000 if newer else 0)))
+    waiting = job.Job._waiting(types.SimpleNamespace(
+        name="second", frames=[frame(tmp_path)], arguments=types.SimpleNamespace(resume=True)))
+    assert waiting == ([], [])
+    assert os.path.exists(one.folder) is newer and (tmp_path / "a.exr").exists()
 
 
 def test_an_input_among_the_parts_is_refused(tmp_path):
@@ -117,6 +171,21 @@ def test_workers_that_die_are_no_fault_of_a_part(tmp_path, losses, failures, giv
     assert len(client.errors) == given_up, "given up at once, or sent until it is done"
 
 
+def test_workers_that_go_away_are_told(tmp_path):
+    """Dask sends their tasks again by itself, so that the sender sees no failure."""
+    one = frame(tmp_path, 1)
+    client = Client({"worker": "one", "host": "here", "seconds": 1.0})
+    there = iter([{"tcp://1": {"name": "one"}, "tcp://2": {"name": "two"}}, {"tcp://3": {"name": "one"}}])
+    client.scheduler_info = lambda n_workers: {"workers": next(there)}
+    sent = sender.Sender(client, [], str(tmp_path), (), 0)
+    sent._workers()
+    sent._seen = float("-inf"), sent._seen[1]
+    sent.run([one], one.tasks(set()), lambda _: None)
+    assert sent.gone == ["one", "two"] and not sent.failed
+    assert [row.losses for row in sent.rows.values()] == [1, 1]
+    assert [line.split()[-1] for line in job.table(sent, 1.0)[1:-1]] == ["1", "1"]
+
+
 def test_a_scheduler_that_dies_ends_the_job_in_words(tmp_path):
     one = frame(tmp_path, 1)
     sent = sender.Sender(Client(None), [], str(tmp_path), (), 0)
@@ -191,7 +260,7 @@ def test_a_log_that_cannot_be_written_fails_one_part(tmp_path, monkeypatch, numb
     log = tmp_path / "1.log"
     log.mkdir()
     if number:
-        def fail(*_):
+        def fail(*_, **__):
             raise OSError(number, os.strerror(number))
 
         monkeypatch.setattr(worker.os, "remove", fail)
@@ -202,6 +271,22 @@ def test_a_log_that_cannot_be_written_fails_one_part(tmp_path, monkeypatch, numb
     sent = sender.Sender(Client(*[failed.value] * work.TRIES), [], str(tmp_path), (), 0)
     sent.run([one], one.tasks(set()), lambda _: None)
     assert [task.passing for task in sent.failed] == [passing] and not sent.lost
+
+
+def test_failures_of_one_second_keep_their_logs(tmp_path, monkeypatch):
+    monkeypatch.setattr(worker.time, "strftime", lambda _: "20250101-101500")
+    said = iter(("one", "two", "three"))
+
+    def call(*_, stdout, **__):
+        stdout.write(next(said).encode())
+        return 1
+
+    monkeypatch.setattr(worker.subprocess, "call", call)
+    for _ in range(3):
+        with pytest.raises(worker.PartFailed, match="one|two|three"):
+            worker.run([], str(tmp_path), str(tmp_path / "1.log"), ("failures", [], [], {}))
+    logs = sorted(tmp_path.iterdir())
+    assert {log.read_text() for log in logs} == {"one", "two", "three"} and all(work._OWN.fullmatch(log.name) for log in logs)
 
 
 @pytest.mark.parametrize("status", [0, 1])
@@ -291,16 +376,16 @@ def test_of_two_jobs_that_find_an_owner_dead_one_takes_over(tmp_path, dead, monk
     first = frame(tmp_path)
     if owned(first, **dead)["begun"] is None:
         pytest.skip("the system does not tell when a process began")
-    check, refused = owner.check, []
+    check, refused = owner._check, []
 
-    def another_comes_after(folder, job):
-        check(folder, job)
+    def another_comes_after(place, job):
+        check(place, job)
         if job == "second":
             with pytest.raises(CommandError, match="begins just now") as told:
-                owner.take(folder, "third")
+                owner.take(first.folder, "third")
             refused.append(told)
 
-    monkeypatch.setattr(owner, "check", another_comes_after)
+    monkeypatch.setattr(owner, "_check", another_comes_after)
     owner.take(first.folder, "second")
     assert len(refused) == 1
     with open(owner.path_of(first.folder), encoding="utf-8") as file:

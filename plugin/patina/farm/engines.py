@@ -8,16 +8,18 @@ import os
 import re
 import shlex
 import sys
+import tempfile
 import time
 from dataclasses import dataclass, field
 
-from patina.cli.errors import CommandError, UsageError
-from patina.farm import identity, pods
+from patina.cli.errors import CommandError, TemporaryError, UsageError
+from patina.farm import certificates, identity, pods
 
 QUEUES = {"slurm": "SLURMCluster", "pbs": "PBSCluster", "lsf": "LSFCluster", "sge": "SGECluster"}
 HELP = ("dask://HOST[:PORT] is a scheduler that runs; local:N starts N workers here; slurm:N, pbs:N, lsf:N and sge:N ask a "
         "queue for N jobs; k8s:N asks Kubernetes for N pods (default: local, with two cores or more for each worker)")
 PORT = 8786  # Dask's own
+_PAGE = "dashboard_address"  # where Dask's own page is
 REPLACE_SECONDS = 15.0  # so often workers are asked for in the place of those that are gone
 
 
@@ -39,7 +41,10 @@ def parse(text, options):
             raise UsageError(f"patina farm: --engine {text}: '{host}' is no host")
         host = host.rstrip("/")
         address = host if re.search(r":\d+$", host) else f"{host}:{PORT}"
-        return Engine("dask", f"{'tls' if scheme == 'tls' else 'tcp'}://{address}", 0, known)
+        secure = certificates.check(known) or scheme == "tls"
+        if secure and scheme == "tcp":
+            raise UsageError(f"patina farm: --engine {text}: with certificates write tls:// or dask://")
+        return Engine("dask", f"{'tls' if secure else 'tcp'}://{address}", 0, known)
     kind, colon, count = text.partition(":")
     if kind not in ("local", "k8s", *QUEUES) or (colon and not re.fullmatch(r"[1-9]\d{0,4}", count)):
         raise UsageError(f"patina farm: --engine {text}: there is none such ({HELP.partition(' (default')[0]})")
@@ -70,37 +75,44 @@ def threads(engine):
     return int(engine.options.get("cores", 1)) if engine.kind in QUEUES else 0
 
 
-def queue_options(engine):
-    """:returns: dict of what dask-jobqueue's class for the queue takes"""
+def queue_options(given):
+    """:param given: options of --engineOption
+    :returns: dict of what dask-jobqueue's class for the queue takes"""
+    variables = {**environment(), "DASK_DISTRIBUTED__WORKER__HTTP__ROUTES": "[]"}
     return {"cores": 1, "processes": 1, "memory": "4GiB", "python": shlex.quote(sys.executable),
-            "job_script_prologue": [f"export {name}={shlex.quote(value)}" for name, value in environment().items()],
+            "job_script_prologue": [f"export {name}={shlex.quote(value)}" for name, value in variables.items()],
             # One part at a time, which takes all of a job's cores.
-            "worker_extra_args": ["--nthreads", "1"], **engine.options}
+            "worker_extra_args": ["--nthreads", "1", "--no-dashboard"], **given}
 
 
 class Cluster:
-    """The workers of an engine, while the block lasts."""
+    """The workers of an engine, while the block lasts. Who has not the run's key finds no way to those that it starts."""
 
-    def __init__(self, engine):
-        self.engine = engine
+    def __init__(self, engine, shared):
+        """:param shared: a folder that a queue's jobs reach, too"""
+        self.engine, self._shared = engine, shared
         self._cluster = self.client = None
+        self._folders = contextlib.ExitStack()  # of keys, and of workers
         self._complaints = _Complaints()
         self._asked = float("-inf")  # when for workers
 
     def __enter__(self):
-        _quiet()
+        _configure(_PAGE in self.engine.options)
         distributed = _import("distributed", "distributed")
         try:
             if self.engine.kind == "dask":
-                self.client = distributed.Client(self.engine.address, timeout="30s", **self.engine.options)
+                security, options = certificates.of_files(distributed, self.engine.options)
+                self.client = distributed.Client(self.engine.address, **{"timeout": "30s", "security": security, **options})
             else:
                 self._cluster = self._start(distributed)
                 self._scale()
                 self.client = distributed.Client(self._cluster)
         except (OSError, RuntimeError, ValueError, TypeError) as error:
             self.__exit__()
-            place = self.engine.address or self.engine.kind
-            raise CommandError(f"no workers of {place}: {' '.join(str(error).split()) or type(error).__name__}") from error
+            place, first = self.engine.address or self.engine.kind, _first(error)
+            # Of a process that ended while it started, Dask tells no reason.
+            kind = TemporaryError if self.engine.kind == "local" and isinstance(first, RuntimeError) else CommandError
+            raise kind(f"no workers of {place}: {' '.join(str(first).split()) or type(first).__name__}") from error
         return self
 
     def __exit__(self, *_):
@@ -109,6 +121,7 @@ class Cluster:
                 # A scheduler that died does not answer, and jobs that were refused are no running ones.
                 with contextlib.suppress(OSError, RuntimeError, TimeoutError, AssertionError):
                     one.close()
+        self._folders.close()
 
     def problem(self):
         """:returns: why no worker will come, where the queue has taken no job; else an empty text"""
@@ -125,27 +138,45 @@ class Cluster:
         if time.monotonic() - self._asked >= REPLACE_SECONDS:
             self._scale()
 
+    def openness(self):
+        """:returns: who else may run programs on the workers, or an empty text for nobody"""
+        if self.engine.kind == "k8s":
+            return "Dask's operator knows no TLS: whoever reaches its scheduler can run programs in the pods (docs/farm.md)"
+        if self.engine.address.startswith("tcp:"):
+            return (f"{self.engine.address} asks for no certificate: whoever reaches it can run programs as its workers' user "
+                    "(docs/farm.md)")
+        return ""
+
     def dashboard(self):
-        """:returns: the address of Dask's own page, or an empty text: it needs bokeh"""
-        if self.engine.kind != "dask" and not importlib.util.find_spec("bokeh"):
-            return ""
-        return getattr(self.client, "dashboard_link", "") or ""
+        """:returns: the address of Dask's own page, or an empty text. Of a scheduler that is started here it must be asked for:
+            anybody may look at it"""
+        asked = self.engine.kind in ("dask", "k8s") or (_PAGE in self.engine.options and importlib.util.find_spec("bokeh"))
+        return (getattr(self.client, "dashboard_link", "") or "") if asked else ""
 
     def _start(self, distributed):
         engine = self.engine
-        if engine.kind == "local":
-            return distributed.LocalCluster(**{"n_workers": engine.workers, "threads_per_worker": 1, "processes": True,
-                                               "memory_limit": 0, "dashboard_address": "127.0.0.1:0", **engine.options})
         if engine.kind == "k8s":
             operator = _import("dask_kubernetes.operator", "dask-kubernetes")
             return operator.KubeCluster(**pods.cluster_options(operator.make_cluster_spec, engine.workers, engine.options,
                                                                environment()))
+        security = certificates.of_run(distributed)
+        options = {name: value for name, value in engine.options.items() if name != _PAGE}
+        shared = {"security": security, "silence_logs": logging.CRITICAL}
+        page = {"dashboard": _PAGE in engine.options, _PAGE: engine.options.get(_PAGE, "127.0.0.1:0")}
+        if engine.kind == "local":
+            # Dask's own choice lies at one place for all users of a machine.
+            scratch = self._folders.enter_context(certificates.private_folder(tempfile.gettempdir()))
+            return distributed.LocalCluster(**{
+                "n_workers": engine.workers, "threads_per_worker": 1, "processes": True, "memory_limit": 0,
+                "local_directory": scratch, "scheduler_kwargs": page, **shared, **options})
         jobqueue = _import("dask_jobqueue", "dask-jobqueue")
         # A queue's reason to refuse a job is told nowhere else.
         for name in ("tornado.application", "asyncio"):
             log = logging.getLogger(name)
             log.handlers, log.propagate = [self._complaints], False
-        return getattr(jobqueue, QUEUES[engine.kind])(**queue_options(engine))
+        folder = self._folders.enter_context(certificates.private_folder(options.pop("shared_temp_directory", self._shared)))
+        return getattr(jobqueue, QUEUES[engine.kind])(**{"shared_temp_directory": folder, "scheduler_options": page, **shared,
+                                                         **queue_options(options)})
 
     def _scale(self):
         self._asked = time.monotonic()
@@ -168,6 +199,13 @@ class _Complaints(logging.Handler):
             self.text = " ".join((said.rpartition("stderr:")[2].strip() or said).split())
 
 
+def _first(error):
+    """:returns: the error that an error came from"""
+    while error.__cause__ or error.__context__:
+        error = error.__cause__ or error.__context__
+    return error
+
+
 def environment():
     """:returns: dict of what a worker's Python needs to find this Patina"""
     import patina
@@ -182,12 +220,17 @@ def environment():
     return {"PYTHONPATH": os.pathsep.join(dict.fromkeys(paths)), "PYTHONSAFEPATH": "1", **kept}
 
 
-def _quiet():
-    """Dask would write of every worker that comes and goes, over the line of progress."""
+def _configure(page):
+    """Dask would write of every worker that comes and goes, over the line of progress; workers, too.
+
+    :param page: whether its scheduler answers questions of anybody"""
     with contextlib.suppress(ImportError):
         import dask
 
-        dask.config.set({"logging": {name: "critical" for name in ("distributed", "distributed.client", "distributed.nanny")}})
+        quiet = {name: "critical" for name in ("distributed", "distributed.client", "distributed.nanny")}
+        dask.config.set({"logging": quiet, "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical"})
+        if not page:
+            dask.config.set({"distributed.worker.http.routes": [], "distributed.scheduler.http.routes": []})
 
 
 def _import(name, package):

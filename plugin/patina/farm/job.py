@@ -33,7 +33,7 @@ class Job:
         folders = sorted({os.path.dirname(os.path.abspath(frame.image)) for frame in self.frames})
         for frame in self.frames:
             frame.check(files)
-        self.name = uuid.uuid4().hex
+        self.name, self.shared = uuid.uuid4().hex, folders[0]
         self.checks = (self.name, files, folders, machine, os.getcwd())
         self.progress = Progress("farm", arguments.quiet)
 
@@ -60,7 +60,9 @@ class Job:
 
     def _on_workers(self, frames, waiting, counts):
         """:returns: the Sender that did it, seconds that it took, and those of the sender for a task"""
-        with engines.Cluster(self.engine) as cluster:
+        with engines.Cluster(self.engine, self.shared) as cluster:
+            if cluster.openness():
+                self.progress.say(f"warning: {cluster.openness()}")
             self._preflight(cluster)
             self._prepare(frames)
             cost = self._sender_seconds(cluster) if counts else 0.0
@@ -77,6 +79,7 @@ class Job:
                     raise TemporaryError("interrupted; --resume goes on with what is there") from None
                 raise
             finally:
+                self._say_losses(one)
                 self.progress.clear()
             seconds = time.perf_counter() - begin
         return one, seconds, cost
@@ -86,6 +89,7 @@ class Job:
         waiting, frames = [], []
         for frame in self.frames:
             if self.arguments.resume and os.path.isfile(frame.image):
+                frame.tidy_after(self.name)
                 continue
             there = set()
             if self.arguments.resume and frame.cut.parts > 1:
@@ -142,8 +146,13 @@ class Job:
 
     def _look(self, state, cluster, frames, link):
         cluster.replace(state.present)
+        self._say_losses(state)
         text = f"{len(state.written)} of {len(frames)} frames, {state.done} of {state.total} tasks, {state.count} workers"
         self.progress.step(state.done, state.total, f"{text}, {link}" if link else text)
+
+    def _say_losses(self, state):
+        while state.gone:
+            self.progress.say(f"worker {state.gone.pop(0)} went away; what it was rendering is sent again")
 
     def _sender_seconds(self, cluster):
         """:returns: seconds that the sender and the scheduler are busy for a task: processor time where both are this process,
@@ -186,13 +195,14 @@ def table(one, seconds):
     rows = sorted(one.rows.items())
     name = max([6] + [len(worker_name) for worker_name, _ in rows])
     host = max([4] + [len(row.host) for _, row in rows])
-    lines = [f"{'worker':<{name}}  {'host':<{host}}{'tasks':>8}{'seconds':>10}{'a task':>9}{'busy':>7}{'failed':>8}"]
+    lines = [f"{'worker':<{name}}  {'host':<{host}}{'tasks':>8}{'seconds':>10}{'a task':>9}{'busy':>7}{'failed':>8}{'lost':>6}"]
 
     def line(worker_name, row, busy):
         return (f"{worker_name:<{name}}  {row.host:<{host}}{row.tasks:>8}{row.seconds:>10.1f}"
-                f"{row.seconds / max(row.tasks, 1):>9.2f}{busy:>7.0%}{row.failures:>8}")
+                f"{row.seconds / max(row.tasks, 1):>9.2f}{busy:>7.0%}{row.failures:>8}{row.losses:>6}")
 
     lines += [line(worker_name, row, row.seconds / max(seconds, 1e-9)) for worker_name, row in rows]
-    every = sender.Row("", one.done, sum(row.seconds for _, row in rows), sum(row.failures for _, row in rows))
+    every = sender.Row("", one.done, sum(row.seconds for _, row in rows), sum(row.failures for _, row in rows),
+                       sum(row.losses for _, row in rows))
     busy = every.seconds / max(seconds * len(rows), 1e-9)
     return lines + [line("all", every, busy) + f"   in {seconds:.1f} s"]

@@ -7,12 +7,11 @@ import json
 import os
 import socket
 
-from patina import inputs
 from patina.cli.errors import CommandError
+from patina.farm import folders
 
 NAME = "owner.json"
 _LONGEST = 4096  # bytes of the file
-_FLAGS = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
 
 
 def path_of(folder):
@@ -21,11 +20,15 @@ def path_of(folder):
 
 def check(folder, job):
     """:param job: a name
-    :raises CommandError: where the folder belongs to another job, which may be running"""
-    path = path_of(folder)
-    if not os.path.lexists(path):
+    :raises CommandError: where the folder is not this user's, or belongs to another job, which may be running"""
+    with contextlib.suppress(FileNotFoundError), folders.own(folder) as place:
+        _check(place, job)
+
+
+def _check(place, job):
+    if NAME not in place.names():
         return
-    found = _read(path)
+    path, found = path_of(place.path), _read(place)
     if found is None:
         raise CommandError(f"{path} does not tell whose it is; remove it if no job renders this image")
     if found["job"] != job and not _is_gone(found):
@@ -39,13 +42,13 @@ def take(folder, job):
     path = path_of(folder)
     told = json.dumps({"host": socket.gethostname(), "pid": os.getpid(), "begun": _begun(os.getpid()), "job": job})
     try:
-        with _alone(folder):
-            check(folder, job)
+        with folders.own(folder) as place, _alone(place):
+            _check(place, job)
             with contextlib.suppress(FileNotFoundError):
-                os.remove(path)
-            handle = os.open(path, _FLAGS, 0o666)
+                place.remove(NAME)
+            handle = place.new(NAME)
             try:
-                _write(handle, path, told.encode())
+                _write(handle, place, told.encode())
             finally:
                 os.close(handle)
     except (BlockingIOError, FileExistsError):
@@ -55,46 +58,42 @@ def take(folder, job):
 
 
 @contextlib.contextmanager
-def _alone(folder):
+def _alone(place):
     """Of two jobs that find the same owner gone, one takes its place. Owners of other machines are never found gone, so that a
     lock of this machine is enough; a file system without locks of folders goes without.
 
     :raises BlockingIOError: while another job takes the folder"""
-    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     try:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise
-        except OSError:
-            pass
-        yield
-    finally:
-        os.close(handle)
+        fcntl.flock(place.handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise
+    except OSError:
+        pass
+    yield  # the lock goes with the descriptor
 
 
-def _write(handle, path, data):
+def _write(handle, place, data):
     try:
         if os.write(handle, data) != len(data):
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
     except OSError:  # half of it would tell nothing, and stop every job
         with contextlib.suppress(OSError):
-            os.remove(path)
+            place.remove(NAME)
         raise
 
 
 def release(folder, job):
     """Removes the file where it is this job's."""
-    found = _read(path_of(folder))
-    if found and found["job"] == job:
-        with contextlib.suppress(OSError):
-            os.remove(path_of(folder))
+    with contextlib.suppress(CommandError, OSError), folders.own(folder) as place:
+        found = _read(place)
+        if found and found["job"] == job:
+            place.remove(NAME)
 
 
-def _read(path):
+def _read(place):
     """:returns: dict of what the file says, or None where it says nothing that can be trusted"""
     try:
-        found = json.loads(inputs.read(path, _LONGEST))
+        found = json.loads(place.read(NAME, _LONGEST))
         texts = isinstance(found["host"], str) and isinstance(found["job"], str)
         return found if texts and type(found["pid"]) is int and 0 < found["pid"] < 1 << 31 else None
     except (KeyError, OSError, RecursionError, TypeError, ValueError):

@@ -20,6 +20,7 @@ class Row:
     tasks: int = 0
     seconds: float = 0.0
     failures: int = 0
+    losses: int = 0  # times that it went away while there was something to do
 
 
 class Sender:
@@ -44,6 +45,7 @@ class Sender:
         self.rows = collections.defaultdict(Row)  # by workers' names
         self.names = {}  # worker's address -> name
         self._seen = float("-inf"), []  # when, and the workers' addresses
+        self.gone = []  # names of workers that went away, each time
         self.written = []  # frames whose images are there
         self.done = self.total = self.count = 0  # tasks, and workers
         self.times = []  # (kind, seconds) of each task
@@ -99,9 +101,17 @@ class Sender:
         """:returns: addresses of the workers that are there, as they were a moment ago"""
         if time.monotonic() - self._seen[0] > LOOK_SECONDS:
             found = self.client.scheduler_info(n_workers=-1)["workers"]
+            for address in self._seen[1]:
+                if address not in found:
+                    self._gone(address)
             self._seen = time.monotonic(), list(found)
             self.names.update((address, str(one.get("name", address))) for address, one in found.items())
         return self._seen[1]
+
+    def _gone(self, address):
+        name = self.names[address]
+        self.rows[name].losses += 1
+        self.gone.append(name)
 
     def _ended(self, task, future):
         """:returns: the task that follows: the same once more, the merge of its frame, or None"""

@@ -7,11 +7,12 @@ from dataclasses import dataclass, field
 
 from patina.cli import checkpoints
 from patina.cli.errors import CommandError
-from patina.farm import cut, identity, owner, partial
+from patina.farm import cut, folders, identity, owner, partial
 
 TRIES = 4  # of a part: the first, and three more, on other workers where there are any
 LOSSES = 16  # times that Dask gives a part up because its workers died (four of them): parts run beside workers and end none
-_OWN = re.compile(r"\d+\.part|(\d+|image)\.(\d{8}-\d{6}\.\d+\.failed\.)?log")
+_PART = r"\d+\.part"
+_OWN = re.compile(_PART + r"|(\d+|image)\.(\d{8}-\d{6}\.\d+(\.\d+)?\.failed\.)?log")
 
 
 @dataclass
@@ -76,7 +77,9 @@ class Frame:
         :param job: its name
         :raises CommandError: where it belongs to another that may be running, or cannot be made"""
         try:
-            os.makedirs(self.folder, exist_ok=True)
+            os.mkdir(self.folder)
+        except FileExistsError:
+            pass  # owner.take() looks at what it is
         except OSError as error:
             raise CommandError(f"cannot make the folder {self.folder}: {error.strerror}") from error
         owner.take(self.folder, job)
@@ -94,10 +97,28 @@ class Frame:
 
     def tidy(self):
         """Removes the parts of an image that is whole; logs of failures stay."""
-        for part in self.parts():
-            with contextlib.suppress(OSError):
-                os.remove(self.part_file(part))
+        self._remove(_PART)
         self.leave()
+
+    def tidy_after(self, job):
+        """Removes what a job has left that was killed after it had written the image. Parts that are newer than the image are
+        of another render, and stay."""
+        with contextlib.suppress(CommandError, OSError):
+            with folders.own(self.folder) as place:
+                names = [name for name in place.names() if re.fullmatch(_PART, name) or name == owner.NAME]
+                newest = max((place.changed(name) for name in names if name != owner.NAME), default=0)
+            if names and newest <= os.stat(self.image).st_mtime_ns:
+                owner.take(self.folder, job)
+                self.job = job
+                self.tidy()
+
+    def _remove(self, pattern):
+        """Removes files of the folder by their names."""
+        with contextlib.suppress(CommandError, OSError), folders.own(self.folder) as place:
+            for name in place.names():
+                if re.fullmatch(pattern, name):
+                    with contextlib.suppress(OSError):
+                        place.remove(name)
 
     def kept(self, since):
         """:param since: seconds of the clock, when the job began
@@ -115,11 +136,7 @@ class Frame:
 
     def forget(self):
         """Removes what an earlier job has left: files by the names that a job gives."""
-        with contextlib.suppress(OSError):
-            for name in os.listdir(self.folder):
-                if _OWN.fullmatch(name):
-                    with contextlib.suppress(OSError):
-                        os.remove(os.path.join(self.folder, name))
+        self._remove(_OWN)
 
     def check(self, files):
         """:param files: that the render reads

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The work of a farm's worker. Everything goes through paths that the worker shares with the sender."""
 import contextlib
+import itertools
 import os
 import socket
 import subprocess
@@ -9,7 +10,9 @@ import time
 
 from patina.cli import interrupts
 from patina.cli.errors import TEMPORARY, is_temporary
+from patina.farm import folders
 
+_TAIL = 1 << 16  # bytes of a log, at whose end the reason of a failure is
 _SIGKILL = 9  # by which the kernel ends what takes too much memory
 # Statuses of commands that may do it when they are run again.
 PASSING = (TEMPORARY, -_SIGKILL, *(-int(number) for number in interrupts.NUMBERS))
@@ -57,15 +60,53 @@ _CHILD = ("import sys; sys.path[:] = [folder for folder in sys.path if folder]; 
           "runpy.run_module('patina.farm.child', run_name='__main__', alter_sys=True)")
 
 
-def _new(path):
-    """:returns: a file that is made anew: what lies there in a shared folder, as a link or a pipe of others, is removed
-    :raises PartFailed: with the reason in one line"""
-    try:
-        if os.path.lexists(path):
-            os.remove(path)
-        return open(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666), "wb")
-    except OSError as error:
-        raise PartFailed(f"cannot write {path}: {error.strerror}", place()[2], is_temporary(error)) from error
+class _Log:
+    """The file that takes what a command prints, within the block. It is made anew: what others put in its place in a shared
+    folder, as a link or a pipe, is removed.
+
+    :raises PartFailed: with the reason in one line, where there can be none"""
+
+    def __init__(self, path):
+        self._path, self._name, self._open = path, os.path.basename(path), contextlib.ExitStack()
+
+    def __enter__(self):
+        try:
+            self._folder = self._open.enter_context(folders.opened(os.path.dirname(self._path)))
+            with contextlib.suppress(FileNotFoundError):
+                self._folder.remove(self._name)
+            self.file = self._open.enter_context(open(self._folder.new(self._name), "w+b"))
+        except OSError as error:
+            self._open.close()
+            raise PartFailed(f"cannot write {self._path}: {error.strerror}", place()[2], is_temporary(error)) from error
+        return self
+
+    def __exit__(self, *_):
+        self._open.close()
+
+    def remove(self):
+        with contextlib.suppress(OSError):  # what was asked for is done, whatever became of its log
+            self._folder.remove(self._name)
+
+    def keep(self):
+        """Gives it a name of its own, which no other failure has. :returns: its path"""
+        stem = f"{self._name[:-len('.log')]}.{time.strftime('%Y%m%d-%H%M%S')}.{os.getpid()}"
+        for number in itertools.count(1):
+            kept = stem + (f".{number}" if number > 1 else "") + ".failed.log"
+            try:
+                os.close(self._folder.new(kept))
+                self._folder.rename(self._name, kept)
+            except FileExistsError:
+                continue
+            except OSError:  # the reason counts, with its log or without
+                with contextlib.suppress(OSError):
+                    self._folder.remove(kept)
+            return os.path.join(os.path.dirname(self._path), kept)
+
+    def last_line(self):
+        """:returns: an empty text where there is none"""
+        self.file.seek(max(0, self.file.seek(0, os.SEEK_END) - _TAIL))
+        lines = [line.strip() for line in self.file.read().decode(errors="replace").splitlines() if line.strip()]
+        return lines[-1] if lines else ""
 
 
 def run(arguments, folder, log, checks, variables=None):
@@ -84,17 +125,15 @@ def run(arguments, folder, log, checks, variables=None):
     if problems:
         raise Refused(f"{name} {words(problems)}", address)
     begin = time.perf_counter()
-    with _new(log) as file:
+    with _Log(log) as kept:
         command = [sys.executable, "-c", _CHILD, str(os.getpid()), *arguments]
         environment = {name: value for name, value in {**os.environ, **(variables or {})}.items() if value is not None}
-        status = subprocess.call(command, stdin=subprocess.DEVNULL, stdout=file, stderr=file, cwd=folder, env=environment)
-    if status != 0:
-        kept = f"{log[:-len('.log')]}.{time.strftime('%Y%m%d-%H%M%S')}.{os.getpid()}.failed.log"
-        with contextlib.suppress(OSError):  # the reason counts, with its log or without
-            os.replace(log, kept)
-        raise PartFailed(f"{_reason(kept, status)} (on {name}, see {kept})", address, status in PASSING)
-    with contextlib.suppress(OSError):  # what was asked for is done, whatever became of its log
-        os.remove(log)
+        status = subprocess.call(command, stdin=subprocess.DEVNULL, stdout=kept.file, stderr=kept.file, cwd=folder,
+                                 env=environment)
+        if status != 0:
+            reason = f"killed by signal {-status}" if status < 0 else kept.last_line() or f"it ended with status {status}"
+            raise PartFailed(f"{reason} (on {name}, see {kept.keep()})", address, status in PASSING)
+        kept.remove()
     return {"worker": name, "host": host, "address": address, "seconds": time.perf_counter() - begin}
 
 
@@ -105,15 +144,6 @@ def nothing():
 def words(problems):
     """:returns: problems in one line"""
     return problems[0] + (f", and {len(problems) - 1} more" if len(problems) > 1 else "")
-
-
-def _reason(log, status):
-    lines = []
-    with contextlib.suppress(OSError), open(log, encoding="utf-8", errors="replace") as file:
-        lines = [line.strip() for line in file.read().splitlines() if line.strip()]
-    if status < 0:
-        return f"killed by signal {-status}"
-    return lines[-1] if lines else f"it ended with status {status}"
 
 
 def place():

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Folders that others may be able to write: no link is followed, and what is done there is done by descriptor, so that nobody
+puts another folder in its place in between."""
+import contextlib
+import os
+import pwd
+import stat
+import tempfile
+
+from patina.cli.errors import CommandError
+
+_NEW = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
+_READ = os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW | os.O_CLOEXEC
+
+
+class Folder:
+    """An open folder. All of its methods raise OSError."""
+
+    def __init__(self, path, handle):
+        self.path, self.handle = path, handle
+
+    def names(self):
+        return os.listdir(self.handle)
+
+    def changed(self, name):
+        """:returns: when a file was written, in nanoseconds"""
+        return os.stat(name, dir_fd=self.handle, follow_symlinks=False).st_mtime_ns
+
+    def remove(self, name):
+        os.remove(name, dir_fd=self.handle)
+
+    def rename(self, name, other):
+        os.replace(name, other, src_dir_fd=self.handle, dst_dir_fd=self.handle)
+
+    def new(self, name):
+        """:returns: a descriptor of a file that was not there"""
+        return os.open(name, _NEW, 0o666, dir_fd=self.handle)
+
+    def read(self, name, most):
+        """:returns: the first bytes of a regular file, so many at most"""
+        with open(os.open(name, _READ, dir_fd=self.handle), "rb") as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise OSError(f"{name} is no regular file")
+            return file.read(most)
+
+
+@contextlib.contextmanager
+def opened(path):
+    """Yields a Folder.
+
+    :raises OSError: where it is none, or a link"""
+    handle = os.open(path, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
+    try:
+        yield Folder(path, handle)
+    finally:
+        os.close(handle)
+
+
+@contextlib.contextmanager
+def own(path):
+    """Yields a Folder of this user's.
+
+    :raises FileNotFoundError: where there is none
+    :raises CommandError: where it is a link, something else, or somebody else's"""
+    with contextlib.ExitStack() as stack:
+        try:
+            folder = stack.enter_context(opened(path))
+        except FileNotFoundError:
+            raise
+        except OSError as error:
+            reason = "it is a link; remove it" if os.path.islink(path) else error.strerror
+            raise CommandError(f"cannot use the folder {path}: {reason}") from error
+        uid = os.fstat(folder.handle).st_uid
+        if uid != os.geteuid() and uid != _maker(folder):
+            raise CommandError(f"cannot use the folder {path}: it belongs to {_user(uid)}; remove it, or name another image")
+        yield folder
+
+
+def _maker(folder):
+    """:returns: whose a new file of the folder is, None where this process makes none there. File systems of others may give
+    all files to one user, which is then not the process's"""
+    name = next(tempfile._get_candidate_names())
+    try:
+        handle = folder.new(name)
+    except OSError:
+        return None
+    try:
+        return os.fstat(handle).st_uid
+    finally:
+        os.close(handle)
+        with contextlib.suppress(OSError):
+            folder.remove(name)
+
+
+def _user(uid):
+    try:
+        return pwd.getpwuid(uid).pw_name
+    except KeyError:
+        return f"user {uid}"

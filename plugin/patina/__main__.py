@@ -2,7 +2,7 @@
 import sys
 
 try:
-    from patina.cli import ending, interrupts
+    from patina.cli import interrupts
 
     interrupts.begin(sys.argv[1:2])
 except KeyboardInterrupt:  # before there is anything that would handle it
@@ -11,6 +11,7 @@ except KeyboardInterrupt:  # before there is anything that would handle it
 
 interrupts.hold_standard_streams()
 
+from patina.cli import ending  # noqa: E402
 from patina.cli.main import main  # noqa: E402
 
 sys.exit(ending.end(main()))

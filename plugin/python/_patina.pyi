@@ -497,6 +497,10 @@ def displays() -> list[str]:
     """
     Displays of the OCIO configuration, in its order.
     """
+def end_at_second_signal(numbers: typing.Sequence[int]) -> None:
+    """
+    Of these signals, by number, the first goes to Python's handler, and the next of any does what it does by default, even where Python hears none. To be called again after signal.signal(), which takes the signal back and begins to count anew. Signals that are ignored, or have no handler, stay so.
+    """
 def expand_material(network: Network) -> tuple[typing.Any, ...]:
     """
     The simplified graph of a material as a network of primitive nodes, and the list of warnings.

@@ -15,13 +15,13 @@ def _watch(parent):
 
 
 def run(arguments):
-    from patina.cli import interrupts
+    from patina.cli import ending, interrupts
 
     interrupts.begin(arguments[1:2])
     from patina.cli import main
 
     threading.Thread(target=_watch, args=(int(arguments[0]),), daemon=True).start()
-    return main.main(arguments[1:])
+    return ending.end(main.main(arguments[1:]))
 
 
 if __name__ == "__main__":

@@ -127,19 +127,22 @@ def page():
         what = FUZZERS[name].reads if name in FUZZERS else OTHERS[name][0]
         command = f"./patina fuzz {name} --seconds 3600 --results" if name in FUZZERS else OTHERS[name][1]
         if of is None:
-            rows.append((f"`{name}`", what, "no run is noted", "", "", *[""] * len(kinds), f"`{command}`"))
+            rows.append((f"`{name}`", what, "no run is noted", "", "", "", *[""] * len(kinds), f"`{command}`"))
             continue
         total, seconds = total + of["inputs"], seconds + of["seconds"]
         what += "".join(f": {number:,} {name}" for name, number in sorted(of["sums"].items()))
         rows.append((f"`{name}`", what, f"{of['inputs']:,}", f"{of['seconds'] / 3600:.2f}",
                      f"{of['inputs'] / max(of['seconds'], 1e-3):.2g}" if of["inputs"] < 100 * of["seconds"] else
                      f"{of['inputs'] / max(of['seconds'], 1e-3):,.0f}",
+                     "{:.0f} %".format(100 * of["lines"][0] / of["lines"][1]) if of["lines"] else "",
                      *(str(of["counts"].get(kind, 0)) for kind in kinds), f"`{command}`"))
         if name in FUZZERS and FUZZERS[name].sources:
             covered = "not measured" if not of["lines"] else f"{of['lines'][0]:,} of {of['lines'][1]:,} lines, " \
                 f"{100 * of['lines'][0] / of['lines'][1]:.0f} %"
             parsers.append((", ".join(f"`{source}`" for source in FUZZERS[name].sources), f"`{name}`", covered))
-    head = ("fuzzer", "tries", "inputs", "hours", "inputs per second", *kinds, "command")
+    head = ("fuzzer", "tries", "inputs", "hours", "inputs per second", "lines reached", *kinds, "command")
+    most = max(by_machine, key=lambda name: by_machine[name]["inputs"])
+    share = 100 * by_machine[most]["inputs"] / max(total, 1)
     mended = [(item["what"], item["by"], f"`{item['test']}`") for item in table["mended"]]
     mistakes = [(f"`{item['fuzzer']}`", item["counted"], item["was"]) for item in table["mistakes"]]
     return ["# Trust, in figures", "",
@@ -150,7 +153,11 @@ def page():
             "`./patina fuzz NAME --results` runs a fuzzer, and adds a row to `testenv/fuzz/results.json`. This page is",
             "made from that file.", "",
             "## Runs", "",
-            "The columns after *inputs per second* count inputs, not causes. All other inputs gave a result, or ended with a",
+            f"Inputs do not weigh the same: {share:.0f} % are those of `{most}`, which",
+            "take the least time. *Lines reached* is the share of [a parser's sources](#coverage-of-the-parsers) that the",
+            "kept inputs run. Where an hour reaches no new line, more inputs of the kind say little: such an hour is the aim,",
+            "and no number of inputs.", "",
+            "The columns after *lines reached* count inputs, not causes. All other inputs gave a result, or ended with a",
             "message.", "",
             *(f"- {KINDS[kind]}" for kind in kinds), "",
             *_table(head, rows), "",

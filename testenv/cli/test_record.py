@@ -52,6 +52,14 @@ def pixels(path):
     return np.array(_patina.read_image(str(path)).pixels)
 
 
+@pytest.mark.parametrize("width, aspect, height", [(960, 20.955 / 15.2908, 700), (640, 16 / 9, 360), (100, 3, 33), (2, 5, 1)])
+def test_heights_are_cut_as_usdrecord_cuts_them(width, aspect, height):
+    from patina.cli import shot, shots
+
+    made = shot.Shot(None, [], None, (width, None), {})
+    assert shots.size_of(made, {"image_aspect": aspect}, 1.0) == (width, height)
+
+
 def test_height_follows_from_the_aperture(stage, tmp_path):
     assert record(stage, tmp_path / "a.exr", "--imageWidth", 32, "--samples", 1) == 0
     assert pixels(tmp_path / "a.exr").shape == (16, 32, 4)

@@ -363,6 +363,8 @@ def test_a_data_window_of_huge_numbers_is_cut(folder):
     assert record("a.exr", "--settings", "/Render/alone", "--samples", 1) == 0
     made = image("a.exr")
     assert (made.x, made.y, made.width, made.height) == (0, 0, 24, 3)
+    told = [(w["prim"], w["input"]) for w in reported()["warnings"] if "reaches beyond the image" in w["message"]]
+    assert told == [("/Render/alone", "dataWindowNDC")]
 
 
 @pytest.mark.parametrize("ratio", ["1e7", "1e308", "1e-30", "0", "inf", "nan"])

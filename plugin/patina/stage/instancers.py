@@ -83,9 +83,9 @@ def _usable(context, schema, count):
 
 
 def _far_from_unit(quaternions):
-    array = np.asarray(quaternions, dtype=np.float64) if quaternions is not None and len(quaternions) else np.ones((1, 1))
-    lengths = np.linalg.norm(array, axis=-1) if array.ndim == 2 else np.ones(1)
-    return bool((abs(lengths - 1.0) > _UNIT).any())
+    if not type(quaternions).__name__.startswith("Quat") or not len(quaternions):
+        return False
+    return bool((abs(np.linalg.norm(np.asarray(quaternions, dtype=np.float64), axis=-1) - 1.0) > _UNIT).any())
 
 
 def _matrices(context, schema, prim, count):

@@ -72,6 +72,15 @@ void checkImagePath(const std::string& path, const std::vector<std::string>& aov
     AtomicFile probe(path);
 }
 
+/// Whether eyes are what it is for: nobody measures values after a display transform.
+static bool isShown(const std::string& path, const ImageOptions& options) {
+    const size_t dot = path.rfind('.');
+    std::string extension = dot == std::string::npos ? "" : path.substr(dot + 1);
+    for (char& c : extension)
+        c = char(std::tolower(static_cast<unsigned char>(c)));
+    return !options.raw && options.bits != 32 && extension != "hdr";
+}
+
 void writeImage(const Film& film, const std::string& path, const ImageOptions& options,
                 const Metadata& metadata) {
     checkOptions(options);
@@ -110,6 +119,8 @@ void writeImage(const Film& film, const std::string& path, const ImageOptions& o
         writeDisplayImage(coverage.data(), 1, film.width(), placement, path, options, metadata);
         return;
     }
+    if (options.outliers == Outliers::Spread && isShown(path, options) && !film.denoised())
+        spreadOutliers(film, color);
     std::vector<float> pixels(coverage.size() * 4);
     for (size_t i = 0; i < coverage.size(); ++i) {
         std::copy(&color[i * 3], &color[i * 3] + 3, &pixels[i * 4]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hdDelegate/film/film.h"
+#include "hdDelegate/film/outliers.h"
 
 #include <map>
 #include <string>
@@ -37,7 +38,10 @@ struct ImageOptions {
     std::string display, view; ///< OCIO's; empty: its defaults
     bool raw = false;          ///< no display transform: linear values are written
     bool dither = false;       ///< noise of one step before rounding, the same in every run
-    int quality = 95;          ///< of JPEG and WebP
+    /// Of images that are shown through the display transform: not of OpenEXR, nor of linear
+    /// values.
+    Outliers outliers = Outliers::Keep;
+    int quality = 95;                         ///< of JPEG and WebP
     const ColorSpaces* colorSpaces = nullptr; ///< null: ColorSpaces::shared()
 };
 

@@ -104,6 +104,12 @@ py::dict metadataTo(const Metadata& metadata) {
     return dict;
 }
 
+Outliers outliersFrom(const std::string& name) {
+    if (name == "keep") return Outliers::Keep;
+    if (name == "spread") return Outliers::Spread;
+    throw py::value_error("outliers are kept or spread: 'keep' or 'spread', not '" + name + "'");
+}
+
 ImageOptions optionsFrom(const py::dict& dict) {
     ImageOptions o;
     const std::map<std::string, std::function<void(const py::handle&)>> fields = {
@@ -124,6 +130,7 @@ ImageOptions optionsFrom(const py::dict& dict) {
         {"view", [&](auto& v) { o.view = v.template cast<std::string>(); }},
         {"raw", [&](auto& v) { o.raw = v.template cast<bool>(); }},
         {"dither", [&](auto& v) { o.dither = v.template cast<bool>(); }},
+        {"outliers", [&](auto& v) { o.outliers = outliersFrom(v.template cast<std::string>()); }},
         {"quality", [&](auto& v) { o.quality = v.template cast<int>(); }},
     };
     for (auto item : dict) {

@@ -12,7 +12,7 @@ import pytest
 
 _patina = pytest.importorskip("_patina")
 
-from patina.cli import main  # noqa: E402
+from patina.cli import main, recordFlags  # noqa: E402
 
 STAGE = """#usda 1.0
 (
@@ -87,6 +87,14 @@ def test_the_last_line_tells_what_was_made(stage, tmp_path, capsys):
     numbers = json.loads(said.out)["frames"][0]  # standard output is JSON alone
     assert f"noise {100 * numbers['estimatedError']:.2g} %" in last and "left out" in numbers["estimatedErrorIs"]
     assert record(stage, image, "-w", 16, "--samples", 1) == 0 and capsys.readouterr().err == ""  # --quiet
+
+
+def test_outliers_are_spread_unless_they_are_asked_for():
+    parser = main._Parser(prog="patina record")
+    recordFlags.add_arguments(parser)
+    for words, expected in (([], "spread"), (["--outliers", "keep"], "keep")):
+        arguments = parser.parse_args(["a.usda", "a.png", *words])
+        assert recordFlags.image_options_of(arguments)["outliers"] == expected
 
 
 def test_folders_are_made_when_asked(stage, tmp_path, capsys):

@@ -56,6 +56,28 @@ def test_arrays_are_written_through_the_display(tmp_path):
     assert np.allclose(_patina.read_image(path).pixels, 0.5, atol=1e-5)
 
 
+def test_outliers_are_spread_in_what_a_display_shows_alone(tmp_path):
+    film = _patina.Film()
+    film.reset(24, 24, [])
+    for y in range(24):
+        for x in range(24):
+            for i in range(16):  # one sample of one pixel is a thousand times too bright
+                film.add_color(x, y, [200.0 if (x, y, i) == (9, 12, 3) else 0.19 + 0.02 * ((x + 3 * y + 7 * i) % 5) / 4] * 3)
+
+    def written(name, **options):
+        path = str(tmp_path / name)
+        _patina.write_images(film, path, options)
+        return np.array(_patina.read_image(path).pixels)[..., 0]
+
+    kept, spread = written("kept.png", outliers="keep"), written("spread.png", outliers="spread")
+    assert kept.argmax() == 12 * 24 + 9 and kept.max() == 1.0 and spread.max() < 0.6
+    assert np.array_equal(written("plain.png"), kept)  # who says nothing measures
+    for name, options in (("a.exr", {}), ("a.hdr", {}), ("a.tif", {"bits": 32}), ("b.png", {"raw": True})):
+        assert np.array_equal(written("spread" + name, outliers="spread", **options), written("kept" + name, **options)), name
+    with pytest.raises(ValueError, match="keep"):
+        written("a.png", outliers="median")
+
+
 def test_checkpoints_continue_a_film(film, tmp_path):
     path = str(tmp_path / "a.checkpoint")
     film.resume_token = "scene"

@@ -14,6 +14,7 @@ ALL_AOVS = tuple(name for row in rows.read("hdDelegate/film/aovs.def", "AOV") if
                  for name in row.words["all"] or [row.values[0]])
 LIGHT_AOVS = tuple(row.values[0] for row in rows.read("hdDelegate/film/aovs.def", "AOV")
                    if "paths" in row.words or row.values[0] == "shadow")
+OUTLIERS = ("keep", "spread")
 LARGEST_SIZE = 65536
 MAX_PIXELS = 1 << 28
 _SETTINGS_HELP = ("take camera, resolution, products, AOVs, purposes and `patina:` settings from this UsdRenderSettings prim; "
@@ -95,6 +96,10 @@ def _add_output_flags(group):
                        help="OpenEXR: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab (default: zip)")
     group.add_argument("--bits", type=int, default=8, choices=[8, 16, 32],
                        help="bits per channel of PNG and TIFF (default: 8; 32: TIFF with linear floats)")
+    group.add_argument("--outliers", default="spread", choices=OUTLIERS, metavar="NAME",
+                       help="pixels that a few very bright samples have decided (fireflies), in images that a display shows: "
+                            "spread gives their light to the pixels around, so that the picture's mean stays; keep shows them. "
+                            "OpenEXR and linear values always keep them (default: spread)")
     group.add_argument("--display", default="", metavar="NAME", help="OCIO display (default: sRGB, or that of $OCIO)")
     group.add_argument("--view", default="", metavar="NAME", help="OCIO view (default: the display's first)")
     group.add_argument("--colorCorrectionMode", "-color", default="openColorIO", metavar="MODE",
@@ -179,7 +184,7 @@ def image_options_of(arguments):
     options = {"half": arguments.half, "compression": arguments.compression, "bits": arguments.bits,
                "display": arguments.display, "view": arguments.view, "pixel_aspect_ratio": arguments.pixelAspectRatio,
                "raw": arguments.colorCorrectionMode == "disabled",
-               "aovs": ["color", "alpha"] + aovs_of(arguments)}
+               "outliers": arguments.outliers, "aovs": ["color", "alpha"] + aovs_of(arguments)}
     if arguments.dataWindow:
         options["data_window"] = arguments.dataWindow
     return options

@@ -5,7 +5,7 @@ products with their AOVs (products.py), and render settings by the names `patina
 import argparse
 import math
 
-from patina.cli import compiled, settingFlags
+from patina.cli import compiled, recordFlags, settingFlags
 from patina.cli.errors import CommandError
 
 STAGE = "stage"  # --settings stage: the one that the stage's own metadata names
@@ -168,6 +168,12 @@ def _setting(merged, prim, name, key, value):
         return
     if key == "denoise":
         merged.denoise = bool(value)
+        return
+    if key == "outliers":
+        if value not in recordFlags.OUTLIERS:
+            prim.warn(prim.path, name, f"{value} is not allowed; the setting keeps its value")
+        else:
+            merged.outliers = value
         return
     row = settingFlags.table().get(key)
     if row is None or "label" not in row.words:

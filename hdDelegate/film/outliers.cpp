@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/film/outliers.h"
+
+#include "hdDelegate/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace patina {
+
+namespace {
+
+constexpr float brighter = 1.3f;       // than the second brightest neighbour
+constexpr float neighbourNoise = 3.0f; // standard errors of the neighbours, which chance explains
+constexpr float ownNoise = 4.0f;       // and of the pixel itself
+constexpr float share = 0.05f;         // of the light around that a pixel may get in addition
+constexpr int passes = 2; // of two outliers side by side the second shows when the first is gone
+constexpr int smallest = 2, largest = 32; // radius of the area, in pixels
+
+float luminanceOf(const float* c) {
+    return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+}
+
+struct Neighbours {
+    int count = 0;
+    float second = -std::numeric_limits<float>::max(); ///< luminance of the second brightest
+    float mean[3] = {0, 0, 0};                         ///< colour of all but the brightest
+    float variance = 0.0f; ///< of the mean luminance of one of these, on average
+};
+
+class Picture {
+public:
+    Picture(const Film& film, const std::vector<float>& color, const std::vector<char>& removed)
+        : _film(film), _color(color), _removed(removed), _width(film.width()),
+          _height(film.height()) {}
+
+    float luminance(int x, int y) const { return luminanceOf(at(x, y)); }
+    const float* at(int x, int y) const {
+        return &_color[(size_t(y) * size_t(_width) + size_t(x)) * 3];
+    }
+
+    Neighbours around(int x, int y) const {
+        struct One {
+            int x, y;
+            float luminance;
+        };
+        Neighbours result;
+        int noisy = 0;
+        const auto add = [&](const One& one) {
+            result.second = std::max(result.second, one.luminance);
+            for (int c = 0; c < 3; ++c)
+                result.mean[c] += at(one.x, one.y)[c];
+            if (isRemoved(one.x, one.y)) return;
+            result.variance += _film.varianceOfMean(one.x, one.y);
+            ++noisy;
+        };
+        One brightest{};
+        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, _height - 1); ++v)
+            for (int u = std::max(x - 1, 0); u <= std::min(x + 1, _width - 1); ++u) {
+                if ((u == x && v == y) || !_film.sampleCount(u, v)) continue;
+                One one{u, v, luminance(u, v)};
+                if (result.count++ == 0 || one.luminance > brightest.luminance)
+                    std::swap(one, brightest);
+                if (result.count > 1) add(one);
+            }
+        for (float& value : result.mean)
+            value /= float(std::max(result.count - 1, 1));
+        result.variance /= float(std::max(noisy, 1));
+        return result;
+    }
+
+    bool isOutlier(int x, int y, const Neighbours& around) const {
+        if (around.count < 3 || _film.sampleCount(x, y) < 2 || isRemoved(x, y)) return false;
+        const float own = luminance(x, y), excess = own - luminanceOf(around.mean);
+        return own > brighter * around.second &&
+               excess > neighbourNoise * std::sqrt(around.variance) &&
+               excess < ownNoise * std::sqrt(_film.varianceOfMean(x, y));
+    }
+
+private:
+    bool isRemoved(int x, int y) const { return _removed[size_t(y) * size_t(_width) + size_t(x)]; }
+
+    const Film& _film;
+    const std::vector<float>& _color;
+    const std::vector<char>& _removed;
+    int _width, _height;
+};
+
+} // namespace
+
+int spreadOutliers(const Film& film, std::vector<float>& color) {
+    struct Outlier {
+        int x, y;
+        float mean[3], excess[3];
+    };
+    const int width = film.width(), height = film.height();
+    std::vector<char> removed(size_t(width) * size_t(height), 0);
+    const auto pixel = [&](int x, int y) {
+        return &color[(size_t(y) * size_t(width) + size_t(x)) * 3];
+    };
+    std::vector<Outlier> outliers;
+    for (int pass = 0; pass < passes; ++pass) {
+        std::vector<std::vector<Outlier>> rows(static_cast<size_t>(height));
+        const Picture picture(film, color, removed);
+        parallelFor(0, height, [&](int y) {
+            for (int x = 0; x < width; ++x) {
+                const Neighbours around = picture.around(x, y);
+                if (!picture.isOutlier(x, y, around)) continue;
+                Outlier found{x, y, {}, {}};
+                for (int c = 0; c < 3; ++c) {
+                    found.mean[c] = around.mean[c];
+                    found.excess[c] = picture.at(x, y)[c] - around.mean[c];
+                }
+                rows[size_t(y)].push_back(found);
+            }
+        });
+        for (const auto& row : rows)
+            for (const Outlier& found : row) {
+                std::copy(found.mean, found.mean + 3, pixel(found.x, found.y));
+                removed[size_t(found.y) * size_t(width) + size_t(found.x)] = 1;
+                outliers.push_back(found);
+            }
+    }
+    // In proportion to what is there without outliers, not to what others have added.
+    const std::vector<float> before = outliers.empty() ? std::vector<float>() : color;
+    const auto weight = [&](int x, int y) {
+        const float* c = &before[(size_t(y) * size_t(width) + size_t(x)) * 3];
+        return film.sampleCount(x, y) ? std::max(luminanceOf(c), 0.0f) : 0.0f;
+    };
+    for (const Outlier& found : outliers) {
+        const float excess = luminanceOf(found.excess);
+        const float around = std::max(luminanceOf(found.mean), 1e-4f);
+        const int radius =
+            std::clamp(int(0.5f * std::sqrt(excess / (share * around))), smallest, largest);
+        const int left = std::max(found.x - radius, 0), top = std::max(found.y - radius, 0);
+        const int right = std::min(found.x + radius, width - 1);
+        const int bottom = std::min(found.y + radius, height - 1);
+        double sum = 0.0;
+        for (int y = top; y <= bottom; ++y)
+            for (int x = left; x <= right; ++x)
+                sum += weight(x, y);
+        if (!(sum > 0.0)) { // nothing is there that could carry it
+            for (int c = 0; c < 3; ++c)
+                pixel(found.x, found.y)[c] += found.excess[c];
+            continue;
+        }
+        for (int y = top; y <= bottom; ++y)
+            for (int x = left; x <= right; ++x)
+                for (int c = 0; c < 3; ++c)
+                    pixel(x, y)[c] += float(found.excess[c] * weight(x, y) / sum);
+    }
+    return int(outliers.size());
+}
+
+} // namespace patina

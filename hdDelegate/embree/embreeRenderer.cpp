@@ -18,8 +18,10 @@ std::unique_ptr<Renderer> makeRenderer(const std::string& backend) {
 }
 
 void EmbreeRenderer::publish(const TileSchedule& schedule) {
+    const TileSchedule::Outlook outlook = schedule.outlook();
     report([&](RenderProgress& progress) {
-        reportFraction(progress, schedule.fraction(), schedule.samplesDone());
+        reportSamples(progress, outlook.taken, outlook.needed, schedule.samplesDone());
+        progress.noise = outlook.error;
         progress.statistics["rays"] = double(_rays + _shadowRays);
         progress.statistics["shadowRays"] = double(_shadowRays);
         progress.statistics["paths"] = double(_paths);
@@ -267,7 +269,9 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     const std::unique_ptr<CausticCasters> glass = casters(sampled, camera, aovs);
     _photonPass.reset();
     TileSchedule schedule(*_film, sampled);
-    beginSampling();
+    beginSampling(schedule.outlook().taken);
+    report(
+        [&](RenderProgress& progress) { progress.noiseWanted = std::max(sampled.tolerance, 0.0); });
     bool haveImage = schedule.samplesDone() > 0; // the time limit never leaves holes
     if (!glass) showBlocks(integrator, schedule, arena);
     if (!waitWhilePaused()) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hdDelegate/film/film.h"
+#include "hdDelegate/film/relativeError.h"
 #include "hdDelegate/film/tiles.h"
 #include "hdDelegate/scene/settings.h"
 
@@ -12,9 +13,11 @@ namespace patina {
 /// Decides which tile takes how many samples next.
 ///
 /// Every tile steps through the same sample counts (film/relativeError.h). At some of them its own
-/// pixels decide whether it goes on. So neither threads, nor the order of tiles, nor an
-/// interruption changes a finished image. A part of a cut frame that begins later does not know the
-/// samples before it. It takes all of its own, and the tiles decide when parts are merged
+/// pixels decide whether it goes on, and all tiles together whether the image is done: it is as
+/// soon as its mean error is within the tolerance, though noisy tiles are still above. So neither
+/// threads, nor the order of tiles, nor an interruption changes a finished image. A part of a cut
+/// frame does not know the other tiles, nor one that begins later the samples before it. It goes on
+/// until each of its tiles is within the tolerance, and the whole decides when parts are merged
 /// (film/partial.h).
 class TileSchedule {
 public:
@@ -24,30 +27,37 @@ public:
     /// The sample count that a tile should reach next; 0 when it has enough. One thread may ask for
     /// one tile at a time.
     int target(int tile) const;
-    /// Tiles that have not reached the next step of the slowest tile.
+    /// Tiles that have not reached the next step of the slowest tile; none when the image is done.
     std::vector<int> pending() const;
-    /// 0..1: samples taken over samples that may be needed.
-    double fraction() const;
     int samplesDone() const; ///< of the tile with the fewest, since RenderSettings::sampleBegin
 
-    /// Of a tile's pixels, as of film/relativeError.h.
-    double relativeError(const Tile& tile) const;
+    /// How far the image is. While samples are looked at for their error, what is needed follows
+    /// from it: noise falls with the root of the number of samples.
+    struct Outlook {
+        double taken = 0.0;  ///< samples, mean over the pixels
+        double needed = 0.0; ///< likewise, of those that are left
+        double error = -1.0; ///< relative error by noise so far; below 0: not looked at
+    };
+    Outlook outlook() const;
 
     /// Samples that all pixels of a tile have.
     int count(int tile) const;
 
 private:
-    /// The result of looking at a tile.
+    /// What a tile told when it was looked at.
     struct ErrorCheck {
         int samples = 0; ///< that it had then
-        bool isEnough = false;
+        ErrorSums sums;
     };
 
+    const ErrorSums& errorOf(int tile, int samples) const;
     bool isEnough(int tile, int samples) const;
+    bool isDone() const;
 
     const Film& _film;
     int _begin, _samples, _minSamples;
     double _tolerance;
+    bool _isWhole; ///< all tiles of the image, from the first sample on
     std::vector<Tile> _tiles;
     mutable std::vector<ErrorCheck> _errorChecks; ///< beside _tiles
 };

@@ -136,6 +136,9 @@ public:
     /// after each power of two samples and the one before, half of it from the latest. Few numbers,
     /// so that it is right in the mean over some pixels only. 0 with fewer than two samples.
     float deviationOfMean(int x, int y) const { return deviationOfMean(pixel(x, y)); }
+    /// As deviationOfMean() was after the largest power of two samples below those of now; 0 of
+    /// one.
+    float deviationBefore(int x, int y) const { return pixel(x, y).deviationBefore; }
     float luminance(int x, int y) const; ///< Rec.709
 
     /// Resolved pixels of any AOV (also color, alpha, sampleCount, variance, and color.noisy where

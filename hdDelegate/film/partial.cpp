@@ -2,18 +2,21 @@
 #include "hdDelegate/film/partial.h"
 
 #include "hdDelegate/film/filmStream.h"
-#include "hdDelegate/film/relativeError.h"
 #include "base/limits.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
+#include <memory>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace patina {
 
 namespace {
 
-constexpr FilmFileKind partial = {"part", {'P', 'a', 't', 'i', 'n', 'a', 'P', 'T'}, 1};
+constexpr FilmFileKind partial = {"part", {'P', 'a', 't', 'i', 'n', 'a', 'P', 'T'}, 2};
 constexpr uint32_t longestDescription = 1u << 28;
 
 bool inside(const Tile& t, int width, int height) {
@@ -65,6 +68,7 @@ bool hasEnough(const Film& film, const Tile& tile, uint32_t first, const Partial
                 " samples are there, and the next are from " + std::to_string(first) + " on");
         return true;
     }
+    if (merge.samples > 0 && int(samples) >= merge.samples) return true;
     if (!(merge.tolerance > 0.0) || int(samples) < std::max(2, merge.minSamples) ||
         !isErrorStep(int(samples)))
         return false;
@@ -73,9 +77,40 @@ bool hasEnough(const Film& film, const Tile& tile, uint32_t first, const Partial
 
 } // namespace
 
+void PartialErrors::add(const Tile& tile, int samples, const ErrorSums& sums) {
+    _tiles[{tile.x0, tile.y0}][samples] = sums;
+}
+
+int PartialErrors::samplesOfWhole(double tolerance, int minSamples) const {
+    std::set<int> counts;
+    int last = 0;
+    for (const auto& tile : _tiles)
+        for (const auto& [samples, sums] : tile.second) {
+            if (samples >= std::max(2, minSamples) && isImageErrorStep(samples))
+                counts.insert(samples);
+            last = std::max(last, samples);
+        }
+    for (const int samples : counts) {
+        if (samples == last) break;
+        ErrorSums all;
+        bool isKnown = true;
+        for (const auto& tile : _tiles) {
+            auto found = tile.second.find(samples);
+            if (found == tile.second.end()) {
+                found = std::prev(tile.second.end()); // it stopped before
+                isKnown = isKnown && found->first < samples;
+            }
+            all += found->second;
+        }
+        if (isKnown && relativeError(all) <= tolerance) return samples;
+    }
+    return 0;
+}
+
 PartialWriter::PartialWriter(const std::string& file, const std::string& description,
                              std::vector<Tile> tiles)
-    : _target(file), _file(partial, _target.temporaryPath(), file), _tiles(std::move(tiles)) {
+    : _target(file), _file(partial, _target.temporaryPath(), file), _tiles(std::move(tiles)),
+      _counts(_tiles.size(), UINT32_MAX) {
     _file.text(description);
     _file.value(uint32_t(_tiles.size()));
     for (const Tile& tile : _tiles)
@@ -88,10 +123,19 @@ void PartialWriter::add(const Film& film) {
     for (const Tile& tile : _tiles)
         if (!inside(tile, film.width(), film.height()))
             throw std::invalid_argument("a tile lies outside of the film");
+    std::vector<uint32_t> grown;
+    for (size_t i = 0; i < _tiles.size(); ++i) {
+        const uint32_t count = film.nextSample(_tiles[i].x1 - 1, _tiles[i].y1 - 1);
+        if (count != _counts[i]) grown.push_back(uint32_t(i));
+        _counts[i] = count;
+    }
     _file.value(uint32_t(1));
     FilmStream::writeHeader(_file, film);
-    for (const Tile& tile : _tiles)
-        FilmStream::writePixels(_file, film, tile);
+    _file.value(uint32_t(grown.size()));
+    for (uint32_t i : grown)
+        _file.value(i);
+    for (uint32_t i : grown)
+        FilmStream::writePixels(_file, film, _tiles[i]);
 }
 
 void PartialWriter::commit(const std::string& report) {
@@ -118,23 +162,61 @@ std::string mergePartial(Film& film, const std::string& file, const PartialMerge
         tile = reader.value<Tile>();
     reader.checkSeal();
 
-    Film part;
+    // Of films from sample 0 on that hold each other, the last that is wanted.
+    std::vector<std::unique_ptr<Film>> whole(tiles.size());
+    uint64_t dropped = 0;
+    const auto takeWhole = [&] {
+        for (size_t i = 0; i < tiles.size(); ++i)
+            if (whole[i]) {
+                if (!hasEnough(film, tiles[i], 0, merge))
+                    FilmStream::append(film, *whole[i], tiles[i]);
+                whole[i].reset();
+            }
+        FilmStream::addDropped(film, std::exchange(dropped, 0));
+    };
     while (reader.value<uint32_t>() != 0) {
         const FilmStream::Header header = FilmStream::readHeader(reader);
         if (film.width() == 0) begin(film, header, tiles, reader);
         if (header.width != film.width() || header.height != film.height() ||
             !sameAovs(header.aovs, film.aovs()))
             reader.fail("it is of another size or other AOVs than the parts before");
-        FilmStream::addDropped(film, header.dropped);
-        FilmStream::addNames(film, header);
-        for (const Tile& tile : tiles) {
+        if (header.firstSample > 0) takeWhole();
+        const uint32_t written = reader.value<uint32_t>();
+        if (written > tiles.size()) reader.fail("it is damaged");
+        std::vector<uint32_t> indices(written);
+        for (uint32_t& i : indices)
+            if ((i = reader.value<uint32_t>()) >= tiles.size()) reader.fail("it is damaged");
+        bool isWanted = merge.samples == 0;
+        for (const uint32_t i : indices) {
+            const Tile& tile = tiles[i];
             if (!inside(tile, film.width(), film.height())) reader.fail("it is damaged");
-            part.reset(tile.x1 - tile.x0, tile.y1 - tile.y0, header.aovs);
-            FilmStream::readPixels(reader, part, {0, 0, part.width(), part.height()});
-            if (!hasEnough(film, tile, header.firstSample, merge))
-                FilmStream::append(film, part, tile);
+            auto part = std::make_unique<Film>();
+            part->reset(tile.x1 - tile.x0, tile.y1 - tile.y0, header.aovs);
+            FilmStream::readPixels(reader, *part, {0, 0, part->width(), part->height()});
+            const int samples = int(header.firstSample + part->sampleCount(0, 0));
+            if (header.firstSample == 0) {
+                if (merge.errors)
+                    merge.errors->add(tile, samples,
+                                      errorSums(*part, 0, 0, part->width(), part->height()));
+                if (whole[i] && merge.samples > 0 && samples > merge.samples) continue;
+                whole[i] = std::move(part);
+                isWanted = true;
+            } else if (!hasEnough(film, tile, header.firstSample, merge)) {
+                FilmStream::append(film, *part, tile);
+                isWanted = true;
+                if (merge.errors)
+                    merge.errors->add(tile, samples,
+                                      errorSums(film, tile.x0, tile.y0, tile.x1, tile.y1));
+            }
         }
+        if (!isWanted) continue;
+        FilmStream::addNames(film, header);
+        if (header.firstSample == 0)
+            dropped = header.dropped;
+        else
+            FilmStream::addDropped(film, header.dropped);
     }
+    takeWhole();
     const std::string report = reader.text(longestDescription);
     reader.finish();
     return report;

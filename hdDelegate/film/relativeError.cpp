@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/relativeError.h"
+#include "hdDelegate/film/spans.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,41 +36,90 @@ struct Grid {
 
 } // namespace
 
-double relativeError(const Film& film, int x0, int y0, int x1, int y1, PixelNoise noise) {
-    if (x1 <= x0 || y1 <= y0) return 0.0;
+ErrorSums& ErrorSums::operator+=(const ErrorSums& other) {
+    pixels += other.pixels;
+    around += other.around;
+    own += other.own;
+    ownSquares += other.ownSquares;
+    before += other.before;
+    growth += other.growth;
+    plain += other.plain;
+    return *this;
+}
+
+ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
+    ErrorSums sums;
+    if (x1 <= x0 || y1 <= y0) return sums;
     Grid luminance(x1 - x0, y1 - y0), squares(x1 - x0, y1 - y0);
     for (int y = y0; y < y1; ++y)
         for (int x = x0; x < x1; ++x)
             luminance.at(x - x0, y - y0) = std::abs(film.luminance(x, y));
-    double plain = 0.0; // by the variance of samples that would be independent
     for (int y = y0; y < y1; ++y)
         for (int x = x0; x < x1; ++x) {
+            if (!film.sampleCount(x, y)) continue;
             // A pixel that has found too much light must not count less for that.
             const double l = luminance.at(x - x0, y - y0);
             const double scale = std::min(l, luminance.meanAround(x - x0, y - y0)) + minLuminance;
             const double deviation = double(film.deviationOfMean(x, y)) / scale;
             squares.at(x - x0, y - y0) = float(std::min(deviation * deviation, 1e30));
-            plain += std::sqrt(double(film.varianceOfMean(x, y))) / scale;
+            const int n = int(film.sampleCount(x, y));
+            int part = 1;
+            while (part < n - part)
+                part *= 2;
+            sums.before += double(film.deviationBefore(x, y)) / scale;
+            sums.growth += double(n) / part;
+            sums.plain += std::sqrt(double(film.varianceOfMean(x, y))) / scale;
         }
     // Light that few samples find is noise of the pixels around, too, that have found none of it.
-    double sum = 0.0, own = 0.0, ownSquares = 0.0;
     for (int y = 0; y < squares.height; ++y)
         for (int x = 0; x < squares.width; ++x) {
-            sum += std::sqrt(squares.meanAround(x, y));
-            own += std::sqrt(double(squares.at(x, y)));
-            ownSquares += double(squares.at(x, y));
+            if (!film.sampleCount(x0 + x, y0 + y)) continue;
+            sums.pixels += 1.0;
+            sums.around += std::sqrt(squares.meanAround(x, y));
+            sums.own += std::sqrt(double(squares.at(x, y)));
+            sums.ownSquares += double(squares.at(x, y));
         }
+    return sums;
+}
+
+/// The true error over the estimate by changes between means, where errors fall faster than with
+/// the root of the number of samples. With the error e(n) ~ n^-a a mean changes from p samples to n
+/// by e(p)^2 - e(n)^2 = e(n)^2 ((n/p)^2a - 1). Film::deviationOfMean() has 2a = 1, in the change
+/// and in what remains of the estimates before, e(p)^2 p / n.
+static double spreadCorrection(const ErrorSums& sums) {
+    constexpr double steepest = 1.3; // of 2a that is believed
+    const double growth = sums.growth / sums.pixels;
+    if (!(sums.before > 0.0) || !(sums.own > 0.0) || !(growth > 1.0)) return 1.0;
+    const double ratio = (sums.own * sums.own) / (sums.before * sums.before);
+    // Less what chance may have made of it, at two standard errors of each mean.
+    const double slope = (-std::log(ratio) - 2.0 / std::sqrt(sums.pixels)) / std::log(growth);
+    const double power = std::clamp(slope, 1.0, steepest);
+    const double octave = std::pow(2.0, -power); // of e^2
+    const double before = (2.0 * octave - 0.5) / (1.0 - octave);
+    const double remains = sums.before * sums.before / growth;
+    const double change = std::max(2.0 * sums.own * sums.own - remains, 0.0);
+    const double corrected = change * (growth - 1.0) / (std::pow(growth, power) - 1.0) +
+                             remains * std::pow(growth, 1.0 - power) * before;
+    return std::sqrt(std::min(corrected / (2.0 * sums.own * sums.own), 1.0));
+}
+
+double relativeError(const ErrorSums& sums, PixelNoise noise) {
+    if (!(sums.pixels > 0.0)) return 0.0;
     // One standard error more, since a few pixels may have most of the noise, and each knows its
     // own badly: of the pixels themselves, for means around are no more numbers than these.
-    const double pixels = double(squares.values.size()), ownMean = own / pixels;
+    const double pixels = sums.pixels, ownMean = sums.own / pixels;
     const double spread =
-        pixels > 1.0 ? std::max(ownSquares / pixels - ownMean * ownMean, 0.0) / (pixels - 1.0)
-                     : ownSquares;
-    double error = sum / pixels + std::sqrt(spread);
+        pixels > 1.0 ? std::max(sums.ownSquares / pixels - ownMean * ownMean, 0.0) / (pixels - 1.0)
+                     : sums.ownSquares;
+    double error = spreadCorrection(sums) * (sums.around / pixels) + std::sqrt(spread);
     // Pixels that are wrong together may agree by chance: then half of the plain error is the
     // least.
-    if (noise == PixelNoise::Shared) error = std::max(error, 0.5 * plain / pixels);
+    if (noise == PixelNoise::Shared) error = std::max(error, 0.5 * sums.plain / pixels);
     return meanOfHalfNormal * error;
+}
+
+double relativeError(const Film& film, int x0, int y0, int x1, int y1, PixelNoise noise) {
+    return relativeError(errorSums(film, x0, y0, x1, y1), noise);
 }
 
 int nextStep(int samples, int maximum) {
@@ -83,6 +133,10 @@ int nextStep(int samples, int maximum) {
 bool isErrorStep(int samples) {
     const auto powerOfTwo = [](int n) { return n > 0 && (n & (n - 1)) == 0; };
     return powerOfTwo(samples) || (samples > 32 && samples % 3 == 0 && powerOfTwo(samples / 3));
+}
+
+bool isImageErrorStep(int samples) {
+    return samples > 0 && isSpanEnd(uint32_t(samples));
 }
 
 } // namespace patina

@@ -19,9 +19,13 @@ std::string annotation(const HdPatinaDelegateState& state, const RenderProgress&
     if (state.stopped()) return "Stopped";
     if (state.paused()) return "Paused";
     if (p.converged)
-        return TfStringPrintf("Done: %d samples in %.1f s", p.samplesDone, p.secondsRendering);
+        return TfStringPrintf("Done: %.0f samples in %.1f s", p.samplesMean, p.secondsRendering);
     if (p.samplesDone == 0) return "Preparing";
-    return TfStringPrintf("%d samples, %.1f s left", p.samplesDone, p.secondsLeft);
+    const std::string noise =
+        p.noiseWanted > 0.0 && p.noise >= 0.0
+            ? TfStringPrintf("noise %.2g %% of %.2g %%, ", 100.0 * p.noise, 100.0 * p.noiseWanted)
+            : "";
+    return noise + TfStringPrintf("%.0f samples, %.1f s left", p.samplesMean, p.secondsLeft);
 }
 
 } // namespace

@@ -213,10 +213,13 @@ private:
         _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
         reportBuild();
         _passes->writeAovs(*_raster, camera, aovs, *_film);
-        beginSampling();
         const int* window = _passes->window();
         const bool empty = window[2] < window[0] || window[3] < window[1];
         const uint32_t taken = empty ? 0 : _film->sampleCount(window[2], window[3]);
+        beginSampling(double(taken));
+        _noise = -1.0;
+        const double goal = _raster->plan().noise(_settings.tolerance);
+        report([&](RenderProgress& progress) { progress.noiseWanted = std::max(goal, 0.0); });
         const auto moveTo = [&](const RasterSample& sample) {
             _raster->moveTo(camera.timeCode(sample.time));
         };
@@ -245,7 +248,9 @@ private:
                 _passes->drawMattes(*_raster, mattes, camera, sample, _settings.seed, *_film);
             checkDevice(int(i) + 1);
             report([&](RenderProgress& progress) {
-                reportFraction(progress, double(i + 1) / double(samples), int(i) + 1);
+                reportSamples(progress, i + 1.0, passesNeeded(int(i) + 1, int(samples)),
+                              int(i) + 1);
+                progress.noise = _noise;
                 reportSeconds(progress.statistics);
             });
             if (i + 1 < samples) notify();
@@ -324,13 +329,24 @@ private:
     }
 
     /// Whether the image of so many passes meets the tolerance.
-    bool isGoodEnough(int passes) const {
+    bool isGoodEnough(int passes) {
         if (!(_settings.tolerance > 0.0) || passes < std::max(2, _settings.minSamples) ||
             !isErrorStep(passes))
             return false;
         const int* w = _passes->window();
-        return relativeError(*_film, w[0], w[1], w[2] + 1, w[3] + 1, PixelNoise::Shared) <=
-               _raster->plan().noise(_settings.tolerance);
+        _noise = relativeError(*_film, w[0], w[1], w[2] + 1, w[3] + 1, PixelNoise::Shared);
+        _noiseAt = passes;
+        return _noise <= _raster->plan().noise(_settings.tolerance);
+    }
+
+    /// Noise falls with the root of the number of passes.
+    double passesNeeded(int passes, int most) const {
+        double end = most;
+        if (_noise >= 0.0) {
+            const double over = _noise / _raster->plan().noise(_settings.tolerance);
+            end = std::clamp(_noiseAt * over * over, double(passes), end);
+        }
+        return std::max(0.0, end - passes);
     }
 
     void reportSeconds(std::map<std::string, double>& to) const {
@@ -372,8 +388,10 @@ private:
     std::string _deviceFailure;                 ///< what was made with the context is gone
     static constexpr double earlySeconds = 0.5; ///< between early images
     static constexpr double cacheSeconds = 0.3; ///< for programs that the driver's cache holds
-    bool _compiling = false;                    ///< notifyCompiling() was called in this render
-    size_t _readyAtStart = 0;                   ///< programs
+    double _noise = -1.0;     ///< relative error when it was looked at last; below 0: never
+    int _noiseAt = 0;         ///< passes that there were then
+    bool _compiling = false;  ///< notifyCompiling() was called in this render
+    size_t _readyAtStart = 0; ///< programs
     Clock::time_point _compileStarted;
 };
 

@@ -5,6 +5,7 @@
 #include "hdDelegate/renderer/startedThread.h"
 #include "hdDelegate/scene/instancerCheck.h"
 
+#include <algorithm>
 #include <new>
 #include <stdexcept>
 
@@ -212,12 +213,26 @@ void RenderLoop::maybeCheckpoint() {
     _lastCheckpoint = Clock::now();
 }
 
-void RenderLoop::reportFraction(RenderProgress& progress, double fraction, int samplesDone) const {
-    progress.fraction = fraction;
+void RenderLoop::reportSamples(RenderProgress& progress, double taken, double needed,
+                               int samplesDone) {
+    progress.samplesMean = taken;
     progress.samplesDone = samplesDone;
-    progress.secondsRendering = secondsSince(_sampling);
-    progress.secondsLeft =
-        fraction > 0.0 ? progress.secondsRendering * (1.0 - fraction) / fraction : 0.0;
+    const double now = progress.secondsRendering = secondsSince(_sampling);
+    _marks.push_back({now, taken});
+    // Half of what this start has taken is enough to measure by.
+    const double half = 0.5 * (_marks.front().samples + taken);
+    const auto mark = std::find_if(_marks.rbegin(), _marks.rend(),
+                                   [&](const Mark& m) { return m.samples <= half; });
+    const double perSample = mark != _marks.rend() && taken > mark->samples
+                                 ? (now - mark->seconds) / (taken - mark->samples)
+                                 : 0.0;
+    progress.fraction = taken > 0.0 ? taken / (taken + needed) : 0.0;
+    progress.secondsLeft = perSample * needed;
+    if (!(_settings.seconds > 0.0)) return;
+    const double limit = std::max(0.0, _settings.seconds - secondsSince(_started));
+    if (limit >= progress.secondsLeft) return;
+    progress.secondsLeft = limit;
+    progress.fraction = std::max(progress.fraction, 1.0 - limit / _settings.seconds);
 }
 
 } // namespace patina

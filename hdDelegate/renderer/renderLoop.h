@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 namespace patina {
 
@@ -65,14 +66,19 @@ protected:
         return _settings.seconds > 0.0 && secondsSince(_started) > _settings.seconds;
     }
     /// Building is over: checkpoints count their time from here on.
-    void beginSampling() { _sampling = _lastCheckpoint = Clock::now(); }
+    /// @param taken samples of a pixel that a checkpoint held, mean over the image
+    void beginSampling(double taken) {
+        _sampling = _lastCheckpoint = Clock::now();
+        _marks = {{0.0, taken}};
+    }
     /// Changes what progress() tells, under the lock.
     template <class Change> void report(const Change& change) {
         const std::lock_guard<std::mutex> lock(_mutex);
         change(_progress);
     }
-    /// Of the samples: fraction, times and the estimate that follows from both.
-    void reportFraction(RenderProgress& progress, double fraction, int samplesDone) const;
+    /// Between passes: the samples of a pixel, means over the image. Fraction and times follow from
+    /// them. The time left is that of samples as dear as the latest ones: those of noisy tiles are.
+    void reportSamples(RenderProgress& progress, double taken, double needed, int samplesDone);
     /// Notifies the listener of the film, unless it did just now.
     void notify();
     double secondsSinceStart() const { return secondsSince(_started); }
@@ -105,6 +111,10 @@ private:
     bool _deviceFailed = false;
     bool _notified = false; ///< the listener knows of this render
     Clock::time_point _started, _sampling, _lastCheckpoint, _lastNotified;
+    struct Mark {
+        double seconds, samples;
+    };
+    std::vector<Mark> _marks; ///< since sampling began, as reportSamples() was told
 };
 
 } // namespace patina

@@ -15,8 +15,11 @@ namespace patina {
 
 /// Statistics of a render. Times in seconds.
 struct RenderProgress {
-    double fraction = 0.0; ///< 0..1 of the expected work
-    int samplesDone = 0;   ///< full passes over the image, in samples per pixel
+    double fraction = 0.0;    ///< 0..1 of the expected work
+    int samplesDone = 0;      ///< full passes over the image, in samples per pixel
+    double samplesMean = 0.0; ///< samples of a pixel, mean over the image
+    double noise = -1.0;      ///< relative error by noise so far; below 0: nobody has looked
+    double noiseWanted = 0.0; ///< that ends the render; 0: none
     double secondsRendering = 0.0;
     double secondsLeft = 0.0; ///< estimate
     bool converged = false;   ///< all samples taken, tolerance or time limit reached

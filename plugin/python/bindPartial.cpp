@@ -54,13 +54,22 @@ void bindPartial(py::module_& m) {
              py::call_guard<py::gil_scoped_release>());
     m.def("partial_description", &partialDescription, py::arg("file"),
           "The origin of a part, as PartialWriter was told.");
+    py::class_<PartialErrors>(m, "PartialErrors",
+                              "What the tiles of parts told of their error while they were merged.")
+        .def(py::init<>())
+        .def(
+            "samples_of_whole", &PartialErrors::samplesOfWhole, py::arg("tolerance"),
+            py::arg("min_samples"),
+            "The count at which the image rendered at once was done; 0: no tile went on after it.");
     m.def(
         "merge_partial",
-        [](Film& film, const std::string& file, double tolerance, int minSamples) {
+        [](Film& film, const std::string& file, double tolerance, int minSamples, int samples,
+           PartialErrors* errors) {
             mustRest(film);
-            return mergePartial(film, file, {tolerance, minSamples});
+            return mergePartial(film, file, {tolerance, minSamples, samples, errors});
         },
         py::arg("film"), py::arg("file"), py::arg("tolerance") = 0.0, py::arg("min_samples") = 0,
+        py::arg("samples") = 0, py::arg("errors") = py::none(),
         py::call_guard<py::gil_scoped_release>(),
         "Adds a part behind the samples that a film has, and returns its report. Of the same tiles "
         "the parts come in the order of their samples.");

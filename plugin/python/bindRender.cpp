@@ -96,6 +96,9 @@ py::dict progress(const Renderer& renderer) {
     py::dict dict;
     dict["fraction"] = p.fraction;
     dict["samplesDone"] = p.samplesDone;
+    dict["samplesMean"] = p.samplesMean;
+    dict["noise"] = p.noise;
+    dict["noiseWanted"] = p.noiseWanted;
     dict["secondsRendering"] = p.secondsRendering;
     dict["secondsLeft"] = p.secondsLeft;
     dict["converged"] = p.converged;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 using namespace patina;
 
 namespace {
@@ -54,7 +56,8 @@ TEST(TileSchedule, OnlyTheSlowestTilesArePending) {
     EXPECT_EQ(schedule.pending(), std::vector<int>{0});
     fill(film, schedule.tiles()[0], 4, true);
     EXPECT_TRUE(schedule.pending().empty());
-    EXPECT_DOUBLE_EQ(schedule.fraction(), 1.0);
+    EXPECT_DOUBLE_EQ(schedule.outlook().needed, 0.0);
+    EXPECT_DOUBLE_EQ(schedule.outlook().taken, 4.0);
 }
 
 TEST(TileSchedule, QuietTilesStopAtTheToleranceAndNoisyOnesDoNot) {
@@ -96,4 +99,80 @@ TEST(TileSchedule, ATileThatWasBrokenOffGoesOn) {
     fill(film, schedule.tiles()[0], 32, false); // would be enough
     fill(film, {0, 0, 4, 1}, 48, false);        // but its first row has gone on
     EXPECT_EQ(schedule.target(0), 48);
+}
+
+namespace {
+
+/// Samples of luminance 1 with noise that is independent and uniform, +- `noise`.
+void fillRandomly(Film& film, const Tile& tile, int samples, float noise) {
+    for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x)
+            for (int i = int(film.sampleCount(x, y)); i < samples; ++i) {
+                std::minstd_rand random(uint32_t(y * 1000 + x) * 2654435761u + uint32_t(i) * 97u);
+                random.discard(4);
+                std::uniform_real_distribution<float> u(-noise, noise);
+                film.addColor(x, y, glm::vec3(1.0f + u(random)), 1.0f);
+            }
+}
+
+/// Two tiles, of which the right one has all the noise: 0.9 / sqrt(3 n), times 0.8 as the mean of
+/// absolute values: 0.104 after 16 samples.
+struct HalfNoisy : testing::Test {
+    Film film;
+    RenderSettings settings;
+
+    HalfNoisy() {
+        film.reset(32, 16, {});
+        settings.samples = 1024;
+        settings.minSamples = 16;
+    }
+    void fill(int samples) {
+        const TileSchedule tiles(film, settings);
+        fillRandomly(film, tiles.tiles()[0], 16, 0.0f);
+        fillRandomly(film, tiles.tiles()[1], samples, 0.9f);
+    }
+};
+
+} // namespace
+
+TEST_F(HalfNoisy, TheImageIsDoneWhenItsMeanErrorIsWithinTheTolerance) {
+    fill(16);
+    settings.tolerance = 0.08; // the tile has more, both together half
+    const TileSchedule schedule(film, settings);
+    EXPECT_EQ(schedule.target(1), 32) << "the tile alone is not done";
+    EXPECT_TRUE(schedule.pending().empty());
+    settings.tolerance = 0.03;
+    EXPECT_EQ(TileSchedule(film, settings).pending(), std::vector<int>{1});
+}
+
+TEST_F(HalfNoisy, APartOfTheFrameDoesNotKnowTheOtherTiles) {
+    fill(16);
+    settings.tolerance = 0.08;
+    settings.tileParts = 2;
+    int waiting = 0;
+    for (settings.tilePart = 0; settings.tilePart < 2; ++settings.tilePart)
+        waiting += int(TileSchedule(film, settings).pending().size());
+    EXPECT_EQ(waiting, 1) << "the noisy tile goes on, in whichever part it is";
+}
+
+TEST_F(HalfNoisy, AnImageThatWasToldToGoOnGoesOn) {
+    fill(16);
+    settings.tolerance = 0.08;
+    const Tile noisy = TileSchedule(film, settings).tiles()[1];
+    fillRandomly(film, {noisy.x0, noisy.y0, noisy.x1, noisy.y0 + 1}, 32, 0.9f);
+    EXPECT_EQ(TileSchedule(film, settings).pending(), std::vector<int>{1});
+}
+
+TEST_F(HalfNoisy, TheOutlookFollowsFromTheSlopeOfTheNoise) {
+    fill(64);
+    settings.tolerance = 0.01;
+    const TileSchedule::Outlook now = TileSchedule(film, settings).outlook();
+    EXPECT_DOUBLE_EQ(now.taken, 40.0);
+    // Half of the pixels have noise e, the image e / 2: it is done with (e / 2 / tolerance)^2 times
+    // the samples of the noisy tile.
+    const double over = now.error / settings.tolerance;
+    ASSERT_GT(over, 1.5);
+    EXPECT_NEAR(now.needed, 0.5 * 64.0 * (over * over - 1.0), 0.05 * now.needed);
+    settings.tolerance = 0.0;
+    EXPECT_DOUBLE_EQ(TileSchedule(film, settings).outlook().needed, 0.5 * (960.0 + 1008.0));
 }

@@ -171,6 +171,53 @@ TEST(Partial, TruncationsAndFlippedBytesAreNoticed) {
     EXPECT_EQ(film.sampleCount(1, 1), 1u);
 }
 
+/// Parts of two tiles each, which kept a film of 16 samples and one of 32, as far as they went on.
+TEST(Partial, TheWholeMayBeDoneBeforeItsParts) {
+    const TempFolder temp;
+    const std::vector<Tile> tiles = tilesOf(width, height, {0, 0, width - 1, height - 1});
+    const auto add = [&](Film& film, const Tile& tile, int samples) {
+        for (int y = tile.y0; y < tile.y1; ++y)
+            for (int x = tile.x0; x < tile.x1; ++x)
+                for (int i = int(film.sampleCount(x, y)); i < samples; ++i) {
+                    std::minstd_rand random(uint32_t(i * 7919 + y * 131 + x + 1));
+                    random.discard(3);
+                    std::uniform_real_distribution<float> u(0.5f, 1.5f);
+                    film.addColor(x, y, glm::vec3(tile.x0 ? u(random) : 1.0f), 1.0f);
+                }
+    };
+    Film whole; // one column of tiles is quiet, the others are noisy
+    whole.reset(width, height, {});
+    for (const Tile& tile : tiles)
+        add(whole, tile, 16);
+    const double error = relativeError(whole, 0, 0, width, height);
+    std::vector<std::string> files;
+    for (int part = 0; part < 2; ++part) {
+        const std::vector<Tile> own = tilesOfPart(tiles, part, 2);
+        files.push_back(temp.file(part ? "b.part" : "a.part"));
+        PartialWriter writer(files.back(), "", own);
+        Film film;
+        film.reset(width, height, {});
+        for (int samples : {16, 32}) {
+            for (const Tile& tile : own)
+                add(film, tile, tile.x0 ? samples : 16);
+            writer.add(film);
+        }
+        writer.commit("");
+    }
+    PartialErrors errors;
+    Film far;
+    for (const std::string& file : files)
+        mergePartial(far, file, {0.01, 16, 0, &errors});
+    EXPECT_EQ(far.sampleCount(width - 1, 0), 32u);
+    EXPECT_EQ(errors.samplesOfWhole(1.2 * error, 16), 16);
+    EXPECT_EQ(errors.samplesOfWhole(1.2 * error, 17), 0) << "the least";
+    EXPECT_EQ(errors.samplesOfWhole(0.01, 16), 0) << "they went on for good reason";
+    Film merged;
+    for (const std::string& file : files)
+        mergePartial(merged, file, {0.01, 16, 16, nullptr});
+    EXPECT_EQ(bytesOf(merged, temp), bytesOf(whole, temp));
+}
+
 TEST(Partial, ASmallFileAsksForNoImageBeyondALimit) {
     TempFolder temp;
     const std::string file = temp.file("a.part");

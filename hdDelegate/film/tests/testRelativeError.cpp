@@ -124,6 +124,24 @@ TEST(RelativeError, StepsDoubleAndThenGrowByAShareOfWhatIsThere) {
     EXPECT_EQ(nextStep(1 << 20, 1 << 22), (1 << 20) + 256);
 }
 
+TEST(RelativeError, SumsOfRectanglesMakeThatOfAll) {
+    // Without borders between pixels that are averaged: columns of one pixel's width each.
+    Film film;
+    film.reset(4, 1, {});
+    for (int i = 0; i < 48; ++i)
+        for (int x = 0; x < 3; ++x) // the last has no samples
+            film.addColor(x, 0, glm::vec3(float((i * 7 + x * 5) % 11)), 1.0f);
+    ErrorSums sums;
+    for (int x = 0; x < 4; ++x)
+        sums += errorSums(film, x, 0, x + 1, 1);
+    EXPECT_EQ(sums.pixels, 3.0);
+    double mean = 0.0;
+    for (int x = 0; x < 3; ++x)
+        mean += film.deviationOfMean(x, 0) / (film.luminance(x, 0) + 0.01) / 3.0;
+    EXPECT_GE(relativeError(sums), 0.7978 * mean);
+    EXPECT_EQ(relativeError(ErrorSums()), 0.0);
+}
+
 TEST(RelativeError, EveryLookIsAStep) {
     int looks = 0;
     for (int count = 0; count < 100000;) {

@@ -26,14 +26,12 @@ def _merge(module, parts, image, threads):
     arguments.image, arguments.threads, arguments.denoise = image, threads, first.denoise
     if arguments.denoise:
         denoiser.prepare(module)
-    film, reports, least = module.Film(), [], int(first.settings["minSamples"])
-    for description in parts.in_order():
-        try:
-            reports.append(_report(module.merge_partial(film, description.file, description.noise, least)))
-        except RuntimeError as error:
-            raise CommandError(str(error)) from error
-        except partial.FOREIGN as error:
-            raise partial.foreign(description.file) from error
+    errors = module.PartialErrors() if first.noise > 0.0 else None
+    film, reports = _film(module, parts, 0, errors)
+    if errors:  # the whole was done before tiles that did not know it
+        limit = errors.samples_of_whole(first.noise, int(first.settings["minSamples"]))
+        if limit:
+            film, reports = _film(module, parts, limit, None)
     merged = _MergedStatistics(arguments, first.frame, image, reports)
     merged.rendered(_state(reports), film)
     if arguments.denoise:
@@ -45,6 +43,23 @@ def _merge(module, parts, image, threads):
         raise CommandError(str(error)) from error
     merged.end_frame()
     return merged
+
+
+def _film(module, parts, samples, errors):
+    """:param samples: the most of a tile; 0: all
+    :param errors: _patina.PartialErrors that is told those of the tiles, or None
+    :returns: the film of all parts, and their reports"""
+    film, reports = module.Film(), []
+    for description in parts.in_order():
+        try:
+            text = module.merge_partial(film, description.file, description.noise, int(description.settings["minSamples"]),
+                                        samples, errors)
+            reports.append(_report(text))
+        except RuntimeError as error:
+            raise CommandError(str(error)) from error
+        except partial.FOREIGN as error:
+            raise partial.foreign(description.file) from error
+    return film, reports
 
 
 def _report(text):

@@ -54,7 +54,7 @@ def of(job):
             begin, end = ranges[part.range_index]
             self._writer, self._sums = None, {}
             for first, last in self._pieces(settings, begin, end):
-                film.resume_token = ""
+                film.resume_token = "part" if first == 0 and self._writer else ""  # it goes on
                 super()._render(film, shot, dict(
                     settings, sampleBegin=first, sampleEnd=last, tilePart=part.tile_group, tileParts=part.cut.tiles), camera)
                 if self.interrupted:
@@ -64,12 +64,17 @@ def of(job):
                         self.arguments.partial, self._description(shot, settings, camera, (begin, end)), tiles)
                 self._writer.add(film)
                 partial.add_up(self._sums, self.renderer.progress()["statistics"])
+                if film.resolve("sampleCount").max() < last - first:
+                    break  # all tiles have stopped
 
         def _pieces(self, settings, begin, end):
-            """:returns: ranges of samples that each make a film: sums from the first sample on, or of one span"""
+            """:returns: ranges of samples that each make a film: sums from the first sample on, or of one span. With a
+            tolerance the image at once may be done wherever a span ends: so far a film from the first sample on is kept"""
+            ends = [one for one in self.module.span_ends(settings["samples"]) if begin < one <= end]
             if begin == 0:
-                return [(begin, end)]
-            cuts = [begin] + [one for one in self.module.span_ends(settings["samples"]) if begin < one <= end]
+                least = max(2, settings["minSamples"]) if settings["tolerance"] > 0.0 else end
+                return [(0, one) for one in ends if least <= one < end] + [(0, end)]
+            cuts = [begin] + ends
             return list(zip(cuts, cuts[1:]))
 
         def _description(self, shot, settings, camera, samples):

@@ -115,6 +115,17 @@ assert len(first) == 1 and programs() == first, "the parent's program is gone"
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.parametrize("dies", ("raise MemoryError", "sys.stderr.write('std::bad_alloc'); sys.stderr.flush(); os.abort()"))
+def test_a_stage_that_takes_all_memory_is_refused(stage, monkeypatch, dies):
+    """The limit reaches OpenUSD's own threads, too, which end the process."""
+    monkeypatch.setattr(tryStage.limits, "value", lambda _: 0)
+    monkeypatch.setattr(tryStage, "_READ", tryStage._READ.replace(
+        "stage = Usd.Stage.Open(sys.argv[1])",
+        f"assert resource.getrlimit(resource.RLIMIT_DATA)[0] == int(sys.argv[2]); {dies}"))
+    gigabytes = tryStage._MEMORY * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 1e9
+    assert tryStage.why_trial_fails(str(stage)) == f"takes more than {gigabytes:.1f} GB of memory"
+
+
 def test_a_broken_stage_gets_its_own_message(tmp_path):
     stage = tmp_path / "broken.usda"
     stage.write_text("#usda 1.0\ndef {\n")

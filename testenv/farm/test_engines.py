@@ -146,6 +146,12 @@ def test_certificates_are_files_that_are_there(tmp_path):
             engines.parse(engine, options)
 
 
+def test_which_certificates_are_missing_is_told():
+    pytest.importorskip("distributed")
+    with pytest.raises(CommandError, match="tls://127.0.0.1:9: name certificates: --engineOption tls_ca_file=FILE"):
+        engines.Cluster(engines.parse("tls://127.0.0.1:9", []), "").__enter__()
+
+
 def test_keys_lie_in_a_folder_of_the_user_alone(tmp_path, monkeypatch):
     with certificates.private_folder(str(tmp_path)) as folder:
         assert stat.S_IMODE(os.stat(folder).st_mode) == 0o700

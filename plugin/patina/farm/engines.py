@@ -112,7 +112,10 @@ class Cluster:
             place, first = self.engine.address or self.engine.kind, _first(error)
             # Of a process that ended while it started, Dask tells no reason.
             kind = TemporaryError if self.engine.kind == "local" and isinstance(first, RuntimeError) else CommandError
-            raise kind(f"no workers of {place}: {' '.join(str(first).split()) or type(first).__name__}") from error
+            said = " ".join(str(first).split()) or type(first).__name__
+            if "ssl_context" in said:  # Dask has no certificates, neither from options nor from its configuration
+                said = "name certificates: " + " ".join(f"--engineOption {name}=FILE" for name in certificates.FILES)
+            raise kind(f"no workers of {place}: {said}") from error
         return self
 
     def __exit__(self, *_):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renders frames and parts of them on many workers, by Dask (`distributed`) or as an Open Job Description.
 
-  patina farm shot.usda shot.####.exr --frames 1:240 --cut 4x4 --engine dask://farm --samples 256
+  patina farm shot.usda shot.####.exr --frames 1:240 --cut 4x4 --engine tls://farm --samples 256
   patina farm shot.usda shot.####.exr --frames 1:240 --engine slurm:16 --engineOption queue=render --engineOption cores=8
   patina farm shot.usda shot.####.exr --frames 1:240 --cut 4 --write-job job.yaml
 
@@ -31,7 +31,8 @@ def add_arguments(parser):
     parser.add_argument("--engine", default="local", metavar="ENGINE", help=engines.HELP)
     parser.add_argument("--engineOption", action="append", default=[], metavar="NAME=VALUE",
                         help="an option of Dask's class for the engine (repeatable), such as queue=render, cores=8, "
-                             "memory=32GiB, walltime=04:00:00; for pods image=studio/patina and volumes=CLAIM:/PATH")
+                             "memory=32GiB, walltime=04:00:00; for pods image=studio/patina and volumes=CLAIM:/PATH; for "
+                             "tls:// tls_ca_file, tls_client_cert and tls_client_key")
     parser.add_argument("--threads", type=int, default=None, metavar="N",
                         help="threads of a task (default: the worker's cores)")
     parser.add_argument("--resume", action="store_true", help="leave out images that are there, and parts that fit")

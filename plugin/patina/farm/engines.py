@@ -16,8 +16,9 @@ from patina.cli.errors import CommandError, TemporaryError, UsageError
 from patina.farm import certificates, identity, pods
 
 QUEUES = {"slurm": "SLURMCluster", "pbs": "PBSCluster", "lsf": "LSFCluster", "sge": "SGECluster"}
-HELP = ("dask://HOST[:PORT] is a scheduler that runs; local:N starts N workers here; slurm:N, pbs:N, lsf:N and sge:N ask a "
-        "queue for N jobs; k8s:N asks Kubernetes for N pods (default: local, with two cores or more for each worker)")
+HELP = ("tls://HOST[:PORT] is a Dask scheduler that runs, dask:// one that asks for no certificates; local:N starts "
+        "N workers here; slurm:N, pbs:N, lsf:N and sge:N ask a queue for N jobs; k8s:N asks Kubernetes for N pods "
+        "(default: local, with two cores or more for each worker)")
 PORT = 8786  # Dask's own
 _PAGE = "dashboard_address"  # where Dask's own page is
 REPLACE_SECONDS = 15.0  # so often workers are asked for in the place of those that are gone

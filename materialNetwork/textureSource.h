@@ -19,8 +19,9 @@ struct TextureRequest {
     std::string
         colorSpace; ///< "auto", "raw"/"none", "sRGB"/"srgb_texture", "lin_rec709", or any OCIO name
     TextureWrap wrapS = TextureWrap::Repeat, wrapT = TextureWrap::Repeat;
-    bool nearest = false;    ///< no filtering at all
-    std::string prim, input; ///< for messages
+    bool ownWrapS = false, ownWrapT = false; ///< the file's own mode, if it has one, comes first
+    bool nearest = false;                    ///< no filtering at all
+    std::string prim, input;                 ///< for messages
 };
 
 /// How a texture lies in the plane, for back ends with samplers of their own.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/image/imageTextureLoad.h"
 
+#include "hdDelegate/image/fileColorSpace.h"
 #include "hdDelegate/image/fileTiles.h"
 #include "hdDelegate/image/texelConversion.h"
 #include "hdDelegate/image/textureFile.h"
@@ -15,20 +16,16 @@ namespace patina {
 
 namespace {
 
-// OIIO says sRGB of every PNG and JPEG, tagged or not; so only a claim of linearity is news.
-std::string automaticSpace(const OIIO::ImageSpec& s) {
-    std::string claim = s.get_string_attribute("oiio:ColorSpace");
-    bool linear = OIIO::Strutil::iequals(claim, "linear") ||
-                  s.get_float_attribute("oiio:Gamma", 0.0f) == 1.0f;
-    bool eightBitColor = s.format == OIIO::TypeUInt8 && s.nchannels >= 3;
-    return eightBitColor && !linear ? "srgb_texture" : "raw";
-}
-
 /// A transform that must exist: an unknown name becomes data, with a warning.
-ColorTransformPtr transformOf(const ImageSource& source, const OIIO::ImageSpec& spec,
+ColorTransformPtr transformOf(const ImageSource& source, const TextureFile& file,
                               const ColorSpaces& colorSpaces, Diagnostics& diagnostics) {
-    std::string name = OIIO::Strutil::iequals(source.colorSpace, "auto") ? automaticSpace(spec)
-                                                                         : source.colorSpace;
+    std::string name = source.colorSpace, unread;
+    if (OIIO::Strutil::iequals(name, "auto"))
+        name =
+            automaticSpace(source.file, file.input->format_name(), file.spec, colorSpaces, unread);
+    if (!unread.empty())
+        diagnostics.warn(source.prim, source.input,
+                         "texture '" + source.file + "': " + unread + "; '" + name + "' is used");
     ColorTransformPtr transform = colorSpaces.toRendering(name);
     if (transform) return transform;
     diagnostics.warn(source.prim, source.input,
@@ -78,6 +75,7 @@ ImageHeader headerOf(const TextureFile& image) {
     header.problem = image.error;
     header.layout = image.layout;
     if (!image.input) return header;
+    header.wrapModes = image.spec.get_string_attribute("wrapmodes");
     header.bytes = image.bytes();
     // A file of some hundred kB can ask for any number of texels.
     const uint64_t each = TexelFormat(image.layout, texelTypeOf(image.spec)).texelBytes();
@@ -117,7 +115,7 @@ std::shared_ptr<ImageTexture> loadImageTexture(const ImageSource& source,
     if (!header.tooLarge.empty()) return unreadable(source, header.tooLarge, diagnostics);
     const OIIO::ImageSpec& spec = file.spec;
     TexelConversion conversion(file.layout, texelTypeOf(spec),
-                               transformOf(source, spec, colorSpaces, diagnostics));
+                               transformOf(source, file, colorSpaces, diagnostics));
     const bool maybeHalf = isRadiance(file);
     const bool direct = conversion.format().type == conversion.fileType() && !maybeHalf;
     const size_t fileTexel = TexelFormat(file.layout, conversion.fileType()).texelBytes();
@@ -178,7 +176,7 @@ std::shared_ptr<ImageTexture> loadImageTexture(const ImageSource& source,
         buffer.reset();
         if (std::shared_ptr<ImageTexture> grey = texture->asGrey(file.levels))
             texture = std::move(grey);
-        texture->buildPyramid(file.levels);
+        if (!source.finestOnly) texture->buildPyramid(file.levels);
     });
     return texture;
 } catch (const std::bad_alloc&) {
@@ -192,7 +190,7 @@ std::shared_ptr<ImageTexture> openTiledTexture(const ImageSource& source,
     TextureFile file(source.file);
     if (!file.input) return unreadable(source, file.error, diagnostics);
     TexelConversion conversion(file.layout, texelTypeOf(file.spec),
-                               transformOf(source, file.spec, colorSpaces, diagnostics));
+                               transformOf(source, file, colorSpaces, diagnostics));
     if (isRadiance(file)) {
         std::string error;
         const bool small = fitsHalf(file, error);

@@ -18,6 +18,7 @@ struct ImageSource {
     std::string file;
     std::string colorSpace = "auto";
     std::string prim, input;
+    bool finestOnly = false; ///< coarser levels are not made, and not to be sampled
 };
 
 /// What a file's header says.
@@ -25,15 +26,15 @@ struct ImageHeader {
     std::string problem;  ///< in one line why it cannot be read; empty: nothing is known against it
     std::string tooLarge; ///< why it cannot be read whole; empty: it can
     TexelLayout layout = TexelLayout::Rgb;
-    uint64_t bytes = 0; ///< of all levels, about
+    uint64_t bytes = 0;    ///< of all levels, about
+    std::string wrapModes; ///< of OpenEXR and TIFF, as `maketx` writes them: "black,periodic"
 };
 ImageHeader probeImage(const std::string& file);
 
 /// Reads any format of OIIO into a mip pyramid in linear Rec.709. 8-bit files stay 8-bit where
 /// their colour space works channel by channel; 16-bit data stays 16-bit; half stays half. Colour
 /// whose three channels are equal everywhere is kept as grey.
-/// Colour space "auto" is that of UsdUVTexture: 8-bit RGB and RGBA are sRGB unless the file says
-/// that it is linear; everything else is data.
+/// Colour space "auto" is what the file says, see automaticSpace().
 /// Alpha is neither decoded nor multiplied in or out. Of more than four channels the first three
 /// (and a fourth named A) are used. NaN and infinite texels become 0, with a warning.
 /// @returns null after a warning when the file cannot be read

@@ -65,6 +65,28 @@ std::vector<int> existingTiles(const std::string& pattern) {
     return tiles;
 }
 
+/// Replaces the modes of a request that are the file's business by what the file says.
+/// @param modes "black", "clamp,mirror", as OpenImageIO names them; others leave the request's
+void takeOwnModes(const std::string& modes, TextureRequest& request) {
+    static const std::map<std::string, TextureWrap> names = {
+        {"black", TextureWrap::Black},
+        {"clamp", TextureWrap::Clamp},
+        {"mirror", TextureWrap::Mirror},
+        {"periodic", TextureWrap::Repeat},
+        {"repeat", TextureWrap::Repeat},
+        {"periodic_pow2", TextureWrap::Repeat},
+        {"periodic_sharedborder", TextureWrap::Repeat}};
+    const size_t comma = modes.find(',');
+    const auto take = [&](std::string name, TextureWrap& to) {
+        name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
+        const auto found = names.find(name);
+        if (found != names.end()) to = found->second;
+    };
+    if (request.ownWrapS) take(modes.substr(0, comma), request.wrapS);
+    if (request.ownWrapT)
+        take(comma == std::string::npos ? modes : modes.substr(comma + 1), request.wrapT);
+}
+
 } // namespace
 
 /// A file in a colour space; read once, by the first thread that wants a texel.
@@ -149,6 +171,7 @@ void TextureSystem::setMemory(uint64_t bytes) {
 std::shared_ptr<TextureSystem::Image> TextureSystem::shareImage(const ImageSource& source) {
     std::shared_ptr<Image>& image = _images[source.file + '\n' + source.colorSpace];
     if (!image) image = std::make_shared<Image>(source, _colorSpaces, _diagnostics, _memory);
+    image->source.finestOnly = _finestOnly;
     return image;
 }
 
@@ -185,7 +208,8 @@ std::shared_ptr<const EmissionProfile> TextureSystem::openProfile(const TextureR
 int TextureSystem::open(const TextureRequest& request) {
     std::string key = request.file + '\n' + request.colorSpace + '\n' +
                       char('0' + int(request.wrapS)) + char('0' + int(request.wrapT)) +
-                      (request.nearest ? 'n' : 'l');
+                      (request.nearest ? 'n' : 'l') + (request.ownWrapS ? 's' : '-') +
+                      (request.ownWrapT ? 't' : '-');
     std::lock_guard<std::mutex> lock(_mutex);
     auto known = _handles.find(key);
     int handle = known == _handles.end() ? -1 : known->second;
@@ -194,6 +218,7 @@ int TextureSystem::open(const TextureRequest& request) {
         entry->request = request;
         openTiles(*entry);
         entry->valid = entry->firstImage() != nullptr;
+        if (entry->valid) takeOwnModes(entry->firstImage()->header.wrapModes, entry->request);
         handle = int(_entries.push_back(std::move(entry)) - _entries.begin());
         _handles[key] = handle;
         _count.store(handle + 1, std::memory_order_release);
@@ -272,6 +297,7 @@ glm::vec4 TextureSystem::sample(int handle, glm::vec2 uv, float footprint) const
     const Image* image = tileAt(entry, uv);
     const ImageTexture* texture = image ? image->get() : nullptr;
     if (!texture) return magenta;
+    if (_finestOnly) footprint = 0.0f;
     TextureWrap s = entry.udim ? TextureWrap::Clamp : entry.request.wrapS;
     TextureWrap t = entry.udim ? TextureWrap::Clamp : entry.request.wrapT;
     return entry.request.nearest ? texture->sampleNearest(uv, s, t)

@@ -34,6 +34,9 @@ public:
     /// @param bytes 0: half of the machine's
     void setMemory(uint64_t bytes);
 
+    /// For who looks at few places: filters get no width, for textures that are opened from now on.
+    void sampleFinestOnly() { _finestOnly = true; }
+
     /// Reads what was opened and not yet read, with all threads.
     void loadAll() const;
     /// All texels of a handle, for back ends with samplers of their own; null for a missing one.
@@ -52,6 +55,7 @@ private:
     void openTiles(Entry& entry);
     const Image* tileAt(const Entry& entry, glm::vec2& uv) const;
 
+    bool _finestOnly = false;
     Diagnostics& _diagnostics;
     const ColorSpaces& _colorSpaces;
     mutable TextureMemory _memory;

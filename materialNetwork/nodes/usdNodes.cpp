@@ -8,14 +8,16 @@ namespace patina {
 
 namespace {
 
-/// "useMetadata" without metadata in the file means black, as the specification says; MaterialX
-/// spells repeat "periodic".
-TextureWrap wrapMode(PatternSetup& setup, const char* input) {
+/// "useMetadata", the default, without metadata in the file means black, as the specification says;
+/// MaterialX spells repeat "periodic".
+/// @param own becomes whether the file is asked
+TextureWrap wrapMode(PatternSetup& setup, const char* input, bool& own) {
     const std::string mode = setup.text(input);
+    own = mode == "useMetadata" || mode.empty();
     if (mode == "repeat" || mode == "periodic") return TextureWrap::Repeat;
     if (mode == "clamp") return TextureWrap::Clamp;
     if (mode == "mirror") return TextureWrap::Mirror;
-    if (mode != "black" && mode != "useMetadata" && !mode.empty())
+    if (mode != "black" && !own)
         setup.warn(input, "unknown wrap mode '" + mode + "'; black is used");
     return TextureWrap::Black;
 }
@@ -33,8 +35,8 @@ void prepareUvTexture(PatternSetup& setup, PatternData& data) {
     if ((request.colorSpace.empty() || request.colorSpace == "auto") && !file->colorSpace.empty())
         request.colorSpace = file->colorSpace;
     if (request.colorSpace.empty()) request.colorSpace = "auto";
-    request.wrapS = wrapMode(setup, "wrapS");
-    request.wrapT = wrapMode(setup, "wrapT");
+    request.wrapS = wrapMode(setup, "wrapS", request.ownWrapS);
+    request.wrapT = wrapMode(setup, "wrapT", request.ownWrapT);
     request.input = "inputs:file";
     const int handle = setup.openTexture(request);
     if (setup.textureValid(handle) || !setup.authored("fallback")) data.textures[0] = handle;

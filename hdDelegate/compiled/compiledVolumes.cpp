@@ -16,8 +16,9 @@ CompiledVolumes::medium(const std::shared_ptr<const Volume>& prim, const SceneSt
         if (const auto material = _materials.find(prim->material, prim->path, state, settings))
             request.program = _materials.program(material, settings.methods, settings.tolerance);
         if (!request.program || !request.program->hasInterior()) {
-            _diagnostics.warn(prim->path, "material:binding",
-                              "the material is not a volume; a white one is shown");
+            _diagnostics.warn(
+                prim->path, "material:binding",
+                "the material is not a volume; a grey one is shown that scatters 0.8 of the light");
             request.program = nullptr;
         }
     }

@@ -13,7 +13,7 @@ public:
     CompiledVolumes(CompiledMaterials& materials, Diagnostics& diagnostics)
         : _materials(materials), _diagnostics(diagnostics) {}
 
-    /// The medium of a prim with the material that it is bound to; a white one where that is none,
+    /// The medium of a prim with the material that it is bound to; a grey one where that is none,
     /// or no volume.
     std::shared_ptr<const VolumeMedium> medium(const std::shared_ptr<const Volume>& prim,
                                                const SceneState& state,

@@ -28,7 +28,10 @@ Network plainVolume() {
     volume.connections["vdf"] = {"<volume>/vdf", ""};
     vdf.path = "<volume>/vdf";
     vdf.id = "ND_anisotropic_vdf";
-    vdf.inputs["scattering"] = Value::makeVec3(1, 1, 1);
+    // White would scatter light for as long as the path may get.
+    constexpr float albedo = 0.8f;
+    vdf.inputs["scattering"] = Value::makeVec3(albedo, albedo, albedo);
+    vdf.inputs["absorption"] = Value::makeVec3(1 - albedo, 1 - albedo, 1 - albedo);
     network.terminals["volume"] = {volume.path, ""};
     network.nodes = {volume, vdf};
     return network;

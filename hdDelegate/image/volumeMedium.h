@@ -11,7 +11,8 @@
 
 namespace patina {
 
-/// A white scattering medium of density 1: what volumes without a material show.
+/// A grey medium of density 1 that scatters 0.8 of the light that it meets: what volumes without a
+/// material show.
 Network plainVolume();
 
 /// The medium of a volume prim: fields, the material that reads them, and how dense it can get.

@@ -27,21 +27,16 @@ double areaOf(const Surface& surface, const mat4& place) {
 
 } // namespace
 
-namespace {
-
-/// Whether so many more lights are within Limit::lights.
-bool haveRoom(double more, const LightSetInput& input) {
-    const double sum = double(input.lights.size()) + double(input.triangles.size()) + more;
+bool SceneLights::haveRoom(double more, const LightSetInput& input) {
+    const double sum = double(input.lights.size()) + double(input.triangleCount) + more;
     return sum <= double(limitOf(Limit::lights));
 }
 
-void warnOfMany(const std::string& light, Diagnostics& diagnostics) {
+void SceneLights::warnOfMany(const std::string& light, Diagnostics& diagnostics) {
     diagnostics.warn(light, "",
                      "with it the scene has more lights, each wherever it is placed, than " +
                          limitText(Limit::lights) + "; the light is off");
 }
-
-} // namespace
 
 LightInfo SceneLights::describe(const std::shared_ptr<const Light>& light, const EmbreeScene& scene,
                                 const RenderSettings& settings) {
@@ -136,75 +131,6 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
     _set = std::make_unique<LightSet>(std::move(input), images, diagnostics);
 }
 
-void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene, LightSetInput& input,
-                             Diagnostics& diagnostics) {
-    const auto meshLight = _meshLights.find(&surface);
-    const bool isMeshLight = meshLight != _meshLights.end();
-    const std::vector<uvec3>& triangles = surface.topology().triangles;
-    EmittingSurface found;
-    int glowing = 0;
-    for (unsigned t = 0; t < triangles.size(); ++t)
-        found.slots.push_back(isMeshLight || surface.material(t).program->hasEmission() ? glowing++
-                                                                                        : -1);
-    if (!haveRoom(scene.placeCount(surface.prim->group) * double(glowing), input)) {
-        if (isMeshLight) {
-            warnOfMany(meshLight->second.light->path, diagnostics);
-            _meshLights.erase(meshLight);
-        } else { // paths that meet it see it glow
-            diagnostics.warn(
-                surface.prim->path, "",
-                "with it the scene has more glowing triangles, each wherever it is placed, than " +
-                    limitText(Limit::lights) +
-                    "; what it lights is found by chance alone, with more noise");
-        }
-        return;
-    }
-    for (const GroupPlace& where : scene.groupPlaces(surface.prim->group)) {
-        const mat4& place = where.toWorld;
-        Emitting emitting{place, std::vector<int>(size_t(glowing), -1)};
-        const int number = int(_places.size());
-        _places.push_back(where);
-        for (unsigned t = 0; t < triangles.size(); ++t) {
-            if (found.slots[t] < 0) continue;
-            const bool glows = surface.material(t).program->hasEmission();
-            LightTriangle triangle;
-            for (int k = 0; k < 3; ++k)
-                triangle.vertices[k] =
-                    vec3(place * vec4(surface.placed.positions[0][triangles[t][k]], 1.0f));
-            // One-sided triangles shine along their winding; a mirroring transform turned it.
-            const bool mirrored =
-                surface.flipNormals != (glm::determinant(glm::mat3(place)) < 0.0f);
-            const vec3 ng = glm::cross(triangle.vertices[1] - triangle.vertices[0],
-                                       triangle.vertices[2] - triangle.vertices[0]);
-            const float length = glm::length(ng);
-            if (!(length > 0.0f)) continue;
-            triangle.twoSided = glows || mirrored;
-            const vec3 n = ng / length * (mirrored ? -1.0f : 1.0f);
-            float brightest = 0.0f;
-            for (const vec2 uv : {vec2(1 / 3.0f), vec2(0.1f), vec2(0.8f, 0.1f), vec2(0.1f, 0.8f)}) {
-                const Hit hit = hitOn(&surface, t, where, uv);
-                SurfacePoint point;
-                const vec3 p = triangle.vertices[0] * (1 - uv.x - uv.y) +
-                               triangle.vertices[1] * uv.x + triangle.vertices[2] * uv.y;
-                // Each side may have a shader of its own.
-                for (const float side : {1.0f, -1.0f}) {
-                    computeSurfacePoint(hit, p + n * side, -n * side, 0.0f, point);
-                    brightest = std::max(brightest, luminance(glm::abs(emission(point))));
-                    if (!glows) break;
-                }
-            }
-            if (!(brightest > 0.0f) && surface.material(t).program->constant()) continue;
-            triangle.luminance = std::max(brightest, 1e-6f);
-            emitting.triangles[size_t(found.slots[t])] = int(input.triangles.size());
-            input.triangles.push_back(triangle);
-            _sources.push_back({&surface, t, number});
-            _triangleInfos.push_back(isMeshLight ? meshLight->second.info : _glowInfo);
-        }
-        found.places.push_back(std::move(emitting));
-    }
-    if (!found.places.empty()) _emitting[&surface] = std::move(found);
-}
-
 int SceneLights::worthwhileSamples() const {
     constexpr int many = 16;
     if (_set->lightCount() > many) return 4;
@@ -217,26 +143,9 @@ int SceneLights::triangleLight(const Surface* surface, unsigned primitive,
     if (found == _emitting.end()) return -1;
     const int slot = found->second.slots[primitive];
     if (slot < 0) return -1;
-    const std::vector<Emitting>& places = found->second.places;
-    const int triangle = places[nearestPlace(places, groupToWorld)].triangles[size_t(slot)];
-    return triangle < 0 ? -1 : triangle + _set->lightCount();
-}
-
-size_t SceneLights::nearestPlace(const std::vector<Emitting>& places, const mat4& groupToWorld) {
-    size_t nearest = 0;
-    float best = INFINITY;
-    for (size_t i = 0; places.size() > 1 && i < places.size(); ++i) {
-        float difference = 0.0f;
-        for (int c = 0; c < 4; ++c) {
-            const vec4 d = places[i].place[c] - groupToWorld[c];
-            difference += glm::dot(d, d);
-        }
-        if (difference < best) {
-            best = difference;
-            nearest = i;
-        }
-    }
-    return nearest;
+    const EmittingSurface& emitting = found->second;
+    const int place = emitting.firstPlace + emitting.nearestPlace(groupToWorld);
+    return _set->lightCount() + _set->glowing(place).first + slot;
 }
 
 vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
@@ -252,7 +161,7 @@ vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
     vec3 light = front ? mesh.radiance : vec3(0.0f);
     if (lit && !mesh.filters.empty()) {
         const size_t place =
-            nearestPlace(_emitting.at(point.hit->surface).places, point.hit->groupToWorld);
+            size_t(_emitting.at(point.hit->surface).nearestPlace(point.hit->groupToWorld));
         light *= mesh.filters[place].factor(*lit, -s.viewDirection, glm::length(s.position - *lit),
                                             point.hit->time);
     }
@@ -263,9 +172,11 @@ vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
 }
 
 vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from, float time) const {
-    const Source& source = _sources[sample.triangle];
-    Hit hit =
-        hitOn(source.surface, source.primitive, _places[size_t(source.place)], sample.barycentrics);
+    const int place = _set->placeOf(sample.triangle);
+    const Source& source = _sources[size_t(place)];
+    const int slot = sample.triangle - _set->glowing(place).first;
+    Hit hit = hitOn(source.surface, source.emitting->primitives[size_t(slot)],
+                    _places[size_t(place)], sample.barycentrics);
     hit.distance = sample.distance;
     hit.time = time;
     SurfacePoint point;

@@ -32,8 +32,7 @@ public:
 
     const LightSet& set() const { return *_set; }
     const LightInfo& info(int light) const {
-        return light < _set->lightCount() ? _infos[light]
-                                          : _infos[_triangleInfos[light - _set->lightCount()]];
+        return _infos[light < _set->lightCount() ? light : sourceOf(light).info];
     }
     /// Some light treats diffuse and other lobes differently.
     bool splitsLobes() const { return _splitsLobes; }
@@ -46,8 +45,7 @@ public:
     int triangleLight(const Surface* surface, unsigned primitive, const mat4& groupToWorld) const;
     /// The surface of a light that is a triangle; null for others.
     const Surface* triangleSurface(int light) const {
-        return light < _set->lightCount() ? nullptr
-                                          : _sources[size_t(light - _set->lightCount())].surface;
+        return light < _set->lightCount() ? nullptr : sourceOf(light).surface;
     }
     /// Radiance of a sampled triangle towards a point.
     vec3 triangleRadiance(const LightSample& sample, const vec3& from, float time) const;
@@ -64,30 +62,48 @@ private:
         int info = 0;
         std::vector<LightFilters> filters; ///< per place of the surface; none: nothing is filtered
     };
-    struct Emitting {
-        mat4 place;
-        std::vector<int> triangles; ///< per triangle that may glow: index, or -1
-    };
+    /// A surface wherever it is placed.
     struct EmittingSurface {
-        std::vector<int> slots; ///< per primitive: which of those that may glow it is, or -1
-        std::vector<Emitting> places;
+        std::vector<int> slots;           ///< per primitive: which of those that glow it is, or -1
+        std::vector<unsigned> primitives; ///< per slot
+        int firstPlace = 0;               ///< in LightSetInput::glowing; the others follow
+        std::vector<mat4> places;
+        int axis = 0;            ///< along which the places are spread most
+        std::vector<int> sorted; ///< places in the order of their translations along it
+
+        void sort();
+        int nearestPlace(const mat4& groupToWorld) const;
     };
+    /// Of a place in LightSetInput::glowing.
     struct Source {
         const Surface* surface;
-        unsigned primitive;
-        int place; ///< index of _places
+        const EmittingSurface* emitting;
+        int info; ///< in _infos
     };
 
+    /// Whether so many more lights are within Limit::lights.
+    static bool haveRoom(double more, const LightSetInput& input);
+    static void warnOfMany(const std::string& light, Diagnostics& diagnostics);
     LightInfo describe(const std::shared_ptr<const Light>& light, const EmbreeScene& scene,
                        const RenderSettings& settings);
     void addSurface(const Surface& surface, const EmbreeScene& scene, LightSetInput& input,
                     Diagnostics& diagnostics);
-    static size_t nearestPlace(const std::vector<Emitting>& places, const mat4& groupToWorld);
+    const Source& sourceOf(int light) const {
+        return _sources[size_t(_set->placeOf(light - _set->lightCount()))];
+    }
+    /// The largest luminance of a triangle at a few points.
+    float brightestOf(const Surface& surface, unsigned primitive, const GroupPlace& where,
+                      bool mirrored) const;
+    LightTriangles trianglesOf(const Surface& surface, const EmittingSurface& found,
+                               const std::vector<float>& luminances, const mat4& place,
+                               bool bothSides) const;
+    float factorOf(const Surface& surface, const EmittingSurface& found,
+                   const std::vector<float>& luminances, const GroupPlace& where,
+                   bool mirrored) const;
 
     std::unique_ptr<LightSet> _set;
     std::vector<LightInfo> _infos;
-    std::vector<int> _triangleInfos;
-    std::vector<Source> _sources; ///< per triangle
+    std::vector<Source> _sources;
     std::vector<GroupPlace> _places;
     std::shared_ptr<const Placements> _placements; ///< keeps the values that _places points to
     std::map<const Surface*, EmittingSurface> _emitting;

@@ -7,6 +7,7 @@
 #include "hdDelegate/scene/light.h"
 #include "base/diagnostics.h"
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct LightInstance {
     mat4 groupToWorld{1.0f}; ///< on top of the light's own transform
 };
 
-/// A triangle of a surface that glows, world space. Its true radiance is the integrator's business.
+/// A triangle of a surface that glows. Its true radiance is the integrator's business.
 struct LightTriangle {
     vec3 vertices[3]; ///< one-sided triangles shine where (v1 - v0) x (v2 - v0) points
     float luminance =
@@ -26,10 +27,29 @@ struct LightTriangle {
     bool twoSided = false;
 };
 
+using LightTriangles = std::shared_ptr<const std::vector<LightTriangle>>;
+
+/// Where the glowing triangles of a surface are. Places that share triangles share a light tree of
+/// them, too.
+struct LightTrianglePlace {
+    LightTriangles triangles;
+    mat4 toWorld{1.0f};  ///< invertible
+    bool shared = false; ///< false: the triangles are in the world
+    float factor = 1.0f; ///< of their luminances here
+    int first = 0;       ///< triangles of the places before; LightSetInput::add() sets it
+};
+
 /// Everything that a LightSet is built from.
 struct LightSetInput {
     std::vector<LightInstance> lights; ///< mesh lights may be in the list; they are left out here
-    std::vector<LightTriangle> triangles;
+    std::vector<LightTrianglePlace> glowing;
+    int triangleCount = 0; ///< of all places together
+
+    void add(LightTrianglePlace place) {
+        place.first = triangleCount;
+        triangleCount += int(place.triangles->size());
+        glowing.push_back(std::move(place));
+    }
     float shutterOpen = 0.0f, shutterClose = 0.0f; ///< time codes relative to the frame
     dvec3 origin{0.0}; ///< of the space that all places are in; lights of prototypes are in it by
                        ///< their groupToWorld
@@ -46,7 +66,7 @@ struct LightSample {
     bool delta = false;      ///< no ray can find it
     int light = -1;          ///< index, see LightSet
     vec3 normal{0.0f};       ///< of the light's surface, zero where it has none
-    int triangle = -1;       ///< index into LightSetInput::triangles, or -1
+    int triangle = -1;       ///< number among those of all LightSetInput::glowing, or -1
     vec2 barycentrics{0.0f}; ///< weights of vertices 1 and 2 of the triangle
     vec3 local{0.0f};        ///< direction in the frame of a dome
 };
@@ -68,8 +88,8 @@ struct LightHit {
 
 /// All lights of a scene during one shutter. Immutable, so threads share it; equal inputs give
 /// equal results. Light index i < lightCount() is LightSetInput::lights[i]; index lightCount() + t
-/// is triangle t. Lights without effect (zero power, no size, broken transforms) keep their index,
-/// but are never sampled or hit.
+/// is triangle t, counted through all places of LightSetInput::glowing. Lights without effect (zero
+/// power, no size, broken transforms) keep their index, but are never sampled or hit.
 ///
 /// A light tree chooses one light (Conty Estevez and Kulla 2018), with lights at infinity beside
 /// the tree; then a direction towards it is drawn. The pdf functions give the density with which
@@ -125,7 +145,7 @@ public:
     /// Density of a place() on a light at infinity.
     float pdfInfinite(int light, const vec3& point, const vec3& normal, bool twoSided,
                       const EnvironmentMap::Place& place, float time) const;
-    /// Density of a position on a triangle. @param triangle index into LightSetInput::triangles
+    /// Density of a position on a triangle. @param triangle as LightSample has it
     float pdfTriangle(int triangle, const vec3& point, const vec3& normal, bool twoSided,
                       const vec3& position) const;
 
@@ -138,6 +158,12 @@ public:
     /// Sum over all lights at infinity.
     vec3 environment(const vec3& direction, float time) const;
 
+    /// The index in LightSetInput::glowing of the place that a triangle is in.
+    int placeOf(int triangle) const {
+        return indexBelow(triangle, [this](size_t i) { return _input.glowing[i].first; });
+    }
+    const LightTrianglePlace& glowing(int place) const { return _input.glowing[size_t(place)]; }
+
     /// Probability with which sample() chooses a light.
     float selectionProbability(int light, const vec3& point, const vec3& normal,
                                bool twoSided) const;
@@ -149,7 +175,37 @@ private:
         int count = 0;                   ///< candidates; the tree is one
     };
 
-    void addTriangle(int triangle, std::vector<LightTreeLeaf>& leaves);
+    /// What the tree knows of a place: its triangles, or all of them together where they are
+    /// shared.
+    struct Glow {
+        int tree = -1; ///< of shared triangles, in _shared
+        mat4 toLocal{1.0f};
+        mat3 normalToLocal{1.0f};
+        int id = 0; ///< in _tree, beyond the lights; those of further triangles follow
+    };
+    struct Located {
+        vec3 point, normal;
+    };
+
+    void addPlace(const LightTrianglePlace& place, std::map<const void*, int>& known,
+                  std::vector<LightTreeLeaf>& leaves);
+    static bool addTriangle(const LightTriangle& triangle, int id,
+                            std::vector<LightTreeLeaf>& leaves);
+    /// A point and normal as a shared tree has them.
+    static Located located(const Glow& glow, const vec3& point, const vec3& normal);
+    LightTriangle triangleInWorld(int triangle) const;
+    int chooseInTree(const vec3& point, const vec3& normal, bool twoSided, float u,
+                     float& probability) const;
+    float probabilityInTree(int light, const vec3& point, const vec3& normal, bool twoSided) const;
+    /// The last i whose first(i) is at most n, of ascending ones.
+    template <class First> int indexBelow(int n, const First& first) const {
+        size_t low = 0, high = _input.glowing.size();
+        while (high - low > 1) {
+            const size_t middle = (low + high) / 2;
+            (first(middle) <= n ? low : high) = middle;
+        }
+        return int(low);
+    }
     Choice makeChoice(const vec3& point, const vec3& normal, bool twoSided) const;
     float share(const Choice& choice, float weight) const;
     bool sampleTriangleLight(int triangle, const vec3& point, const vec2& u, float selection,
@@ -160,7 +216,9 @@ private:
     std::vector<LightEmitter> _emitters; ///< per light
     std::vector<int> _infinite;          ///< emitters at infinity, delta ones too
     std::vector<int> _visibleInfinite;
-    LightTree _tree; ///< leaf ids are light indices
+    std::vector<Glow> _glows;       ///< per place of LightSetInput::glowing
+    std::vector<LightTree> _shared; ///< of triangles in the space that they are shared in
+    LightTree _tree;                ///< leaf ids are lights, then as Glow::id says
     bool _hasIntersectable = false;
 };
 

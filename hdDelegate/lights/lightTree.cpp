@@ -50,7 +50,22 @@ float LightTree::importance(const Node& node, const vec3& point, const vec3& nor
     return node.intensity * std::max(cosLeaving, 1e-3f) * cosArriving / d2;
 }
 
-int LightTree::choose(const vec3& point, const vec3& normal, bool twoSided, float u,
+LightTreeLeaf LightTree::asLeaf() const {
+    LightTreeLeaf leaf;
+    if (empty()) return leaf;
+    const Node& root = _nodes[0];
+    leaf.low = root.low;
+    leaf.high = root.high;
+    leaf.axis = root.axis;
+    leaf.spread = std::atan2(root.sinSpread, root.cosSpread);
+    leaf.reach = std::acos(root.cosReach);
+    leaf.intensity = root.intensity;
+    leaf.twoSided = root.twoSided;
+    leaf.hittable = root.hittable;
+    return leaf;
+}
+
+int LightTree::choose(const vec3& point, const vec3& normal, bool twoSided, float& u,
                       float& probability) const {
     probability = 0.0f;
     if (empty()) return -1;

@@ -46,9 +46,12 @@ public:
         return empty() ? 0.0f : importance(_nodes[0], point, normal, twoSided);
     }
 
-    /// @param u uniform in [0, 1)
+    /// All of its lights as one: a leaf for a tree above it.
+    LightTreeLeaf asLeaf() const;
+
+    /// @param u uniform in [0, 1); becomes a number that is uniform again
     /// @returns id of a light, or -1 when nothing reaches the point on this way down
-    int choose(const vec3& point, const vec3& normal, bool twoSided, float u,
+    int choose(const vec3& point, const vec3& normal, bool twoSided, float& u,
                float& probability) const;
 
     /// Probability with which choose() gives this light; 0 for an id that is not in the tree.

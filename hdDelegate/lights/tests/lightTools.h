@@ -79,6 +79,13 @@ struct LightScene {
         set = std::make_unique<LightSet>(input, images, diagnostics);
         return *set;
     }
+    void setTriangles(std::vector<LightTriangle> triangles) {
+        input.glowing.clear();
+        input.triangleCount = 0;
+        LightTrianglePlace place;
+        place.triangles = std::make_shared<std::vector<LightTriangle>>(std::move(triangles));
+        input.add(place);
+    }
     const LightSet& build(std::shared_ptr<Light> light) {
         input.lights = {{std::move(light), mat4(1.0f)}};
         return build();

@@ -161,9 +161,10 @@ TEST(Density, triangles) {
     t.vertices[1] = vec3(2.0f, 1.5f, -0.5f);
     t.vertices[2] = vec3(0.2f, 0.8f, 1.4f);
     t.twoSided = true;
-    scene.input.triangles = {t, t};
-    for (vec3& v : scene.input.triangles[1].vertices)
+    std::vector<LightTriangle> triangles = {t, t};
+    for (vec3& v : triangles[1].vertices)
         v = 0.03f * v + vec3(1.0f, 2.0f, 0.0f);
+    scene.setTriangles(triangles);
     const LightSet& set = scene.build();
     Random random(15);
     int seen[2] = {0, 0};
@@ -172,7 +173,7 @@ TEST(Density, triangles) {
         ASSERT_TRUE(set.sample(vec3(0.0f), vec3(0.0f), false, random.cube(), 0.0f, s));
         ASSERT_EQ(s.light, s.triangle);
         ++seen[s.triangle];
-        const LightTriangle& hit = scene.input.triangles[s.triangle];
+        const LightTriangle& hit = triangles[size_t(s.triangle)];
         const vec2 b = s.barycentrics;
         EXPECT_TRUE(b.x >= 0.0f && b.y >= 0.0f && b.x + b.y <= 1.0001f);
         const vec3 p =

@@ -257,7 +257,7 @@ TEST(Irradiance, trianglesByLambert) {
         const vec3 middle = (t.vertices[0] + t.vertices[1] + t.vertices[2]) / 3.0f;
         for (vec3& v : s.vertices)
             v = middle + scale * (v - middle);
-        scene.input.triangles = {s};
+        scene.setTriangles({s});
         const double exact =
             polygonIrradiance({s.vertices[0], s.vertices[1], s.vertices[2]}, vec3(0.0f), up);
         // (v1 - v0) x (v2 - v0) points down for this winding.

@@ -136,15 +136,18 @@ TEST(Robustness, pointsOnAndInTheLight) {
 
 TEST(Robustness, brokenTrianglesAndMissingProfile) {
     LightScene scene;
-    scene.input.triangles.resize(3);
-    scene.input.triangles[0].vertices[1] = vec3(notANumber);
-    scene.input.triangles[2].vertices[1] = vec3(1.0f, 0.0f, 0.0f);
-    scene.input.triangles[2].vertices[2] = vec3(0.0f, 1.0f, 0.0f);
-    scene.input.triangles[2].luminance = notANumber;
+    std::vector<LightTriangle> triangles(3);
+    triangles[0].vertices[1] = vec3(notANumber);
+    triangles[2].vertices[1] = vec3(1.0f, 0.0f, 0.0f);
+    triangles[2].vertices[2] = vec3(0.0f, 1.0f, 0.0f);
+    triangles[2].luminance = notANumber;
+    scene.setTriangles(triangles);
+    EXPECT_TRUE(scene.build().empty());
+    scene.input.glowing[0].shared = true;
     EXPECT_TRUE(scene.build().empty());
     auto light = makeLight(LightType::Sphere);
     light->iesFile = "/missing.ies";
-    scene.input.triangles.clear();
+    scene.setTriangles({});
     const LightSet& set = scene.build(light);
     EXPECT_FALSE(set.empty());
     EXPECT_EQ(scene.diagnostics.all()[0].input, "inputs:shaping:ies:file");

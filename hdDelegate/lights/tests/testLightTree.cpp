@@ -70,6 +70,76 @@ TEST(LightTree, choosesWithTheProbabilityThatItTells) {
     }
 }
 
+namespace {
+
+/// A bent patch of triangles of many brightnesses, some one-sided, at places of every kind.
+void placePatches(LightScene& scene, bool shared, float mirror) {
+    auto triangles = std::make_shared<std::vector<LightTriangle>>();
+    Random random(31);
+    for (int i = 0; i < 40; ++i) {
+        LightTriangle t;
+        const vec3 middle = 2.0f * random.cube() - 1.0f;
+        for (vec3& v : t.vertices)
+            v = middle + 0.3f * random.direction();
+        t.luminance = 0.1f + random.cube().x;
+        t.twoSided = mirror < 0.0f || i % 3 == 0;
+        triangles->push_back(t);
+    }
+    for (int i = 0; i < 12; ++i) {
+        const vec3 axis = random.direction(), scale = 0.5f + random.cube();
+        mat4 place = glm::translate(mat4(1.0f), vec3(3.0f * float(i % 4), 4.0f, float(i / 4)));
+        place = glm::rotate(place, float(i), axis);
+        place = glm::scale(place, i % 2 ? vec3(mirror * scale.x, scale.x, scale.x)
+                                        : vec3(mirror, 1.0f, 1.0f) * scale);
+        LightTrianglePlace added{triangles, place, true};
+        added.factor = scale.y;
+        if (!shared) {
+            auto placed = std::make_shared<std::vector<LightTriangle>>(*triangles);
+            for (LightTriangle& t : *placed) {
+                t.luminance *= added.factor;
+                for (vec3& v : t.vertices)
+                    v = vec3(place * vec4(v, 1.0f));
+            }
+            added = {placed};
+        }
+        scene.input.add(added);
+    }
+}
+
+} // namespace
+
+TEST(LightTree, placesShareTheTreeOfTheirTriangles) {
+    for (const float mirror : {1.0f, -1.0f}) {
+        LightScene shared, flat;
+        placePatches(shared, true, mirror);
+        placePatches(flat, false, mirror);
+        const LightSet &a = shared.build(), &b = flat.build();
+        for (const vec3 point : {vec3(0.0f), vec3(4.0f, 3.5f, 1.0f), vec3(40.0f, 0.0f, 9.0f)}) {
+            double sum = 0.0;
+            for (int i = 0; i < shared.input.triangleCount; ++i)
+                sum += a.selectionProbability(i, point, vec3(0.0f), true);
+            EXPECT_LT(sum, 1.0 + 1e-4);
+            if (mirror < 0.0f) { // all shine to both sides
+                EXPECT_GT(sum, 1.0 - 1e-4);
+            }
+            const Estimate one = irradiance(a, point, up, 10000, 32);
+            const Estimate other = irradiance(b, point, up, 10000, 33);
+            EXPECT_NEAR(one.mean, other.mean,
+                        testSigmas * std::hypot(one.error, other.error) + 1e-9);
+            // Trees know about as much of the light as one that holds all triangles.
+            EXPECT_LT(one.error, 2.0 * other.error);
+        }
+        Random random(34);
+        for (int i = 0; i < 2000; ++i) {
+            LightSample s;
+            if (!a.sample(vec3(0.0f), up, false, random.cube(), 0.0f, s)) continue;
+            EXPECT_NEAR(a.pdfTriangle(s.triangle, vec3(0.0f), up, false, s.distance * s.direction) /
+                            s.pdf,
+                        1.0f, 1e-2f);
+        }
+    }
+}
+
 TEST(LightTree, thousandLightsWithoutBias) {
     LightScene scene;
     scatter(scene, 1000, 24);

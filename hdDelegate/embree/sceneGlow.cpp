@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces that glow, as triangles that lights are chosen among.
+#include "hdDelegate/embree/sceneLights.h"
+
+#include "hdDelegate/embree/caustics/causticCasters.h"
+#include "base/limits.h"
+#include "base/maths.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+/// What may be brighter elsewhere is not left out.
+constexpr float leastLuminance = 1e-6f, leastFactor = 1e-6f;
+/// Triangles that instances give to one light tree; of more than that the instances share a tree.
+constexpr size_t mostOfOneTree = 1024;
+
+LightTriangle triangleAt(const Surface& surface, unsigned primitive, const mat4& place) {
+    LightTriangle triangle;
+    const uvec3& corners = surface.topology().triangles[primitive];
+    for (int k = 0; k < 3; ++k)
+        triangle.vertices[k] = vec3(place * vec4(surface.placed.positions[0][corners[k]], 1.0f));
+    return triangle;
+}
+
+/// Whether points go there and back without loss.
+bool isEvenEnough(const mat4& place) {
+    const mat4 back = glm::inverse(place);
+    float there = 0.0f, inverse = 0.0f;
+    for (int c = 0; c < 3; ++c) {
+        there = std::max(there, glm::length(vec3(place[c])));
+        inverse = std::max(inverse, glm::length(vec3(back[c])));
+    }
+    return there * inverse < 1e3f && std::isfinite(glm::dot(back[3], back[3]));
+}
+
+} // namespace
+
+void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene, LightSetInput& input,
+                             Diagnostics& diagnostics) {
+    const auto meshLight = _meshLights.find(&surface);
+    const bool isMeshLight = meshLight != _meshLights.end();
+    const std::vector<uvec3>& triangles = surface.topology().triangles;
+    int glowing = 0;
+    for (unsigned t = 0; t < triangles.size(); ++t)
+        glowing += isMeshLight || surface.material(t).program->hasEmission();
+    if (!haveRoom(scene.placeCount(surface.prim->group) * double(glowing), input)) {
+        if (isMeshLight) {
+            warnOfMany(meshLight->second.light->path, diagnostics);
+            _meshLights.erase(meshLight);
+        } else { // paths that meet it see it glow
+            diagnostics.warn(
+                surface.prim->path, "",
+                "with it the scene has more glowing triangles, each wherever it is placed, than " +
+                    limitText(Limit::lights) +
+                    "; what it lights is found by chance alone, with more noise");
+        }
+        return;
+    }
+    std::vector<GroupPlace> places = scene.groupPlaces(surface.prim->group);
+    if (places.empty()) return;
+    const auto volume = [](const GroupPlace& where) {
+        return glm::determinant(mat3(where.toWorld));
+    };
+    // One-sided triangles shine along their winding; a mirroring transform turned it.
+    const auto isMirrored = [&](const GroupPlace& where) {
+        return surface.flipNormals != (volume(where) < 0.0f);
+    };
+    // Where it is largest; it may be flat elsewhere.
+    const size_t seenAt =
+        size_t(std::max_element(places.begin(), places.end(),
+                                [&](const GroupPlace& a, const GroupPlace& b) {
+                                    return std::abs(volume(a)) < std::abs(volume(b));
+                                }) -
+               places.begin());
+    EmittingSurface& found = _emitting[&surface];
+    found.slots.assign(triangles.size(), -1);
+    std::vector<float> luminances; // per slot
+    for (unsigned t = 0; t < triangles.size(); ++t) {
+        const MaterialProgram& program = *surface.material(t).program;
+        if (!isMeshLight && !program.hasEmission()) continue;
+        const float brightest = brightestOf(surface, t, places[seenAt], isMirrored(places[seenAt]));
+        if (!(brightest > 0.0f) && program.constant()) continue;
+        found.slots[t] = int(found.primitives.size());
+        found.primitives.push_back(t);
+        luminances.push_back(std::max(brightest, leastLuminance));
+    }
+    if (found.primitives.empty()) {
+        _emitting.erase(&surface);
+        return;
+    }
+    found.firstPlace = int(input.glowing.size());
+    const bool share = places.size() > 1 && places.size() * found.primitives.size() > mostOfOneTree;
+    LightTriangles shared[2]; // of those that shine along their winding, and others
+    for (size_t i = 0; i < places.size(); ++i) {
+        const GroupPlace& where = places[i];
+        const bool mirrored = isMirrored(where);
+        LightTrianglePlace place;
+        place.toWorld = where.toWorld;
+        place.shared = share && isEvenEnough(where.toWorld);
+        if (place.shared) {
+            // Winding does not tell the side where space is mirrored.
+            const bool bothSides = mirrored || volume(where) < 0.0f;
+            LightTriangles& table = shared[bothSides];
+            if (!table) table = trianglesOf(surface, found, luminances, mat4(1.0f), bothSides);
+            place.triangles = table;
+            place.factor = factorOf(surface, found, luminances, where, mirrored);
+        } else {
+            std::vector<float> here = luminances;
+            for (size_t slot = 0; i != seenAt && slot < here.size(); ++slot)
+                here[slot] = std::max(brightestOf(surface, found.primitives[slot], where, mirrored),
+                                      leastLuminance);
+            place.triangles = trianglesOf(surface, found, here, where.toWorld, mirrored);
+        }
+        input.add(std::move(place));
+        _sources.push_back({&surface, &found, isMeshLight ? meshLight->second.info : _glowInfo});
+        found.places.push_back(where.toWorld);
+        _places.push_back(std::move(places[i]));
+    }
+    found.sort();
+}
+
+void SceneLights::EmittingSurface::sort() {
+    vec3 low(INFINITY), high(-INFINITY);
+    for (size_t i = 0; i < places.size(); ++i) {
+        sorted.push_back(int(i));
+        low = glm::min(low, vec3(places[i][3]));
+        high = glm::max(high, vec3(places[i][3]));
+    }
+    for (int a = 1; a < 3; ++a)
+        if (high[a] - low[a] > high[axis] - low[axis]) axis = a;
+    std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) {
+        return places[size_t(a)][3][axis] < places[size_t(b)][3][axis];
+    });
+}
+
+LightTriangles SceneLights::trianglesOf(const Surface& surface, const EmittingSurface& found,
+                                        const std::vector<float>& luminances, const mat4& place,
+                                        bool bothSides) const {
+    auto made = std::make_shared<std::vector<LightTriangle>>();
+    made->reserve(found.primitives.size());
+    for (size_t slot = 0; slot < found.primitives.size(); ++slot) {
+        const unsigned t = found.primitives[slot];
+        LightTriangle triangle = triangleAt(surface, t, place);
+        triangle.twoSided = surface.material(t).program->hasEmission() || bothSides;
+        triangle.luminance = luminances[slot];
+        made->push_back(triangle);
+    }
+    return made;
+}
+
+float SceneLights::brightestOf(const Surface& surface, unsigned primitive, const GroupPlace& where,
+                               bool mirrored) const {
+    const LightTriangle triangle = triangleAt(surface, primitive, where.toWorld);
+    const vec3 ng = glm::cross(triangle.vertices[1] - triangle.vertices[0],
+                               triangle.vertices[2] - triangle.vertices[0]);
+    const float length = glm::length(ng);
+    if (!(length > 0.0f)) return 0.0f;
+    const vec3 n = ng / length * (mirrored ? -1.0f : 1.0f);
+    const bool glows = surface.material(primitive).program->hasEmission();
+    float brightest = 0.0f;
+    for (const vec2 uv : {vec2(1 / 3.0f), vec2(0.1f), vec2(0.8f, 0.1f), vec2(0.1f, 0.8f)}) {
+        const Hit hit = hitOn(&surface, primitive, where, uv);
+        SurfacePoint point;
+        const vec3 p = triangle.vertices[0] * (1 - uv.x - uv.y) + triangle.vertices[1] * uv.x +
+                       triangle.vertices[2] * uv.y;
+        // Each side may have a shader of its own.
+        for (const float side : {1.0f, -1.0f}) {
+            computeSurfacePoint(hit, p + n * side, -n * side, 0.0f, point);
+            brightest = std::max(brightest, luminance(glm::abs(emission(point))));
+            if (!glows) break;
+        }
+    }
+    return brightest;
+}
+
+/// How much brighter a surface is at a place than its luminances say, by a few of its triangles:
+/// the brightest, and others evenly spread.
+float SceneLights::factorOf(const Surface& surface, const EmittingSurface& found,
+                            const std::vector<float>& luminances, const GroupPlace& where,
+                            bool mirrored) const {
+    constexpr size_t asked = 3;
+    float here = 0.0f, first = 0.0f;
+    const auto ask = [&](size_t slot) {
+        here += brightestOf(surface, found.primitives[slot], where, mirrored);
+        first += luminances[slot];
+    };
+    const bool alike =
+        std::all_of(found.primitives.begin(), found.primitives.end(),
+                    [&](unsigned t) { return surface.material(t).program->constant(); });
+    if (alike) return 1.0f;
+    ask(size_t(std::max_element(luminances.begin(), luminances.end()) - luminances.begin()));
+    for (size_t i = 0; i < asked; ++i)
+        ask(i * luminances.size() / asked);
+    return std::max(here / first, leastFactor);
+}
+
+/// Hits of moving instances have transforms between those of the places. What is farther away along
+/// one axis than the nearest place so far cannot be nearer.
+int SceneLights::EmittingSurface::nearestPlace(const mat4& groupToWorld) const {
+    if (places.size() < 2) return 0;
+    const float x = groupToWorld[3][axis];
+    const auto middle = std::lower_bound(sorted.begin(), sorted.end(), x, [&](int place, float to) {
+        return places[size_t(place)][3][axis] < to;
+    });
+    int nearest = 0;
+    float best = INFINITY;
+    const auto look = [&](int i) { // @returns whether farther ones may be nearer
+        float difference = 0.0f;
+        for (int c = 0; c < 4; ++c) {
+            const vec4 d = places[size_t(i)][c] - groupToWorld[c];
+            difference += glm::dot(d, d);
+        }
+        if (difference < best || (difference == best && i < nearest)) {
+            best = difference;
+            nearest = i;
+        }
+        const float along = places[size_t(i)][3][axis] - x;
+        return along * along <= best;
+    };
+    for (auto i = middle; i != sorted.end() && look(*i); ++i) {
+    }
+    for (auto i = middle; i != sorted.begin() && look(*std::prev(i)); --i) {
+    }
+    return nearest;
+}
+
+} // namespace patina

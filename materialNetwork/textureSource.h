@@ -19,8 +19,8 @@ struct TextureRequest {
     std::string
         colorSpace; ///< "auto", "raw"/"none", "sRGB"/"srgb_texture", "lin_rec709", or any OCIO name
     TextureWrap wrapS = TextureWrap::Repeat, wrapT = TextureWrap::Repeat;
-    bool ownWrapS = false, ownWrapT = false; ///< the file's own mode, if it has one, comes first
     bool nearest = false;                    ///< no filtering at all
+    bool ownWrapS = false, ownWrapT = false; ///< the file's own mode, if it has one, comes first
     std::string prim, input;                 ///< for messages
 };
 

@@ -67,15 +67,14 @@ std::string spaceOfExr(const OIIO::ImageSpec& spec) {
     return spaceOf(&primaries, CurveShape());
 }
 
-std::string spaceOfProfile(const OIIO::ImageSpec& spec, std::string& unread) {
+std::string spaceOfProfile(const OIIO::ImageSpec& spec, bool& unread) {
     const OIIO::ParamValue* found = spec.find_attribute("ICCProfile");
     if (!found || found->type().basetype != OIIO::TypeDesc::UINT8) return {};
     const auto* bytes = static_cast<const uint8_t*>(found->data());
     const size_t size = size_t(found->datasize());
     const std::string space = spaceOfIccProfile(bytes, size);
     // Inks were made colours when the file was read.
-    if (space.empty() && (size < 20 || std::memcmp(bytes + 16, "CMYK", 4) != 0))
-        unread = "its ICC profile is none of a matrix and an exponent";
+    unread = space.empty() && (size < 20 || std::memcmp(bytes + 16, "CMYK", 4) != 0);
     return space;
 }
 
@@ -83,16 +82,17 @@ std::string spaceOfProfile(const OIIO::ImageSpec& spec, std::string& unread) {
 
 std::string automaticSpace(const std::string& file, const std::string& format,
                            const OIIO::ImageSpec& spec, const ColorSpaces& colorSpaces,
-                           std::string& unread) {
+                           bool& unread) {
     const auto usable = [&](const std::string& space) {
         return !space.empty() && colorSpaces.toRendering(space);
     };
+    unread = false;
     std::string space = spaceOfProfile(spec, unread);
     if (!usable(space) && format == "png") space = spaceOfPng(file);
     if (!usable(space) && format == "openexr") space = spaceOfExr(spec);
     if (!usable(space) && spec.get_int_attribute("Exif:ColorSpace") == 1) space = srgb;
     if (usable(space)) {
-        unread.clear();
+        unread = false;
         return space;
     }
     const bool linear =

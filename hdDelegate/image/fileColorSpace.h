@@ -20,10 +20,10 @@ class ColorSpaces;
 /// Without any of it, 8-bit files of three channels and more are sRGB, and others are data.
 /// @param file of a regular file
 /// @param format OpenImageIO's name of it, lower case
-/// @param unread becomes a reason, in one line, where there is a profile that cannot be followed
+/// @param unread becomes whether there is a profile that cannot be followed
 /// @returns a name that ColorSpaces knows
 std::string automaticSpace(const std::string& file, const std::string& format,
                            const OIIO::ImageSpec& spec, const ColorSpaces& colorSpaces,
-                           std::string& unread);
+                           bool& unread);
 
 } // namespace patina

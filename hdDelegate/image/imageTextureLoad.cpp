@@ -19,13 +19,16 @@ namespace {
 /// A transform that must exist: an unknown name becomes data, with a warning.
 ColorTransformPtr transformOf(const ImageSource& source, const TextureFile& file,
                               const ColorSpaces& colorSpaces, Diagnostics& diagnostics) {
-    std::string name = source.colorSpace, unread;
+    std::string name = source.colorSpace;
+    bool unread = false;
     if (OIIO::Strutil::iequals(name, "auto"))
         name =
             automaticSpace(source.file, file.input->format_name(), file.spec, colorSpaces, unread);
-    if (!unread.empty())
+    if (unread)
         diagnostics.warn(source.prim, source.input,
-                         "texture '" + source.file + "': " + unread + "; '" + name + "' is used");
+                         "texture '" + source.file +
+                             "': its ICC profile is none of a matrix and an exponent; '" + name +
+                             "' is used");
     ColorTransformPtr transform = colorSpaces.toRendering(name);
     if (transform) return transform;
     diagnostics.warn(source.prim, source.input,

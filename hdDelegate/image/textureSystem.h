@@ -55,7 +55,6 @@ private:
     void openTiles(Entry& entry);
     const Image* tileAt(const Entry& entry, glm::vec2& uv) const;
 
-    bool _finestOnly = false;
     Diagnostics& _diagnostics;
     const ColorSpaces& _colorSpaces;
     mutable TextureMemory _memory;
@@ -65,6 +64,7 @@ private:
     std::map<std::string, std::shared_ptr<const EmissionProfile>> _profiles;
     tbb::concurrent_vector<std::unique_ptr<Entry>> _entries; ///< grows while others read
     std::atomic<int> _count{0};                              ///< entries that are complete
+    bool _finestOnly = false;
 };
 
 } // namespace patina

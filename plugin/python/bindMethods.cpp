@@ -92,6 +92,7 @@ py::dict planned(const Network& network, const MethodChoices& methods, double to
         py::gil_scoped_release release;
         Diagnostics silent;
         TextureSystem textures(silent);
+        textures.sampleFinestOnly();
         plan = planMaterialMethods(network, textures, silent, methods, tolerance);
     }
     return planDict(plan);

@@ -332,6 +332,22 @@ TEST_F(Textures, ManyThreadsMayBeTheFirstToSample) {
     EXPECT_EQ(diagnostics.count(), 0);
 }
 
+TEST_F(Textures, TheFinestLevelAloneHasNoWiderFilters) {
+    OIIO::ImageSpec spec(4, 1, 1, OIIO::TypeUInt8);
+    auto out = OIIO::ImageOutput::create(temp.file("edge.png"));
+    const float pixels[] = {0, 1, 0, 1};
+    ASSERT_TRUE(out && out->open(temp.file("edge.png"), spec));
+    ASSERT_TRUE(out->write_image(OIIO::TypeFloat, pixels) && out->close());
+    TextureSystem finest(diagnostics);
+    finest.sampleFinestOnly();
+    TextureRequest request;
+    request.file = temp.file("edge.png");
+    request.colorSpace = "raw";
+    const glm::vec2 texel(0.375f, 0.5f);
+    EXPECT_EQ(finest.sample(finest.open(request), texel, 1.0f).r, 1.0f);
+    EXPECT_EQ(textures.sample(textures.open(request), texel, 1.0f).r, 0.5f);
+}
+
 TEST_F(Textures, LinearImagesForLights) {
     writeImage(temp.file("sky.exr"), 4, 2, {0.1f, 5.0f, 0.3f}, OIIO::TypeFloat);
     ImageRGB image = loadImageLinear(temp.file("sky.exr"), "auto", diagnostics, "/Dome", "texture");

@@ -9,7 +9,9 @@ with a summary, one line each; --verbose shows them all in full. Warnings come l
 For a whole stage with a tolerance it also builds the scene and prints the choices for it: the edges of subdivision surfaces
 (for an image of 960 pixels from the first camera), the length of paths, and for the rasterizer how each material is lit.
 """
+import os
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 from patina import limits
 from patina.cli import causes, compiled, materials, methods, outputs, planText, recordFlags, sceneChoices, statistics
@@ -36,7 +38,8 @@ def run(arguments):
     module = compiled.load()
     chosen = methods.parse(arguments.method)
     tolerance = arguments.tolerance
-    plans = [(name, module.plan_material(network, chosen, tolerance)) for name, network in found]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:  # most of it is reading textures
+        plans = list(pool.map(lambda pair: (pair[0], module.plan_material(pair[1], chosen, tolerance)), found))
     choices, lit = _of_scene(arguments, chosen, tolerance)
     texts = []
     for (name, network), (_, plan) in zip(found, plans):

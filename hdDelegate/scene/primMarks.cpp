@@ -19,7 +19,7 @@ enum class MarkKind {
     KarmaHoldout,
     MatteName,
     AssetName,
-    NotRead
+    DiffuseTransmission
 };
 
 struct MarkRow {
@@ -35,11 +35,11 @@ const std::vector<MarkRow>& rows() {
     };
     static const std::vector<MarkRow> made = [] {
         constexpr auto Rays = [](unsigned bits) { return Kind{MarkKind::Rays, bits}; };
-        constexpr auto NotRead = [](unsigned value) { return Kind{MarkKind::NotRead, value}; };
         constexpr Kind Matte{MarkKind::Matte}, Shadows{MarkKind::Shadows},
             Reflections{MarkKind::Reflections}, ArnoldMask{MarkKind::ArnoldMask},
             KarmaRays{MarkKind::KarmaRays}, KarmaHoldout{MarkKind::KarmaHoldout},
-            MatteName{MarkKind::MatteName}, AssetName{MarkKind::AssetName};
+            MatteName{MarkKind::MatteName}, AssetName{MarkKind::AssetName},
+            DiffuseTransmission{MarkKind::DiffuseTransmission};
         std::vector<MarkRow> list;
         const auto add = [&](const char* name, Kind kind) {
             list.push_back({name, kind.kind, kind.number});
@@ -120,7 +120,7 @@ bool takeNumber(const MarkRow& row, double value, Geometry& prim) {
         if (value != 0.0 && value != 1.0 && value != 2.0) return false;
         prim.catching = {value == 1.0, value == 2.0, value == 2.0};
         return true;
-    case MarkKind::NotRead: return value == double(row.number);
+    case MarkKind::DiffuseTransmission: return (value != 0.0) == prim.visibility.transmission;
     default: return false;
     }
 }
@@ -163,7 +163,7 @@ void applyMarks(const Marks& marks, Geometry& prim, Diagnostics& diagnostics) {
                  : takeNumber(row, std::get<double>(found->second), prim))
             continue;
         diagnostics.warn(prim.path, "primvars:" + found->first,
-                         row.kind == MarkKind::NotRead
+                         row.kind == MarkKind::DiffuseTransmission
                              ? "is not read; rays of this kind see the prim"
                              : "has an unknown value; it is left out");
     }

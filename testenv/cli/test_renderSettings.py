@@ -346,6 +346,13 @@ def test_values_of_another_type_or_range_are_told(folder, prim, line, said):
         assert image("a.exr").pixel_aspect_ratio == 1.0
 
 
+def test_the_schemas_own_purposes_are_no_news(folder):
+    """As Houdini writes them into every settings prim."""
+    _odd(folder, "alone", 'uniform token[] materialBindingPurposes = ["full", "allPurpose"]')
+    assert record("a.exr", "--settings", "/Render/alone", "--samples", 1, "--frames", "1", "-w", 8) == 0
+    assert not [w for w in reported()["warnings"] if w["input"] == "materialBindingPurposes"]
+
+
 @pytest.mark.parametrize("line, said", [
     ("int patina:seed = -1", "-1 is not allowed; the setting keeps its value"),
     ("double patina:filterRadius = 1e30", "1e+30 is not allowed; the setting keeps its value"),

@@ -45,6 +45,15 @@ TEST(PrimMarks, KarmaHasExpressions) {
     EXPECT_EQ(karma("* ^shadow"), RayAny & ~RayShadow);
 }
 
+TEST(PrimMarks, MarksThatHideNothingMoreAreNoNews) {
+    const Marked clear({{"arnold:visibility:specular_transmit", 0.0},
+                        {"arnold:visibility:diffuse_transmit", 0.0},
+                        {"arnold:visibility:subsurface", 0.0}});
+    EXPECT_EQ(clear.rays(), RayAny & ~RayTransmission);
+    EXPECT_EQ(clear.diagnostics.count(), 0);
+    EXPECT_EQ(Marked({{"arnold:visibility:diffuse_transmit", 1.0}}).diagnostics.count(), 0);
+}
+
 TEST(PrimMarks, LaterRowsAreStronger) {
     EXPECT_EQ(Marked({{"arnold:visibility:camera", 0.0}, {"patina:visibility:camera", 1.0}}).rays(),
               unsigned(RayAny));
@@ -73,7 +82,7 @@ TEST(PrimMarks, ValuesThatMeanNothingAreTold) {
     for (const auto& [name, value] : Marks{{"karma:object:rendervisibility", "-sideways"},
                                            {"karma:object:holdoutmode", 7.0},
                                            {"arnold:visibility", -1.0},
-                                           {"arnold:visibility:subsurface", 0.0},
+                                           {"arnold:visibility:diffuse_transmit", 0.0},
                                            {"patina:cryptoObject", 3.0},
                                            {"patina:matte", "yes"}}) {
         const Marked marked({{name, value}});

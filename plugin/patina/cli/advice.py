@@ -43,6 +43,7 @@ _ROWS = (
     (r"magenta|emits the same everywhere|not shaped by it|card is plain",
      "check the path as the message spells it, against the layer that authors it"),
     (r"values that are NaN or infinite", "write the texture again; the program that made it divides by zero or overflows"),
+    (r"ICC profile", "convert the image to sRGB, or author its `sourceColorSpace`"),
     (r"colour space", "name one that `patina` knows: those of OCIO's configuration ($OCIO), sRGB, raw, `lin_rec709`"),
     (r"no OpenVDB", "build with OpenVDB (Debian: libopenvdb-dev)"),
     (r"^grid|field is left out|volume has no field|fields of type|is not read; it is left out|field moves with",

@@ -153,7 +153,8 @@ def _purposes(merged, prim):
 
 def _material_purpose(prim):
     authored = prim.purposes("materialBindingPurposes")
-    wanted = ["full"] if authored is None else [purpose for purpose in authored if purpose]
+    # "allPurpose" is how the schema's own default spells the purpose "".
+    wanted = ["full"] if authored is None else [purpose for purpose in authored if purpose not in ("", "allPurpose")]
     if len(wanted) > 1:
         prim.warn(prim.path, "materialBindingPurposes", f"only bindings for '{wanted[0]}' and for all purposes are used")
     return wanted[0] if wanted else ""

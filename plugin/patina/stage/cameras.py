@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdRender, UsdUtils
 
-from . import assets, compat, kinds
+from . import assets, compat, kinds, marks
 from .context import array, get, number, shown
 from .errors import StageError, one_line
 from .state import Found, State
@@ -104,8 +104,9 @@ def inputs_of(context, prim):
         value = attribute.Get(context.time) if attribute else None
         if hasattr(value, "path"):
             value = assets.resolve(context, attribute)
-        if isinstance(value, (bool, int, float, str)):
-            found[name] = value if isinstance(value, str) else float(value)
+        single = marks.single(value)
+        if single is not None:
+            found[name] = single
         elif value is not None:
             context.warn(prim.GetPath(), attribute_name, "is neither a number nor a text; it is left out")
     return found

@@ -24,13 +24,13 @@ def authored(context, prim, properties, inherited):
         return inherited
     found = dict(inherited)
     for name in own:
-        value = _single(prim.GetAttribute(name).Get(context.time))
+        value = single(prim.GetAttribute(name).Get(context.time))
         if value is not None:
             found[name[len(_PREFIX):]] = value
     return found
 
 
-def _single(value):
+def single(value):
     """:returns: a number or a text; of an array, which primvars may have for one value, its only element; None for others"""
     if not isinstance(value, (str, bool, int, float)) and hasattr(value, "__len__"):
         value = value[0] if len(value) == 1 else None

@@ -7,6 +7,8 @@ from .context import get
 
 # Not for shading: they drive skinning.
 _IGNORED = ("skel:",)
+# What a mesh has as many of as values.
+_COUNTED = {"uniform": "faceVertexCounts", "varying": "points", "vertex": "points", "faceVarying": "faceVertexIndices"}
 INTERPOLATIONS = ("constant", "uniform", "varying", "vertex", "faceVarying")
 
 
@@ -30,8 +32,11 @@ def read_primvar(context, primvar, prim):
     if values is None:
         return None
     values = in_rendering_space(context, prim, primvar.GetAttr(), values)
+    indices = primvar.GetIndices(context.time) if primvar.IsIndexed() else None
+    indices = np.asarray(indices, dtype=np.int32) if indices is not None and len(indices) else None
+    interpolation = primvar.GetInterpolation()
     size = primvar.GetElementSize()
-    if size > 1:
+    if size > 1 and not _fits_only_singly(context, prim, values, size, indices, interpolation):
         if len(values) % size:
             context.warn(prim.GetPath(), "primvars:" + name,
                          f"has {len(values)} values, no multiple of its elementSize {size}; it is left out")
@@ -39,13 +44,22 @@ def read_primvar(context, primvar, prim):
         values = values.reshape(len(values) // size, -1)
     if values[0:1].size > 16:
         return None
-    indices = primvar.GetIndices(context.time) if primvar.IsIndexed() else None
-    indices = np.asarray(indices, dtype=np.int32) if indices is not None and len(indices) else None
-    interpolation = primvar.GetInterpolation()
     if interpolation not in INTERPOLATIONS:
         context.warn(prim.GetPath(), "primvars:" + name, f"has no interpolation '{interpolation}'; it is left out")
         return None
     return (name, interpolation, values, indices)
+
+
+def _fits_only_singly(context, prim, values, size, indices, interpolation):
+    """Old exporters write the size of their own tuples as elementSize.
+
+    :param size: the elementSize, above 1
+    :param indices: None for a primvar without
+    :returns: whether indices or values are as many as the prim needs only where each value is an element"""
+    if indices is not None:
+        return len(values) // size <= indices.max() < len(values)
+    counted = _COUNTED.get(interpolation) if prim.IsA(UsdGeom.Mesh) else None
+    return counted is not None and len(values) == len(get(prim, counted, context.time, ()))
 
 
 def text(context, prim, inherited, name):

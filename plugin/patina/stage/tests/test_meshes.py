@@ -66,6 +66,20 @@ def test_primvars_of_each_kind(read):
     assert not any("text" in key or "skel" in key for key in mesh)
 
 
+def test_an_element_size_that_nothing_fits_is_ignored(read):
+    """As old exporters write it: the size of their own tuples."""
+    indexed = "int[] primvars:st:indices = [0, 1, 2, 3]\n"
+    kind = '(interpolation = "faceVarying"; elementSize = 4)'
+    corners = "[(0, 0), (1, 0), (1, 1), (0, 1)]"
+    for own in (indexed, ""):
+        scene = read(f'def Mesh "m" {{ texCoord2f[] primvars:st = {corners} {kind}\n{own}{QUAD} }}')
+        assert scene.prim("/m")["primvar st faceVarying x2"] == "0 0, 1 0, 1 1, 0 1"
+        assert not scene.warnings
+    wide = ", ".join(["(0, 0), (1, 0), (1, 1), (0, 1)"] * 4)
+    fits = read(f'def Mesh "m" {{ texCoord2f[] primvars:st = [{wide}] {kind}\n{indexed}{QUAD} }}')
+    assert "primvar st faceVarying x8" in fits.prim("/m")
+
+
 def test_primvar_normals_stand_above_normals(read):
     text = ('def Mesh "m" { uniform token subdivisionScheme = "none"\n'
             ' normal3f[] normals = [(0, 0, 1)] (interpolation = "uniform")\n%s' + QUAD + "}")

@@ -170,8 +170,8 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     # Under a white sky these show the lobes of diffuseBox, texturedDiffuse, roughConductor and roughGlass, which stay; what
     # sets them apart is their lights, which are off, or their cameras and places, which take no part in energy.
     *((f"testenv/raster/test_whiteSky.py::test_nothing_outshines_a_white_sky[[]{name}-raster[]]", "long", None)
-      for name in ("catchers", "classic/polishedSteel", "depthOfField", "fisheye", "instanceValues", "instances", "lightFilters",
-                   "lightMesh", "lightNegative", "manyLights", "motionBlur", "portals", "prism")),
+      for name in ("catchers", "classic/polishedSteel", "depthOfField", "fisheye", "instanceValues", "instances",
+                   "lightFilters", "lightMesh", "lightNegative", "manyLights", "motionBlur", "portals", "prism")),
     # test_no_region_of_the_first_image_is_wrong holds the same images to the same truth, tile by tile.
     *((f"testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]{name}[]]", "long", None)
       for name in ("lightRect", "lightSphere")),

@@ -64,7 +64,8 @@ def _report_network(context, prim, is_mesh):
     for name in ("light:shaderId", "mtlx:light:shaderId"):
         attribute = prim.GetAttribute(name)
         value = attribute.Get() if attribute and attribute.HasAuthoredValue() and not is_mesh else None
-        if value is not None and value not in kinds.schemas_of(prim):
+        own = prim.GetPrimDefinition().GetAttributeFallbackValue(name)  # "DomeLight" of a DomeLight_1
+        if value is not None and value not in (*kinds.schemas_of(prim), own):
             context.warn(prim.GetPath(), name, f"is {shown(value)}, which is not evaluated; the light is drawn by its type")
     for attribute in prim.GetAuthoredAttributes():
         name = attribute.GetName()

@@ -19,8 +19,6 @@
 #define PATINA_HAS_CREATE_ARGS (HD_API_VERSION >= 83)
 /// Only the container form of IsSupported is left.
 #define PATINA_HAS_CREATE_ARGS_SCHEMA (HD_API_VERSION >= 103)
-/// GetShadingSystems replaces GetShaderSourceTypes.
-#define PATINA_HAS_SHADING_SYSTEMS (HD_API_VERSION >= 95)
 /// HdSceneDelegate::SampleTransform and others take the interval.
 #define PATINA_HAS_SAMPLE_INTERVAL (HD_API_VERSION >= 68)
 /// HdExtComputationUtils::SampleComputedPrimvarValues takes it too.
@@ -30,6 +28,10 @@
 #define PATINA_HAS_TET_MESHES __has_include(<pxr/imaging/hdsi/tetMeshConversionSceneIndex.h>)
 /// Ndr was merged into Sdr.
 #define PATINA_HAS_SDR_ONLY (PXR_VERSION >= 2508)
+/// HdsiLegacyDisplayStyleOverrideSceneIndex::SetRefineLevelFallback replaces SetRefineLevel.
+#define PATINA_HAS_REFINE_FALLBACK (PXR_VERSION >= 2605)
+/// Scene indices tell light and prims of a collection that is authored late.
+#define PATINA_HAS_LATE_COLLECTIONS (PXR_VERSION >= 2411)
 
 namespace patina {
 PXR_NAMESPACE_USING_DIRECTIVE

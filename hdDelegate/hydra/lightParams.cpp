@@ -128,6 +128,9 @@ void readNetwork(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const Sd
     const HdMaterialNode& node = network.nodes.back();
     const auto group = node.parameters.find(TfToken("ri:light:lightGroup"));
     if (group != node.parameters.end()) light.lightGroup = textOf(group->second);
+    const auto space = node.parameters.find(TfToken("colorSpace:texture:file"));
+    if (space != node.parameters.end() && !light.textureFile.empty())
+        light.textureColorSpace = textOf(space->second);
     convertColor(node, "color", param, id, light.color);
     convertColor(node, "shadow:color", param, id, light.shadowColor);
     convertColor(node, "shaping:focusTint", param, id, light.shapingFocusTint);

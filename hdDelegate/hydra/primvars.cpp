@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/primvars.h"
 
+#include "hdDelegate/hydra/computations.h"
 #include "hdDelegate/hydra/sampling.h"
 #include "hdDelegate/hydra/sourceForms.h"
 #include "hdDelegate/hydra/values.h"
 
 #include <pxr/base/tf/stringUtils.h>
 #include <pxr/imaging/hd/changeTracker.h>
-#include <pxr/imaging/hd/extComputationUtils.h>
 #include <pxr/imaging/hd/tokens.h>
 #include <pxr/usd/sdf/assetPath.h>
 
@@ -166,24 +166,20 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
             }
         }
     if (!computed.empty()) {
-        HdExtComputationUtils::SampledValueStore<maxTimeSamples> values;
-#if PATINA_HAS_COMPUTED_INTERVAL
-        const GfVec2f shutter = param.shutter();
-        HdExtComputationUtils::SampleComputedPrimvarValues<maxTimeSamples>(
-            computed, &delegate, shutter[0], shutter[1], maxTimeSamples, &values);
-#else
-        HdExtComputationUtils::SampleComputedPrimvarValues<maxTimeSamples>(computed, &delegate,
-                                                                           maxTimeSamples, &values);
-#endif
+        ComputedValues values = computedValues(computed, delegate, param);
         for (const auto& descriptor : computed) {
-            const auto found = values.find(descriptor.name);
-            if (found == values.end() || found->second.count == 0) continue;
+            ValueSamples& samples = values[descriptor.name];
+            if (samples.count == 0) {
+                param.warn(id, descriptor.name.GetString(),
+                           "cannot be computed by the host; what is authored is shown");
+                samplePrimvar(delegate, param, id, descriptor.name, samples);
+            }
             if (descriptor.name == HdTokens->points) {
-                update.points = pointsFrom(found->second, param, id);
+                update.points = pointsFrom(samples, param, id);
                 update.pointsChanged = true;
             } else {
                 setPrimvar(param, id, descriptor.name, descriptor.interpolation,
-                           found->second.values[0], VtIntArray(), prim);
+                           samples.count > 0 ? samples.values[0] : VtValue(), VtIntArray(), prim);
             }
         }
     }

@@ -38,6 +38,11 @@ using TokenMap = SdrTokenMap;
 using Options = SdrOptionVec;
 using Strings = SdrStringVec;
 using Version = SdrVersion;
+#define DISCOVER DiscoverShaderNodes
+#define PARSE ParseShaderNode
+#define INVALID GetInvalidShaderNode
+#define REGISTER_DISCOVERY SDR_REGISTER_DISCOVERY_PLUGIN
+#define REGISTER_PARSER SDR_REGISTER_PARSER_PLUGIN
 #else
 using DiscoveryPlugin = NdrDiscoveryPlugin;
 using ParserPlugin = NdrParserPlugin;
@@ -50,6 +55,11 @@ using TokenMap = NdrTokenMap;
 using Options = NdrOptionVec;
 using Strings = NdrStringVec;
 using Version = NdrVersion;
+#define DISCOVER DiscoverNodes
+#define PARSE Parse
+#define INVALID GetInvalidNode
+#define REGISTER_DISCOVERY NDR_REGISTER_DISCOVERY_PLUGIN
+#define REGISTER_PARSER NDR_REGISTER_PARSER_PLUGIN
 #endif
 
 const TfToken& sourceType() {
@@ -139,7 +149,7 @@ void addProperty(const std::string& name, patina::ValueType type, const VtValue&
 /// defines (UsdPreviewSurface) is left to it.
 class HdPatinaNodeDiscovery final : public DiscoveryPlugin {
 public:
-    DiscoveryResults DiscoverNodes(const Context&) override {
+    DiscoveryResults DISCOVER(const Context&) override {
         DiscoveryResults found;
         const auto add = [&](const std::string& id, const patina::NodeDef& def) {
             if (id.rfind("ND_", 0) == 0)
@@ -161,49 +171,29 @@ public:
 /// Makes Sdr's description of such a node.
 class HdPatinaNodeParser final : public ParserPlugin {
 public:
-#if PATINA_HAS_SDR_ONLY
-    NodePtr ParseShaderNode(const DiscoveryResult& found) override{
-#else
-    NodePtr Parse(const DiscoveryResult& found) override {
-#endif
+    NodePtr PARSE(const DiscoveryResult& found) override {
         const patina::NodeDef* def = patina::findNodeDef(found.identifier.GetString());
-    if (!def) return GetInvalid(found);
-    Properties properties;
-    for (const auto& input : def->inputs)
-        addProperty(input.name, input.type, sdrDefault(input.value), false, properties);
-    for (const auto& output : def->outputs)
-        addProperty(output.name, output.type, VtValue(), true, properties);
-    TokenMap metadata;
-    const std::string primvars = primvarsOf(*def);
-    if (!primvars.empty()) metadata[SdrNodeMetadata->Primvars] = primvars;
-    return NodePtr(new SdrShaderNode(found.identifier, found.version, found.name, found.family,
-                                     contextOf(*def), sourceType(), found.resolvedUri,
-                                     found.resolvedUri, std::move(properties), metadata));
-} const Tokens& GetDiscoveryTypes() const override {
-    static const Tokens types = {sourceType()};
-    return types;
-}
-const TfToken& GetSourceType() const override {
-    return sourceType();
-}
+        if (!def) return INVALID(found);
+        Properties properties;
+        for (const auto& input : def->inputs)
+            addProperty(input.name, input.type, sdrDefault(input.value), false, properties);
+        for (const auto& output : def->outputs)
+            addProperty(output.name, output.type, VtValue(), true, properties);
+        TokenMap metadata;
+        const std::string primvars = primvarsOf(*def);
+        if (!primvars.empty()) metadata[SdrNodeMetadata->Primvars] = primvars;
+        return NodePtr(new SdrShaderNode(found.identifier, found.version, found.name, found.family,
+                                         contextOf(*def), sourceType(), found.resolvedUri,
+                                         found.resolvedUri, std::move(properties), metadata));
+    }
+    const Tokens& GetDiscoveryTypes() const override {
+        static const Tokens types = {sourceType()};
+        return types;
+    }
+    const TfToken& GetSourceType() const override { return sourceType(); }
+};
 
-private:
-static NodePtr GetInvalid(const DiscoveryResult& found) {
-#if PATINA_HAS_SDR_ONLY
-    return GetInvalidShaderNode(found);
-#else
-        return GetInvalidNode(found);
-#endif
-}
-}
-;
-
-#if PATINA_HAS_SDR_ONLY
-SDR_REGISTER_DISCOVERY_PLUGIN(HdPatinaNodeDiscovery)
-SDR_REGISTER_PARSER_PLUGIN(HdPatinaNodeParser)
-#else
-NDR_REGISTER_DISCOVERY_PLUGIN(HdPatinaNodeDiscovery)
-NDR_REGISTER_PARSER_PLUGIN(HdPatinaNodeParser)
-#endif
+REGISTER_DISCOVERY(HdPatinaNodeDiscovery)
+REGISTER_PARSER(HdPatinaNodeParser)
 
 PXR_NAMESPACE_CLOSE_SCOPE

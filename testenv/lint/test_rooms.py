@@ -72,8 +72,8 @@ def test_every_include_is_an_arrow_of_the_table_and_every_arrow_is_there():
         source, to = room_of(path, known), room_of(target, known)
         if path.startswith("testenv/fuzz/targets/"):  # as tests, they may look into any room
             continue
-        if path.startswith("testenv/"):  # hosts of the plugin, which know it through OpenUSD alone
-            assert to is None, f"{path} includes {target}"
+        if path.startswith("testenv/"):  # hosts of the plugin, which know it through OpenUSD alone, of any release
+            assert to is None or target == "hdDelegate/hydra/compat.h", f"{path} includes {target}"
             continue
         assert source, f"{path} is in no room of ARCHITECTURE.md"
         if to is None or to == source:

@@ -34,6 +34,7 @@ public:
         : HdSceneDelegate(index, SdfPath::AbsoluteRootPath()) {}
 
     std::map<Key, VtValue> lightParams;
+    std::map<SdfPath, VtValue> networks;      ///< of materials and lights
     std::map<Key, Samples<VtValue>> primvars; ///< of one sample where nothing moves
     std::map<Key, HdInterpolation> interpolations;
     std::map<SdfPath, Samples<GfMatrix4d>> transforms, instancerTransforms;
@@ -62,6 +63,10 @@ public:
     VtValue GetLightParamValue(const SdfPath& id, const TfToken& name) override {
         const auto found = lightParams.find({id, name});
         return found == lightParams.end() ? VtValue() : found->second;
+    }
+    VtValue GetMaterialResource(const SdfPath& id) override {
+        const auto found = networks.find(id);
+        return found == networks.end() ? VtValue() : found->second;
     }
     VtArray<TfToken> GetCategories(const SdfPath&) override {
         ++categoriesAsked;
@@ -144,7 +149,7 @@ protected:
     void syncSprim(const TfToken& type, const SdfPath& id) {
         if (!known.count(id)) index->InsertSprim(type, scene.get(), id);
         known.insert(id);
-        HdDirtyBits bits = HdLight::AllDirty;
+        HdDirtyBits bits = ~HdDirtyBits(HdLight::Clean);
         index->GetSprim(type, id)->Sync(scene.get(), &param(), &bits);
     }
     void syncRprim(const TfToken& type, const SdfPath& id,

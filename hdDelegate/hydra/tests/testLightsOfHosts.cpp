@@ -7,6 +7,8 @@
 #include "hdDelegate/scene/sceneDump.h"
 
 #include <pxr/base/gf/vec3f.h>
+#include <pxr/imaging/hd/material.h>
+#include <pxr/usd/sdf/assetPath.h>
 
 using namespace patina;
 
@@ -79,6 +81,21 @@ TEST_F(LightsOfHosts, NamesOfFiltersInputsMayBeAnyNumber) {
     syncSprim(sphereLight, light);
     EXPECT_EQ(filtersOf(light)[0].mode, LightFilter().mode);
     EXPECT_EQ(warningsOf(light, "that is not a number of the schema"), 1);
+}
+
+TEST_F(LightsOfHosts, ATextureHasTheColourSpaceThatTheLightsNodeTells) {
+    const SdfPath light("/light");
+    HdMaterialNode node;
+    node.path = light;
+    node.identifier = TfToken("DomeLight");
+    node.parameters[TfToken("colorSpace:texture:file")] = VtValue(TfToken("raw"));
+    HdMaterialNetworkMap map;
+    map.map[HdMaterialTerminalTokens->light].nodes = {node};
+    map.terminals = {light};
+    scene->networks[light] = VtValue(map);
+    scene->lightParams[{light, TfToken("texture:file")}] = VtValue(SdfAssetPath("sky.png"));
+    syncSprim(HdPrimTypeTokens->domeLight, light);
+    EXPECT_EQ(state()->lights.find(light.GetString())->second->textureColorSpace, "raw");
 }
 
 /// Of n lights and m prims m are asked, not n times m.

@@ -58,6 +58,8 @@ _ROWS = (
     # Geometry.
     (r"different normals", "connect fewer different `normal` inputs to the lobes of the material"),
     (r"handed on by UsdImaging", "render with `patina record`, which reads their widths, or write Bezier curves"),
+    (r"cannot be computed by the host",
+     "correct the skeleton, or whatever else deforms the prim; `patina record` skins by itself"),
     (r"name instances that it has no", "give the PointInstancer a position for each of its `protoIndices`"),
     (r"crease|corners|subdivisionScheme|OpenSubdiv|loop needs|refine|than the limits|use a point twice|sharpness",
      "correct the mesh, or set `subdivisionScheme` to none to draw it as polygons"),

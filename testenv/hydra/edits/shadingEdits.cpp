@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "testenv/hydra/edits/edits.h"
 
-#include <pxr/pxr.h>
+#include "hdDelegate/hydra/compat.h"
+
 #include <pxr/usd/usdGeom/xformable.h>
 #include <pxr/usd/usdLux/lightAPI.h>
 #include <pxr/usd/usdLux/shapingAPI.h>
@@ -128,10 +129,7 @@ void moveLight(const UsdStageRefPtr& stage, Host&, Random& random) {
 }
 
 void linkLight(const UsdStageRefPtr& stage, Host& host, Random& random) {
-#if PXR_VERSION < 2411
-    // Scene indices of 24.08 tell neither light nor prims of a collection that is authored late.
-    if (host.options().sceneIndex) return;
-#endif
+    if (!PATINA_HAS_LATE_COLLECTIONS && host.options().sceneIndex) return;
     const UsdCollectionAPI links =
         UsdLuxLightAPI(anyLight(stage, random)).GetLightLinkCollectionAPI();
     if (random.chance(0.5f)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "testenv/hydra/host/sceneInput.h"
 
+#include "hdDelegate/hydra/compat.h"
+
 #include <pxr/imaging/hdsi/legacyDisplayStyleOverrideSceneIndex.h>
 #include <pxr/imaging/hdsi/sceneGlobalsSceneIndex.h>
 #include <pxr/imaging/hdx/pickTask.h>
@@ -35,7 +37,11 @@ public:
     }
 
     void update(UsdTimeCode time, int refineLevel) override {
+#if PATINA_HAS_REFINE_FALLBACK
+        _style->SetRefineLevelFallback(refineLevel);
+#else
         _style->SetRefineLevel({true, refineLevel});
+#endif
         _stage->ApplyPendingUpdates();
         _stage->SetTime(time);
     }

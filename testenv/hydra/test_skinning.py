@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Skinned meshes through Hydra, which has their points computed: still, and moving while the shutter is open."""
+import re
+
+import numpy as np
+import pytest
+
+import stages
+from test_marks import block
+from test_oneTruth import MODES, render_with_hydra
+
+STAGE = """#usda 1.0
+(
+    timeCodesPerSecond = 24
+    startTimeCode = 1
+    endTimeCode = 2
+)
+def Camera "camera"
+{
+    double shutter:open = SHUTTER_OPEN
+    double shutter:close = SHUTTER_CLOSE
+    double3 xformOp:translate = (0, 1, 6)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def SkelRoot "root" (prepend apiSchemas = ["SkelBindingAPI"])
+{
+    rel skel:skeleton = </root/skeleton>
+    def Skeleton "skeleton" (prepend apiSchemas = ["SkelBindingAPI"])
+    {
+        uniform token[] joints = ["foot", "foot/knee"]
+        uniform matrix4d[] bindTransforms = [
+            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)),
+            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 1, 0, 1))]
+        uniform matrix4d[] restTransforms = [
+            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)),
+            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 1, 0, 1))]
+        rel skel:animationSource = </root/skeleton/bend>
+        def SkelAnimation "bend"
+        {
+            uniform token[] joints = ["foot", "foot/knee"]
+            float3[] translations = [(0, 0, 0), (0, 1, 0)]
+            quatf[] rotations = [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]
+            half3[] scales = [(1, 1, 1), (1, 1, 1)]
+        }
+    }
+    def Mesh "leg" (prepend apiSchemas = ["SkelBindingAPI"])
+    {
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 3, 2]
+        point3f[] points = [(-0.5, 0, 0), (0.5, 0, 0), (-0.5, 2, 0), (0.5, 2, 0)]
+        uniform token subdivisionScheme = "none"
+        int[] primvars:skel:jointIndices = [0, 0, 1, 1] (
+            elementSize = 1
+            interpolation = "vertex"
+        )
+        float[] primvars:skel:jointWeights = [1, 1, 1, 1] (
+            elementSize = 1
+            interpolation = "vertex"
+        )
+    }
+}
+"""
+BEND = "quatf[] rotations = [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]"
+BENDING = "quatf[] rotations.timeSamples = {1: [(1, 0, 0, 0), (1, 0, 0, 0)], 2: [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]}"
+
+
+def points_of(text):
+    """:returns: array (samples, points, 3) of what a dump says of the mesh"""
+    lines = [line for line in block(text, "/root/leg") if line.startswith("points")]
+    return np.array([[float(x) for x in re.findall(r"[-+.\de]+", line.split(" = ", 1)[1])] for line in lines]).reshape(
+        len(lines), -1, 3)
+
+
+@MODES
+@pytest.mark.parametrize("bend, shutter, samples", [(BEND, 0.0, 1), (BEND, 0.5, 1), (BENDING, 0.0, 1), (BENDING, 1.0, 2)],
+                         ids=["still", "stillWithShutter", "animated", "moving"])
+def test_a_leg_bends(tmp_path, scene_index, bend, shutter, samples):
+    stage = tmp_path / "leg.usda"
+    assert BEND in STAGE
+    text = STAGE.replace(BEND, bend).replace("SHUTTER_OPEN", "0").replace("SHUTTER_CLOSE", str(shutter))
+    stage.write_text(text)
+    shot = stages.Shot(str(stage), tmp_path, width=8)
+    _, dump = render_with_hydra(shot, tmp_path, scene_index)
+    found, wanted = points_of(dump), points_of(shot.scene.dump())
+    assert len(found) == samples, dump
+    # The reader samples also what does not move. Some ten operations on numbers below 4, each rounded to 24 bits.
+    assert np.abs(found - wanted).max() <= 10 * 4 * 2.0 ** -24

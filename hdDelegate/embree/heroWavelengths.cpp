@@ -86,9 +86,15 @@ BsdfSample DispersedBsdf::sample(const vec3& u, float uLobe, HeroWavelengths& af
     vec3 sum(0.0f);
     float density = 0.0f;
     for (int i = 0; i < count; ++i) {
-        const BsdfEval e = delta ? at(i).evalDelta(drawn, u) : at(i).eval(drawn.wi);
-        after.shares[i] = _waves.shares[i] * (e.diffuse + e.specular);
-        after.chances[i] = _waves.chances[i] * e.pdf;
+        vec3 value = drawn.weight * drawn.pdf;
+        float pdf = drawn.pdf;
+        if (i > 0) { // the hero is what was drawn
+            const BsdfEval e = delta ? at(i).evalDelta(_hero, drawn, u) : at(i).eval(drawn.wi);
+            value = e.diffuse + e.specular;
+            pdf = e.pdf;
+        }
+        after.shares[i] = _waves.shares[i] * value;
+        after.chances[i] = _waves.chances[i] * pdf;
         sum += after.shares[i];
         density += after.chances[i] / float(count);
     }

@@ -220,7 +220,7 @@ void Bsdf::makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal
     l.kind = LobeKind::OrenNayar;
     l.diffuse = true;
     l.stochastic = false;
-    l.frame = 0;
+    l.frame = l.place = 0;
     l.probability = 1.0f;
     l.weight = l.albedo = glm::vec3(1.0f);
     l.orenNayar = sh::orenNayarSetup(glm::vec3(1.0f), 0.0f, false);

@@ -55,6 +55,7 @@ struct BsdfLobe {
     bool diffuse;      ///< counts as diffuse light (BsdfEval::diffuse)
     bool stochastic;   ///< its values are random, see Bsdf::stochastic()
     uint8_t frame;     ///< index into the frames of the Bsdf
+    uint8_t place;     ///< in its program; a Bsdf leaves out lobes without weight
     float probability; ///< of being chosen by sample(); all sum to 1
     glm::vec3 weight;  ///< product of all weights, mixes and layers above it
     glm::vec3
@@ -80,7 +81,7 @@ class Bsdf {
 public:
     static constexpr int maxLobes =
         32; ///< two of the largest models; more are dropped, with a warning at compile time
-    static constexpr int maxFrames = 8;
+    static constexpr int maxFrames = 16;
 
     Bsdf() {} // NOLINT: members are left uninitialised on purpose; evaluate() fills what is used
 
@@ -117,11 +118,13 @@ public:
     /// @returns density of eval()
     float density(const glm::vec3& wi) const { return evalLobes(wi, Lobes::None).pdf; }
 
-    /// @param drawn a sample with LOBE_DELTA, of lobes like these
+    /// @param lobes of the same point at another wavelength
+    /// @param drawn a sample of these with LOBE_DELTA
     /// @param u that it was drawn with
-    /// @returns value and probability of all mirrors and smooth interfaces that send light exactly
-    /// the same way, in the measure of such a sample: the weight of one is value / pdf
-    BsdfEval evalDelta(const BsdfSample& drawn, const glm::vec3& u) const;
+    /// @returns value and probability of the same lobe here, in the measure of such a sample: its
+    /// weight is value / pdf. 0 where it bends light another way, as its ior says: directions that
+    /// were computed apart differ in their last bits.
+    BsdfEval evalDelta(const Bsdf& lobes, const BsdfSample& drawn, const glm::vec3& u) const;
 
     /// @returns how the light that comes from `sample` counts: eval() of the lobes in its weight
     BsdfEval evalDrawn(const BsdfSample& sample) const;

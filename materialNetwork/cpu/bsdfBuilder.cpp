@@ -101,6 +101,7 @@ void BsdfBuilder::instantiate(const ProgramCode& code, const ShadingPoint& point
             l.frame = t.frame;
             setupLobe(t, registers, l);
         }
+        l.place = uint8_t(i);
         l.stochastic = t.walks && canWalkMicrosurface(l);
         l.weight = glm::vec3(0.0f);
         l.albedo = glm::vec3(0.0f);

@@ -75,6 +75,7 @@ void BsdfBuilder::setLayer(const ProgramCode& code, const glm::vec3& weight, int
     l.diffuse = false;
     l.stochastic = true;
     l.frame = top.frame;
+    l.place = uint8_t(index);
     l.weight = weight;
     l.layered = {op, false};
     glm::vec3 beneath(0.0f);

@@ -127,7 +127,7 @@ private:
         const std::string n = f.normal >= 0 ? reg(f.normal) + ".xyz" : "vec3(0.0)";
         const std::string t = f.tangent >= 0 ? reg(f.tangent) + ".xyz" : "vec3(0.0)";
         line("    frames[" + number(i) + "] = makeFrame(" + n + ", " + t + ", " +
-             (f.flips ? "true" : "false") + ");");
+             (f.flips ? "true, " : "false, ") + (f.bends ? "true);" : "false);"));
     }
 
     /// Lobes set up, with weights that do not yet know what passes straight.

@@ -17,6 +17,8 @@ bool IrBuilder::isShadingPoints(const Operand& operand, const char* standard) co
 int IrBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bool>& needed) {
     FrameTemplate f;
     f.flips = flips;
+    // Sheen has a peak of its own, and takes light from its base by the direction of view.
+    f.bends = !closure.has(lobe::Diffuse) || closure.has(lobe::Covers);
     const auto choose = [&](const char* input, const char* standard) {
         const GraphNode& node = nodeOf(closure.node);
         const int i = node.def->findInput(input);
@@ -32,7 +34,7 @@ int IrBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bool>& 
     auto& frames = _ir.frames;
     for (size_t i = 0; i < frames.size(); ++i)
         if (frames[i].normal == f.normal && frames[i].tangent == f.tangent &&
-            frames[i].flips == f.flips)
+            frames[i].flips == f.flips && frames[i].bends == f.bends)
             return int(i);
     if (int(frames.size()) >= MaterialIr::maxFrames) {
         _diagnostics.warn(nodeOf(closure.node).path, "normal",

@@ -83,6 +83,7 @@ struct ClosureOp {
 struct FrameTemplate {
     int normal = -1, tangent = -1; ///< registers, -1 for the shading frame's own
     bool flips = true;             ///< turns to the viewer; false where the surface has an inside
+    bool bends = true; ///< its normal is bent; false of lobes without a mirror direction
 };
 
 using method::LayerTransmittance;
@@ -110,7 +111,7 @@ struct MaterialFacts {
 /// (cpu/), and GLSL is written from it (glsl/).
 struct MaterialIr {
     static constexpr int maxLobes = 32; ///< two of the largest models; more are dropped
-    static constexpr int maxFrames = 8;
+    static constexpr int maxFrames = 16;
 
     std::vector<glm::vec4> constants; ///< the first registers
     int registerCount = 0;

@@ -73,14 +73,25 @@ PATINA_FN vec3 bendNormal(vec3 n, vec3 v, vec3 g) {
 const float TANGENT_MIN = 1e-4f;
 const float TANGENT_SLANTED = 0.5f;
 
+// The direction v, in a frame, lifted above the horizon by the margin if it is not.
+PATINA_FN vec3 liftedAbove(vec3 v) {
+    if (v.z >= BEND_MARGIN) return v;
+    float l = length(vec2(v.x, v.y));
+    vec2 along = select(vec2(v.x, v.y) / l, vec2(1.0f, 0.0f), hasDirection(l)) *
+                 sqrt(1.0f - BEND_MARGIN * BEND_MARGIN);
+    return vec3(along.x, along.y, BEND_MARGIN);
+}
+
 // Of a lobe. normal, tangent: as the material gives them, of any length; where they are unusable (0,
 // not finite, parallel) those of the point stand in. flips: turn the frame to the viewer instead of
-// keeping z on the outside.
+// keeping z on the outside. bends: the normal is bent. Lobes without a mirror direction keep their normal, which
+// alone says how much light they get; wo is then lifted to where they can be seen from. They flip.
 PATINA_FN Frame shadingFrame(vec3 view, vec3 geometricNormal, vec3 pointNormal, vec3 pointTangent,
-                             vec3 normal, vec3 tangent, bool flips) {
+                             vec3 normal, vec3 tangent, bool flips, bool bends) {
     float side = select(1.0f, -1.0f, dot(view, geometricNormal) >= 0.0f);
     Frame f;
-    vec3 facing = bendNormal(unitOr(normal, pointNormal) * side, view, geometricNormal * side);
+    vec3 facing = unitOr(normal, pointNormal) * side;
+    if (bends) facing = bendNormal(facing, view, geometricNormal * side);
     f.normal = select(facing, facing * side, flips);
     vec3 t = select(tangent, pointTangent, hasDirection(length(tangent)));
     float whole = length(t);
@@ -92,5 +103,6 @@ PATINA_FN Frame shadingFrame(vec3 view, vec3 geometricNormal, vec3 pointNormal, 
     if (!(l > TANGENT_MIN * whole && l < 1e30f)) f.tangent = anyTangent(f.normal);
     f.bitangent = cross(f.normal, f.tangent);
     f.wo = toLocal(f, view);
+    if (!bends) f.wo = liftedAbove(f.wo);
     return f;
 }

@@ -50,18 +50,19 @@ PATINA_FN Slab schlickSlab(PATINA_INOUT(SchlickLobe) l, vec3 wo, PATINA_INOUT(ve
     return slabOf(once, vec3(1.0f), twoFaces, reflects);
 }
 
-// The surface is only met with the chance that light does not pass straight: a factor on its lobes.
+// The surface is only met with the chance that light does not pass straight: a factor on its lobes. Light passes as
+// often as the mean of its channels does, so that no channel of a path that passes, or is met, weighs more than 3.
 PATINA_FN float slabScale(vec3 passThrough) {
-    float met = 1.0f - largest(passThrough);
+    float met = 1.0f - lobeMean(passThrough);
     return select(1.0f / met, 0.0f, met > 0.0f);
 }
 
-// Presence of a surface that passes light straight: as often as its brightest channel passes.
+// Presence of a surface that passes light straight.
 // passes: colour of light that goes on.
 PATINA_FN float presenceOf(float opacity, vec3 passThrough, PATINA_OUT(vec3) passes) {
     float x = unit(opacity);
-    float brightest = largest(passThrough);
-    float pass = 1.0f - x + x * brightest;
+    float share = lobeMean(passThrough);
+    float pass = 1.0f - x + x * share;
     passes = select((1.0f - x + x * passThrough) / pass, vec3(1.0f), pass > 0.0f);
-    return x * (1.0f - brightest);
+    return x * (1.0f - share);
 }

@@ -38,9 +38,9 @@ bool woOutside() {
 }
 
 // normal, tangent: zero for those of the point.
-Frame makeFrame(vec3 normal, vec3 tangent, bool flips) {
-    return shadingFrame(point.view, point.geometricNormal, point.normal, point.tangent, normal, tangent,
-                        flips);
+Frame makeFrame(vec3 normal, vec3 tangent, bool flips, bool bends) {
+    return shadingFrame(point.view, point.geometricNormal, point.normal, point.tangent, normal, tangent, flips,
+                        bends);
 }
 
 // Defined by the text of a material.

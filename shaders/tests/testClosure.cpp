@@ -60,7 +60,8 @@ TEST(ClosureFrame, IsOrthonormalWhateverIsAuthored) {
         for (const glm::vec3& normal : odd)
             for (const glm::vec3& tangent : odd)
                 for (const bool flips : {false, true}) {
-                    const sh::Frame f = sh::shadingFrame(view, g, g, x, normal, tangent, flips);
+                    const sh::Frame f =
+                        sh::shadingFrame(view, g, g, x, normal, tangent, flips, true);
                     // A tangent close to the normal keeps few digits.
                     const bool given = sh::hasDirection(glm::length(tangent));
                     const float sine =
@@ -75,6 +76,13 @@ TEST(ClosureFrame, IsOrthonormalWhateverIsAuthored) {
                         EXPECT_GE(f.wo.z, 0.0f);
                     else
                         EXPECT_EQ(f.wo.z >= 0.0f, glm::dot(view, g) >= 0.0f);
+                    // Where the normal is not bent, the view is lifted into its hemisphere.
+                    const sh::Frame kept =
+                        sh::shadingFrame(view, g, g, x, normal, tangent, true, false);
+                    const float side = glm::dot(view, g) >= 0.0f ? 1.0f : -1.0f;
+                    expectSame(kept.normal, sh::unitOr(normal, g) * side, 1e-6f);
+                    EXPECT_GE(kept.wo.z, sh::BEND_MARGIN);
+                    EXPECT_NEAR(glm::dot(kept.wo, kept.wo), 1.0f, 1e-5f);
                 }
     }
 }
@@ -98,6 +106,16 @@ TEST(ClosureSlab, PresenceLosesNoLight) {
     expectSame(passes * (1.0f - presence), 0.25f + 0.75f * through, 1e-6f);
     // Where it is met, lobes count so much more.
     EXPECT_NEAR(presence * sh::slabScale(through), 0.75f, 1e-6f);
+    // Whatever a colour is, neither way makes much of little.
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> share(0.0f, 1.0f);
+    for (int i = 0; i < 1000; ++i) {
+        const auto any = [&] { return std::pow(share(random), 8.0f); };
+        const glm::vec3 c(any(), 1.0f - any(), share(random));
+        sh::presenceOf(1.0f, c, passes);
+        const glm::vec3 met = (1.0f - c) * sh::slabScale(c);
+        EXPECT_LE(std::max({passes.x, passes.y, passes.z, met.x, met.y, met.z}), 3.001f);
+    }
     EXPECT_EQ(sh::slabScale(glm::vec3(1.0f)), 0.0f);
     EXPECT_EQ(sh::presenceOf(1.0f, glm::vec3(0.0f), passes), 1.0f);
     EXPECT_EQ(passes, glm::vec3(1.0f));

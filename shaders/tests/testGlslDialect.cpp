@@ -116,7 +116,7 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
 // How lobes become a material.
 const char* const closureCalls = R"(
 vec3 everyClosure(vec3 wo, vec3 wi, vec3 u) {
-    Frame f = shadingFrame(wo, wi, wi, u, vec3(0.0), vec3(0.0), true);
+    Frame f = shadingFrame(wo, wi, wi, u, vec3(0.0), vec3(0.0), true, true);
     DielectricLobe d = dielectricSetup(vec3(1.0), 1.5, vec2(0.2), false, SCATTER_RT, false, 1);
     SchlickLobe s = schlickSetup(vec3(0.04), vec3(1.0), vec3(1.0), 5.0, vec2(0.2), false,
                                  SCATTER_RT, false, 1);

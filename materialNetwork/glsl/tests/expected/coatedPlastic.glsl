@@ -8,24 +8,22 @@ OrenNayarLobe lobe1;
 vec3 lobeWeight[2];
 vec3 lobeAlbedo[2];
 float lobeChance[2];
-Frame frames[1];
+Frame frames[2];
 vec3 passThrough;
 void instantiate() {
-    frames[0] = makeFrame(vec3(0.0), vec3(0.0), true);
+    frames[0] = makeFrame(vec3(0.0), vec3(0.0), true, true);
+    frames[1] = makeFrame(vec3(0.0), vec3(0.0), true, false);
     lobe0 = dielectricSetup(parameters[0].xyz, parameters[1].x, parameters[2].xy, false, 1, false, 1);
     vec3 coverage0 = lobeFix(lobe0, frames[0].wo, 3, lobeAlbedo[0]);
     coverage0 = unitColor(coverage0);
     lobe1 = orenNayarModel(parameters[68].xyz, parameters[69].x, false, 0);
-    vec3 coverage1 = lobeFix(lobe1, frames[0].wo, lobeAlbedo[1]);
+    vec3 coverage1 = lobeFix(lobe1, frames[1].wo, lobeAlbedo[1]);
     coverage1 = unitColor(coverage1);
-    vec3 kinds0 = layerKinds(lobeRoughness(lobe0), frames[0].wo.z, 0.0);
-    vec3 kinds1 = layerKinds(1.0, frames[0].wo.z, 0.0);
-    LayerLight w0 = layerOfLobe(closureScaled(lobeAlbedo[1], unit(parameters[70].x)), kinds1);
-    LayerLight w1 = layerThrough(unit(parameters[71].x), coverage0, layerInsideDielectric(lobe0.favg, lobe0.ior, lobe0.invIor, frames[0].wo.z), lobeRoughness(lobe0), frames[0].wo.z, w0);
-    LayerLight w2 = layerEven(vec3(1.0));
-    LayerLight w3 = layerProduct(layerEven(vec3(1.0)), w1);
-    lobeWeight[1] = closureScaled(layerWeight(w3, kinds1), unit(parameters[70].x));
-    lobeWeight[0] = closureScaled(layerWeight(w2, kinds0), unit(parameters[71].x));
+    vec3 w0 = passLobe(coverage0, unit(parameters[70].x));
+    vec3 w1 = vec3(1.0);
+    vec3 w2 = closureProduct(vec3(1.0), w0);
+    lobeWeight[1] = closureScaled(w2, unit(parameters[71].x));
+    lobeWeight[0] = closureScaled(w1, unit(parameters[70].x));
     passThrough = vec3(0.0);
 }
 void materialSetup() {
@@ -56,8 +54,9 @@ MaterialEval materialEvalBut(vec3 wi, int without) {
     MaterialEval sum = materialEvalNone();
     bool reflects = isReflected(wi, point.geometricNormal, woOutside());
     vec3 wi0 = toLocal(frames[0], wi);
+    vec3 wi1 = toLocal(frames[1], wi);
     if (without != 0) addLobe(sum, lobeAgrees(frames[0].wo.z, wi0.z, reflects) && hasWeight(lobeWeight[0]), false, lobeWeight[0], lobeChance[0], dielectricEval(lobe0, frames[0].wo, wi0));
-    if (without != 1) addLobe(sum, lobeAgrees(frames[0].wo.z, wi0.z, reflects) && hasWeight(lobeWeight[1]), true, lobeWeight[1], lobeChance[1], orenNayarEval(lobe1, frames[0].wo, wi0));
+    if (without != 1) addLobe(sum, lobeAgrees(frames[1].wo.z, wi1.z, reflects) && hasWeight(lobeWeight[1]), true, lobeWeight[1], lobeChance[1], orenNayarEval(lobe1, frames[1].wo, wi1));
     return sum;
 }
 MaterialEval materialEval(vec3 wi) { return materialEvalBut(wi, -1); }
@@ -77,8 +76,8 @@ MaterialSample materialSample(vec3 u, float uLobe) {
         chance = lobeChance[0];
     }
     if (drawn.lobe == 1) {
-        l = orenNayarSample(lobe1, frames[0].wo, u);
-        s.wi = toWorld(frames[0], l.wi);
+        l = orenNayarSample(lobe1, frames[1].wo, u);
+        s.wi = toWorld(frames[1], l.wi);
         s.diffuse = true;
         weight = lobeWeight[1];
         chance = lobeChance[1];

@@ -27,8 +27,8 @@ void instantiate() {
     r13 = vec4(nodePosition(1, point), 0.0);
     r14 = vec4(nodeBitangent(0, point), 0.0);
     { float o1; float o2; vec3 o3; r15 = vec4(nodeFlake3(parameters[0].x, parameters[1].x, parameters[2].x, r13.xyz, r11.xyz, r12.xyz, r14.xyz, o1, o2, o3)); r16 = vec4(o1); r17 = vec4(o2); r18 = vec4(o3, 0.0); }
-    frames[0] = makeFrame(vec3(0.0), vec3(0.0), false);
-    frames[1] = makeFrame(r18.xyz, vec3(0.0), true);
+    frames[0] = makeFrame(vec3(0.0), vec3(0.0), false, true);
+    frames[1] = makeFrame(r18.xyz, vec3(0.0), true, true);
     lobe0 = dielectricSetup(parameters[3].xyz, parameters[4].x, parameters[5].xy, false, 3, false, 1);
     vec3 coverage0 = lobeFix(lobe0, frames[0].wo, 6, lobeAlbedo[0]);
     coverage0 = unitColor(coverage0);

@@ -47,7 +47,7 @@ void instantiate() {
     r17 = vec4(nodeTangent(0, point), 0.0);
     r18 = vec4(nodeBitangent(0, point), 0.0);
     r19 = vec4(patternNormalMap(r15.xyz, parameters[19].xy, r16.xyz, r17.xyz, r18.xyz), 0.0);
-    frames[0] = makeFrame(r19.xyz, vec3(0.0), true);
+    frames[0] = makeFrame(r19.xyz, vec3(0.0), true, false);
     lobe0 = burleySetup(r6.xyz, parameters[20].x);
     vec3 coverage0 = lobeFix(lobe0, frames[0].wo, lobeAlbedo[0]);
     coverage0 = unitColor(coverage0);

@@ -76,7 +76,7 @@ const float TANGENT_SLANTED = 0.5f;
 // The direction v, in a frame, lifted above the horizon by the margin if it is not.
 PATINA_FN vec3 liftedAbove(vec3 v) {
     if (v.z >= BEND_MARGIN) return v;
-    float l = length(vec2(v.x, v.y));
+    float l = sqrt(v.x * v.x + v.y * v.y);
     vec2 along = select(vec2(v.x, v.y) / l, vec2(1.0f, 0.0f), hasDirection(l)) *
                  sqrt(1.0f - BEND_MARGIN * BEND_MARGIN);
     return vec3(along.x, along.y, BEND_MARGIN);

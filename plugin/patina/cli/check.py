@@ -2,8 +2,7 @@
 """Checks the mathematical properties of materials that a renderer relies on, over directions and places.
 
   finite       values, densities, samples, albedo and emission are finite and not negative
-  energy       no more light comes back than arrives, by the material's own albedo and by its samples; light
-               that passes straight on counts
+  energy       no more light comes back than arrives, by the material's own albedo and by its samples
   pdf          densities integrate to 1 at most, and to the share of samples that are not mirrors
   weight       a sample's weight is f cos / pdf
   chi2         samples fall where the density says (chi-squared test; significance 1 % for the whole

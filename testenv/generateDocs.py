@@ -107,10 +107,14 @@ def nodes():
     for name in names_in(MODELS, ".mtlx"):
         defined = ElementTree.fromstring(read(f"{MODELS}/{name}")).iter("nodedef")
         models.append((f"`{MODELS}/{name}`", ", ".join(dict.fromkeys(f"`{d.get('node')}`" for d in defined))))
+    missing = [(f"`{ids}`", reason[0].upper() + reason[1:] + ".") for ids, reason in
+               re.findall(rf"PATINA_NOT_DRAWN\({STRING},\s*{STRING}\)", read(f"{NODES}/notDrawn.inc"))]
     return ["# Nodes", "",
             f"Categories that the table of node definitions (`{NODES}`) has, by file, and those that are graphs in data files.",
             "Most have one definition for each type. A closure that is known but not modelled gets a warning.", "",
-            *table(("family", "categories"), rows), "", *table(("data file", "categories"), models)]
+            *table(("family", "categories"), rows), "", *table(("data file", "categories"), models), "",
+            "Each definition of MaterialX 1.39.5 and 1.38.10 is compared with these: inputs, types, defaults and outputs.",
+            "Those that are not drawn, where `*` stands for any text:", "", *table(("definitions", "why"), missing)]
 
 
 def flags():

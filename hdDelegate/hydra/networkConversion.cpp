@@ -3,13 +3,16 @@
 
 #include "hdDelegate/hydra/values.h"
 
+#include "materialNetwork/network/upgrade.h"
 #include "materialNetwork/nodes/models.h"
 
 #include <pxr/base/tf/stringUtils.h>
+#include <pxr/base/vt/dictionary.h>
 #include <pxr/imaging/hd/material.h>
 #include <pxr/usd/sdf/assetPath.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <unordered_map>
 
 namespace patina {
@@ -39,6 +42,24 @@ ValueType typeOfNumbers(const VtValue& given, int components) {
 std::string parameterText(const std::map<TfToken, VtValue>& parameters, const std::string& name) {
     const auto found = parameters.find(TfToken(name));
     return found == parameters.end() ? std::string() : textOf(found->second);
+}
+
+/// The configuration of a network, which releases of OpenUSD before MaterialXConfigAPI have not.
+template <class Map> auto configOf(const Map& map, int) -> decltype(&map.config) {
+    return &map.config;
+}
+template <class Map> const VtDictionary* configOf(const Map&, long) {
+    return nullptr;
+}
+
+/// Whether a network is of MaterialX 1.38, as those are that do not say otherwise.
+bool isBefore139(const HdMaterialNetworkMap& map) {
+    std::string version = "1.38";
+    if (const VtDictionary* config = configOf(map, 0)) {
+        const auto found = config->find("mtlx:version");
+        if (found != config->end()) version = textOf(found->second);
+    }
+    return version.compare(0, 2, "1.") == 0 && std::atoi(version.c_str() + 2) < 39;
 }
 
 /// Scene indices name nodes within their material.
@@ -138,6 +159,12 @@ Network networkOf(const VtValue& resource, const SdfPath& material, HdPatinaRend
         if (def && !def->outputs.empty())
             output = def->outputs[size_t(std::max(def->findOutput(name), 0))].name;
         network.terminals[name] = {nodePath(part.nodes.back().path, material), output};
+    }
+    if (isBefore139(map)) {
+        Diagnostics diagnostics;
+        upgradeNetwork(network, diagnostics);
+        for (const Diagnostic& d : diagnostics.all())
+            param.warn(SdfPath(d.prim), d.input, d.message);
     }
     if (network.terminals.empty())
         param.warn(

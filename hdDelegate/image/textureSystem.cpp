@@ -16,40 +16,54 @@ namespace patina {
 namespace {
 
 const glm::vec4 magenta(1, 0, 1, 1);
-const std::string udimToken = "<UDIM>";
 constexpr int firstTile = 1001, lastTile = 9999;
+
+/// Tokens of a file name that stand for a tile: its number, or Mudbox's "u1_v1".
+const std::string tileTokens[] = {"<UDIM>", "<UVTILE>"};
+
+std::string tileName(int token, int tile) {
+    if (token == 0) return std::to_string(tile);
+    const int place = tile - firstTile;
+    return "u" + std::to_string(place % 10 + 1) + "_v" + std::to_string(place / 10 + 1);
+}
 
 constexpr int mostTokens = 16; ///< in a name; no tile of others is looked for
 
 int tokensIn(const std::string& pattern) {
     int count = 0;
-    for (size_t at = 0; (at = pattern.find(udimToken, at)) != std::string::npos; ++count)
-        at += udimToken.size();
+    for (const std::string& token : tileTokens)
+        for (size_t at = 0; (at = pattern.find(token, at)) != std::string::npos; ++count)
+            at += token.size();
     return count;
 }
 
+bool isTiled(const std::string& file) {
+    return tokensIn(file) > 0;
+}
+
 std::string withTile(std::string file, int tile) {
-    for (size_t at = 0; (at = file.find(udimToken, at)) != std::string::npos;)
-        file.replace(at, udimToken.size(), std::to_string(tile));
+    for (int token = 0; token < 2; ++token)
+        for (size_t at = 0; (at = file.find(tileTokens[token], at)) != std::string::npos;)
+            file.replace(at, tileTokens[token].size(), tileName(token, tile));
     return file;
 }
 
-/// The tiles of a UDIM name that exist, in order.
+/// The tiles of a name with a token that exist, in order.
 std::vector<int> existingTiles(const std::string& pattern) {
     std::vector<int> tiles;
     if (tokensIn(pattern) > mostTokens) return tiles;
+    const std::string& udim = tileTokens[0];
     fs::path path(pattern);
     std::string name = path.filename().string();
-    size_t at = name.find(udimToken);
+    size_t at = name.find(udim);
     std::error_code error;
-    if (at == std::string::npos || name.find(udimToken, at + 1) != std::string::npos ||
-        path.parent_path().string().find(udimToken) != std::string::npos) {
+    if (at == std::string::npos || tokensIn(pattern) > 1) {
         for (int tile = firstTile; tile < firstTile + 100; ++tile)
             if (fs::exists(withTile(pattern, tile), error)) tiles.push_back(tile);
         return tiles;
     }
     // One look at the folder instead of thousands of guesses.
-    std::string start = name.substr(0, at), end = name.substr(at + udimToken.size());
+    std::string start = name.substr(0, at), end = name.substr(at + udim.size());
     fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     for (fs::directory_iterator i(folder, error), last; !error && i != last; i.increment(error)) {
         std::string file = i->path().filename().string();
@@ -177,7 +191,7 @@ std::shared_ptr<TextureSystem::Image> TextureSystem::shareImage(const ImageSourc
 
 void TextureSystem::openTiles(Entry& entry) {
     const std::string& file = entry.request.file;
-    entry.udim = file.find(udimToken) != std::string::npos;
+    entry.udim = isTiled(file);
     if (!entry.udim) {
         entry.tiles.push_back(shareImage(entry.source(file)));
         return;

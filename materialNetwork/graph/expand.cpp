@@ -6,6 +6,7 @@
 #include "materialNetwork/graph/graph.h"
 #include "materialNetwork/graph/simplify.h"
 #include "base/limits.h"
+#include "materialNetwork/network/tokens.h"
 #include "materialNetwork/network/value.h"
 
 #include <deque>
@@ -56,8 +57,14 @@ public:
                     ++it;
                 else
                     it = node.connections.erase(it);
-        for (auto [name, c] : _network.terminals)
+        for (auto [name, c] : _network.terminals) {
+            const auto instance = _instances.find(c.node);
+            // Whatever a host calls it, a terminal is the output of its kind.
+            if (instance != _instances.end() && !instance->second.model->outputs.count(c.output) &&
+                instance->second.model->outputs.count(name))
+                c.output = name;
             if (resolve(c)) _result.terminals[name] = c;
+        }
         return std::move(_result);
     }
 
@@ -94,6 +101,7 @@ private:
         _nodes += 1 + model->nodes.size();
         if (isTooLarge()) return;
         reportInputs(node, *model);
+        tokens(node, *model);
         for (const NetworkNode& inner : model->nodes) {
             if (isTooLarge()) return;
             _owned.push_back(instantiate(inner, node, *model, prefix, depth));
@@ -141,6 +149,22 @@ private:
                found->second.value.numbers == value.numbers;
     }
 
+    /// Texts that stand in the model's body for "[name]".
+    void tokens(const NetworkNode& node, const ShadingModel& model) {
+        _tokens.clear();
+        for (const InputDef& input : model.def.inputs)
+            if (!input.name.empty() && input.name[0] == '[')
+                _tokens[input.name.substr(1, input.name.size() - 2)] = authored(node, input).text;
+    }
+    Value withTokens(Value value) const {
+        if (!_tokens.empty() && !value.text.empty())
+            value.text = replaceTokens(value.text, [&](const std::string& name) {
+                const auto token = _tokens.find(name);
+                return token == _tokens.end() ? nullptr : token->second.c_str();
+            });
+        return value;
+    }
+
     bool isTooLarge() const { return _nodes > _maxNodes || _bytes > _maxBytes; }
 
     NetworkNode instantiate(const NetworkNode& inner, const NetworkNode& outer,
@@ -148,10 +172,9 @@ private:
         NetworkNode node;
         node.path = prefix + inner.path;
         node.id = inner.id;
-        node.inputs = inner.inputs;
-        _bytes += node.path.size() * (1 + inner.connections.size());
         for (const auto& [input, value] : inner.inputs)
-            _bytes += value.text.size();
+            _bytes += (node.inputs[input] = withTokens(value)).text.size();
+        _bytes += node.path.size() * (1 + inner.connections.size());
         for (const auto& [input, c] : inner.connections) {
             if (c.node != ShadingModel::interfaceNode) {
                 node.connections[input] = {prefix + c.node, c.output};
@@ -188,7 +211,7 @@ private:
 
     Value authored(const NetworkNode& outer, const InputDef& def) {
         const auto v = outer.inputs.find(def.name);
-        if (v == outer.inputs.end()) return def.value;
+        if (v == outer.inputs.end()) return withTokens(def.value);
         Value value;
         std::string problem;
         const bool usable = coerceValue(v->second, def, value, problem);
@@ -240,9 +263,10 @@ private:
     std::deque<NetworkNode> _owned; ///< nodes that come from models; addresses must stay
     std::map<std::string, Instance> _instances;
     std::set<std::string> _seen;
-    std::set<std::string> _tooDeep; ///< nodes that are left out
-    bool _asked = true;             ///< whether inputs in vain are looked for
-    size_t _nodes = 0;              ///< of the result and of all models taken in
+    std::set<std::string> _tooDeep;             ///< nodes that are left out
+    std::map<std::string, std::string> _tokens; ///< of the instance that is taken apart
+    bool _asked = true;                         ///< whether inputs in vain are looked for
+    size_t _nodes = 0;                          ///< of the result and of all models taken in
     std::deque<std::pair<std::string, int>> _queue;
     const size_t _maxNodes = limitOf(Limit::nodes);
     const size_t _maxBytes = limitOf(Limit::documentBytes);

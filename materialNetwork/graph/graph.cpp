@@ -4,6 +4,7 @@
 #include "materialNetwork/graph/differences.h"
 #include "materialNetwork/network/geomprop.h"
 #include "materialNetwork/nodes/nodeTable.h"
+#include "materialNetwork/nodes/notDrawn.h"
 #include "materialNetwork/network/value.h"
 #include "base/limits.h"
 
@@ -97,7 +98,10 @@ private:
         const NetworkNode& node = *source->second;
         const NodeDef* def = NodeTable::get().find(node.id);
         if (!def) {
-            problem = "node " + path + " has the unknown type '" + node.id + "'";
+            const char* reason = whyNotDrawn(node.id);
+            problem = "node " + path +
+                      (reason ? " (" + node.id + ") is not drawn: " + reason
+                              : " has the unknown type '" + node.id + "'");
             _built[path] = unusable;
             return unusable;
         }

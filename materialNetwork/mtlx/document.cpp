@@ -3,16 +3,16 @@
 
 #include "materialNetwork/graph/expand.h"
 #include "base/limits.h"
+#include "materialNetwork/mtlx/channels.h"
 #include "materialNetwork/mtlx/include.h"
 #include "materialNetwork/mtlx/parser.h"
-#include "materialNetwork/mtlx/upgrade.h"
 #include "materialNetwork/mtlx/xmlFile.h"
 #include "base/regularFile.h"
 
 namespace patina {
 
 bool parseMtlx(const std::string& text, const std::string& path, bool wantMaterials,
-               MtlxDocument& out, Diagnostics& diagnostics) {
+               MtlxDocument& out, Diagnostics& diagnostics, double metersPerUnit) {
     pugi::xml_document xml;
     std::string problem;
     if (!loadXml(text, xml, problem, limitOf(Limit::markup))) {
@@ -25,19 +25,20 @@ bool parseMtlx(const std::string& text, const std::string& path, bool wantMateri
         return false;
     }
     includeDocuments(root, path, markupOf(text), diagnostics);
-    upgradeDocument(root, path, diagnostics);
-    MtlxParser(path, diagnostics).parse(root, wantMaterials, out);
+    channelsToSwizzles(root, path, diagnostics);
+    MtlxParser(path, metersPerUnit, diagnostics).parse(root, wantMaterials, out);
     return true;
 }
 
-std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics) {
+std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics,
+                              double metersPerUnit) {
     std::string text, problem;
     if (!readRegularFile(path, Limit::documentBytes, text, problem)) {
         diagnostics.warn(path, "", "the file " + problem);
         return {};
     }
     MtlxDocument document;
-    if (!parseMtlx(text, path, true, document, diagnostics)) return {};
+    if (!parseMtlx(text, path, true, document, diagnostics, metersPerUnit)) return {};
     std::map<std::string, const ShadingModel*> models;
     for (const ShadingModel& model : document.models)
         models.emplace(model.def.id, &model);

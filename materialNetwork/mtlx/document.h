@@ -17,13 +17,15 @@ struct MtlxDocument {
 /// Parses the text of a `.mtlx` document (1.38 or 1.39).
 /// @param path of the file, for messages and relative file names
 /// @param wantMaterials false to read only the node definitions (of a model library)
+/// @param metersPerUnit of the scene, for distances that have a unit
 /// @returns false, after a warning, if the text is no MaterialX document at all
 bool parseMtlx(const std::string& text, const std::string& path, bool wantMaterials,
-               MtlxDocument& out, Diagnostics& diagnostics);
+               MtlxDocument& out, Diagnostics& diagnostics, double metersPerUnit = 1.0);
 
 /// Reads the materials of a `.mtlx` file. Node definitions of the document itself are expanded, so
 /// the networks stand on their own. Network::path is "file:material name". A document without
 /// materials gives one network per surface shader. Empty, after a warning, when unreadable.
-std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics);
+std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics,
+                              double metersPerUnit = 1.0);
 
 } // namespace patina

@@ -91,7 +91,8 @@ private:
                      const std::string& path) {
         if (element.attribute(sourceAttribute)) return; // of a document that this one included
         element.append_attribute(sourceAttribute).set_value(path.c_str());
-        for (const char* name : {"colorspace", "version", "fileprefix", "namespace"}) {
+        element.append_attribute(versionAttribute).set_value(document.attribute("version").value());
+        for (const char* name : {"colorspace", "fileprefix", "namespace"}) {
             const pugi::xml_attribute outer = document.attribute(name);
             if (!outer) continue;
             if (const pugi::xml_attribute own = element.attribute(name)) {

@@ -12,6 +12,9 @@ namespace patina {
 /// Attribute that elements of an included document carry: the path of that document, which file
 /// names are relative to.
 inline constexpr const char* sourceAttribute = "patina-source";
+/// Attribute of the same elements: the version of MaterialX that the document has. (`version` of a
+/// node asks for one of its definitions.)
+inline constexpr const char* versionAttribute = "patina-version";
 
 /// Replaces every `xi:include` of a document by the elements of the document that it names,
 /// relative to the including one. Included elements keep their own colour space, file prefix and

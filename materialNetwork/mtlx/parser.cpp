@@ -3,14 +3,10 @@
 
 #include "base/limits.h"
 #include "materialNetwork/mtlx/giveNodes.h"
-#include "materialNetwork/mtlx/include.h"
-#include "materialNetwork/mtlx/lists.h"
-#include "materialNetwork/mtlx/xmlFile.h"
-#include "materialNetwork/nodes/nodeTable.h"
+#include "materialNetwork/network/geomprop.h"
+#include "materialNetwork/network/upgrade.h"
 
-#include <algorithm>
 #include <cstring>
-#include <filesystem>
 #include <set>
 
 namespace patina {
@@ -24,14 +20,6 @@ const std::set<std::string> otherElements = {
     "unittypedef", "targetdef",  "xi:include",     "input",    "output",      "token",
     "backdrop",    "comment",    "attributedef",   "parameter"};
 
-bool isNode(const pugi::xml_node& element) {
-    return element.type() == pugi::node_element && !otherElements.count(element.name());
-}
-
-bool isPort(const char* name) {
-    return !std::strcmp(name, "input") || !std::strcmp(name, "parameter");
-}
-
 /// Of the paths of a graph's nodes.
 std::string prefixOf(const pugi::xml_node& graph) {
     return "/" + std::string(graph.attribute("name").value()) + "/";
@@ -39,132 +27,19 @@ std::string prefixOf(const pugi::xml_node& graph) {
 
 } // namespace
 
+bool MtlxParser::isNode(const Element& element) {
+    return element.type() == pugi::node_element && !otherElements.count(element.name());
+}
+
+bool MtlxParser::isPort(const Element& element) {
+    return !std::strcmp(element.name(), "input") || !std::strcmp(element.name(), "parameter");
+}
+
 std::string MtlxParser::where(const Element& element) const {
     std::string path;
     for (Element e = element; e && std::strcmp(e.name(), "materialx") != 0; e = e.parent())
-        if (!isPort(e.name())) path = "/" + std::string(e.attribute("name").value()) + path;
+        if (!isPort(e)) path = "/" + std::string(e.attribute("name").value()) + path;
     return _path + ":" + path;
-}
-
-std::string MtlxParser::inherited(const Element& element, const char* attribute) const {
-    for (Element e = element; e; e = e.parent())
-        if (const auto a = e.attribute(attribute)) return a.value();
-    return "";
-}
-
-Value MtlxParser::readValue(const Element& port) const {
-    Value v;
-    v.type = valueTypeFromName(port.attribute("type").value());
-    const std::string text = port.attribute("value").value();
-    const int n = valueTypeComponents(v.type);
-    if (v.type == ValueType::Filename) {
-        namespace fs = std::filesystem;
-        std::string prefix;
-        for (Element e = port; e; e = e.parent())
-            prefix = e.attribute("fileprefix").value() + prefix;
-        fs::path file(prefix + text);
-        const std::string source = inherited(port, sourceAttribute);
-        const fs::path document(source.empty() ? _path : source);
-        if (!text.empty() && file.is_relative()) file = document.parent_path() / file;
-        v.text = text.empty() ? "" : file.lexically_normal().string();
-        // Only colours have a colour space; a file says so itself, or is read by a colour node.
-        const std::string nodeType = port.parent().attribute("type").value();
-        v.colorSpace = nodeType.rfind("color", 0) == 0 || nodeType == "multioutput"
-                           ? inherited(port, "colorspace")
-                           : port.attribute("colorspace").value();
-    } else if (n == 0) {
-        v.text = text;
-    } else {
-        if (!port.attribute("value")) {
-            v.numbers.assign(size_t(n), 0.0f);
-        } else if (v.type == ValueType::Bool && (text == "true" || text == "false")) {
-            v.numbers = {text == "true" ? 1.0f : 0.0f};
-        } else if (!readNumbers(text, size_t(n), v.numbers)) {
-            // A name may stand for an enumerated value; all else is told of where it is used.
-            v.numbers.clear();
-            v.type = ValueType::String;
-            v.text = text;
-        }
-        if (v.type == ValueType::Color3 || v.type == ValueType::Color4)
-            v.colorSpace = inherited(port, "colorspace");
-    }
-    return v;
-}
-
-void MtlxParser::readDef(const Element& element, NodeDef& def) const {
-    def.id = element.attribute("name").value();
-    def.category = qualifiedName(element, element.attribute("node").value());
-    for (const Element& child : element.children()) {
-        if (isPort(child.name())) {
-            InputDef input;
-            input.name = child.attribute("name").value();
-            input.type = valueTypeFromName(child.attribute("type").value());
-            input.value = readValue(child);
-            input.geomprop = child.attribute("defaultgeomprop").value();
-            input.notModelled = child.attribute("patina-not-modelled").value();
-            if (const auto values = child.attribute("enumvalues")) {
-                const auto names = splitList(child.attribute("enum").value());
-                const auto numbers = splitList(values.value());
-                for (size_t i = 0; i < std::min(names.size(), numbers.size()); ++i) {
-                    input.enumNames.push_back(names[i]);
-                    input.enumValues.push_back(float(std::atof(numbers[i].c_str())));
-                }
-            }
-            def.inputs.push_back(std::move(input));
-        } else if (!std::strcmp(child.name(), "output")) {
-            def.outputs.push_back({child.attribute("name").value(),
-                                   valueTypeFromName(child.attribute("type").value())});
-        }
-    }
-    // Up to 1.37 a nodedef named its only output by its own type.
-    if (def.outputs.empty())
-        def.outputs.push_back({"out", valueTypeFromName(element.attribute("type").value())});
-}
-
-/// Resolves a name that an element uses: one of its own namespace before one without.
-std::string MtlxParser::referenced(const Element& element, const std::string& name,
-                                   const std::map<std::string, Element>& known) const {
-    for (const std::string& candidate : {qualifiedName(element, name), name}) {
-        const auto found = known.find(candidate);
-        if (found != known.end()) return found->second.attribute("name").value();
-    }
-    return name;
-}
-
-std::string MtlxParser::resolveId(const Element& element,
-                                  const std::map<std::string, ValueType>& inputTypes) const {
-    if (const auto def = element.attribute("nodedef"))
-        return referenced(element, def.value(), _defs);
-    const std::string category = element.name(), qualified = qualifiedName(element, category);
-    const ValueType type = valueTypeFromName(element.attribute("type").value());
-    std::string id = findDefinition(qualified, type, inputTypes);
-    if (id.empty() && qualified != category) id = findDefinition(category, type, inputTypes);
-    // A category is enough: graph() looks models up by it and reports what nobody knows.
-    return id.empty() ? category : id;
-}
-
-std::string MtlxParser::findDefinition(const std::string& category, ValueType type,
-                                       const std::map<std::string, ValueType>& inputTypes) const {
-    const ShadingModel* best = nullptr;
-    int bestFit = -1;
-    const auto [begin, end] = _models.equal_range(category);
-    for (auto it = begin; it != end; ++it) {
-        const ShadingModel& model = *it->second;
-        const bool several = model.def.outputs.size() > 1;
-        const int fit = nodeDefFit(model.def, several ? ValueType::Unknown : type, inputTypes);
-        if (fit > bestFit) {
-            best = &model;
-            bestFit = fit;
-        }
-    }
-    const NodeDef* def = NodeTable::get().resolve(category, type, inputTypes);
-    if (best && (!def || bestFit >= nodeDefFit(*def, type, inputTypes))) return best->def.id;
-    if (def) return def->id;
-    // The library's own documents are read while it is made, so only others can ask it.
-    if (_useLibrary)
-        if (const ShadingModel* model = ModelLibrary::get().resolve(category, type, inputTypes))
-            return model->def.id;
-    return "";
 }
 
 bool MtlxParser::connect(const Element& port, const Scope& scope, Connection& out) {
@@ -184,8 +59,10 @@ bool MtlxParser::connect(const Element& port, const Scope& scope, Connection& ou
                               "' does not exist; the default is used");
         return false;
     }
+    const Element first = graph->second.child("output");
+    const bool isOnly = first && !first.next_sibling("output"); // whatever it is called
     for (const Element& child : graph->second.children("output"))
-        if (output.empty() || output == child.attribute("name").value()) {
+        if (isOnly || output.empty() || output == child.attribute("name").value()) {
             // An output may itself lead to another graph; a circle of those has no end.
             if (++_depth > 64) {
                 --_depth;
@@ -211,7 +88,7 @@ bool MtlxParser::connectInterface(const Element& port, const Scope& scope, Netwo
         return true;
     }
     for (const Element& child : scope.element.children())
-        if (isPort(child.name()) && interface == child.attribute("name").value()) {
+        if (isPort(child) && interface == child.attribute("name").value()) {
             const Scope outer{scope.element.parent(), "/", false};
             take(child, outer, node, name);
             return true;
@@ -233,8 +110,16 @@ void MtlxParser::take(const Element& port, const Scope& scope, NetworkNode& node
     if (connect(port, scope, c)) {
         if (hasRoom(c.node.size())) node.connections[name] = std::move(c);
     } else if (port.attribute("value")) {
-        Value value = readValue(port);
+        Value value = readValue(port, node.id, name);
         if (hasRoom(value.text.size())) node.inputs[name] = std::move(value);
+    } else if (const auto geomprop = port.attribute("defaultgeomprop");
+               geomprop && !scope.functional) {
+        const auto custom = _geomprops.find(geomprop.value());
+        NetworkNode source =
+            geompropNode(custom == _geomprops.end() ? geomprop.value() : custom->second);
+        if (source.id.empty()) return;
+        node.connections[name] = {source.path, ""};
+        _geompropNodes.emplace(source.path, std::move(source));
     }
 }
 
@@ -256,12 +141,14 @@ void MtlxParser::readNode(const Element& element, const Scope& scope,
     if (!hasRoom(node.path.size())) return;
     std::map<std::string, ValueType> types;
     for (const Element& child : element.children())
-        if (isPort(child.name())) {
+        if (isPort(child))
             types[child.attribute("name").value()] =
                 valueTypeFromName(child.attribute("type").value());
-            readInput(child, scope, node);
-        }
     node.id = resolveId(element, types);
+    for (const Element& child : element.children())
+        if (isPort(child)) readInput(child, scope, node);
+    readTokens(element, node);
+    if (isBefore139(element)) _before139.insert(node.path);
     nodes.push_back(std::move(node));
 }
 
@@ -270,76 +157,25 @@ void MtlxParser::readNodes(const Scope& scope, std::vector<NetworkNode>& nodes) 
         if (isNode(child)) readNode(child, scope, nodes);
 }
 
-void MtlxParser::readModel(const Element& graph, const NodeDef& def, ShadingModel& model) {
-    model.def = def;
-    const Scope scope{graph, "", true};
-    readNodes(scope, model.nodes);
-    for (const Element& child : graph.children("output")) {
-        Connection c;
-        if (connect(child, scope, c)) model.outputs[child.attribute("name").value()] = c;
+/// Tokens that the node's definition has; others are of use to the node's own file names alone.
+void MtlxParser::readTokens(const Element& element, NetworkNode& node) {
+    const auto def = _defExtras.find(node.id);
+    if (def == _defExtras.end()) return;
+    for (const Element& token : element.children("token")) {
+        const std::string name = token.attribute("name").value();
+        if (def->second.tokens.count(name) && hasRoom(name.size()))
+            node.inputs[ShadingModel::tokenInput(name)] =
+                Value::makeString(token.attribute("value").value());
     }
 }
 
-void MtlxParser::indexNames(const Element& root) {
-    std::vector<std::pair<Element, std::map<std::string, Element>*>> spaced;
-    for (const Element& child : root.children()) {
-        const std::string name = child.attribute("name").value();
-        const bool isDef = !std::strcmp(child.name(), "nodedef");
-        if (isDef || (!std::strcmp(child.name(), "nodegraph") && !child.attribute("nodedef"))) {
-            auto& known = isDef ? _defs : _graphs;
-            if (qualifiedName(child, name) == name)
-                known[name] = child;
-            else
-                spaced.push_back({child, &known});
-        } else if (isNode(child)) {
-            _topmost.emplace(name, child);
-        }
-    }
-    // A name that several namespaces have is written with the namespace, but for the first.
-    for (auto& [element, known] : spaced) {
-        pugi::xml_attribute name = element.attribute("name");
-        const std::string qualified = qualifiedName(element, name.value());
-        if (!known->emplace(name.value(), element).second) name.set_value(qualified.c_str());
-        known->emplace(qualified, element);
-    }
-}
-
-void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocument& out) {
+void MtlxParser::parse(const Element& root, bool wantMaterials, MtlxDocument& out) {
     _useLibrary = wantMaterials;
+    readUnits(root);
+    readGeomprops(root);
     indexNames(root);
-    std::map<std::string, Element> functional;
-    std::set<std::string> implementing; // graphs that implementations name
-    for (const Element& child : root.children("nodegraph"))
-        if (const auto def = child.attribute("nodedef"))
-            functional[referenced(child, def.value(), _defs)] = child;
-    for (const Element& child : root.children("implementation")) {
-        const auto graph =
-            _graphs.find(referenced(child, child.attribute("nodegraph").value(), _graphs));
-        if (graph == _graphs.end()) continue;
-        functional[referenced(child, child.attribute("nodedef").value(), _defs)] = graph->second;
-        implementing.insert(graph->second.attribute("name").value());
-    }
-    // Their interface is that of the definition.
-    for (auto it = _graphs.begin(); it != _graphs.end();)
-        it = implementing.count(it->second.attribute("name").value()) ? _graphs.erase(it)
-                                                                      : std::next(it);
-    // The interfaces come first, because graphs use each other's definitions.
-    std::vector<Element> bodies;
-    for (const auto& [name, element] : _defs) {
-        if (name != element.attribute("name").value()) continue; // known by another name as well
-        const auto body = functional.find(name);
-        if (body == functional.end()) continue;
-        ShadingModel model;
-        readDef(element, model.def);
-        out.models.push_back(std::move(model));
-        bodies.push_back(body->second);
-    }
-    for (const ShadingModel& model : out.models)
-        _models.emplace(model.def.category, &model);
-    for (size_t i = 0; i < bodies.size(); ++i) {
-        const NodeDef def = out.models[i].def;
-        readModel(bodies[i], def, out.models[i]);
-    }
+    readExtras();
+    readDefinitions(root, out);
     if (wantMaterials) readMaterials(root, out);
 }
 
@@ -349,6 +185,8 @@ void MtlxParser::readMaterials(const Element& root, MtlxDocument& out) {
     for (const auto& [name, element] : _graphs)
         if (name == element.attribute("name").value()) // not known by another name as well
             readNodes({element, prefixOf(element), false}, nodes);
+    for (const auto& [path, node] : _geompropNodes)
+        nodes.push_back(node);
     const auto addMaterial = [&](const std::string& name) -> Network& {
         out.materials.emplace_back();
         out.materials.back().path = _path + ":" + name;
@@ -390,6 +228,9 @@ void MtlxParser::readMaterials(const Element& root, MtlxDocument& out) {
                           "the materials have more nodes than five times " +
                               limitText(Limit::nodes) + "; " + std::to_string(leftOut) +
                               " of them are left out");
+    const auto before139 = [&](const std::string& path) { return _before139.count(path) > 0; };
+    for (Network& material : out.materials)
+        upgradeNodes(material.nodes, material.terminals, before139, _diagnostics);
 }
 
 } // namespace patina

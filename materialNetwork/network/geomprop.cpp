@@ -1,10 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/network/geomprop.h"
 
+#include <cstdlib>
+#include <sstream>
+#include <vector>
+
 namespace patina {
+
+namespace {
+
+/// The parts of a customGeomprop(): name, type, geomprop, space, index.
+NetworkNode customNode(const std::string& text) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, '/');)
+        parts.push_back(part);
+    parts.resize(5);
+    NetworkNode node;
+    node.id = "ND_" + (parts[2].empty() ? "geompropvalue" : parts[2]) + "_" + parts[1];
+    if (parts[2].empty()) node.inputs["geomprop"] = Value::makeString(parts[0]);
+    if (!parts[3].empty()) node.inputs["space"] = Value::makeString(parts[3]);
+    if (!parts[4].empty()) node.inputs["index"] = Value::makeInt(std::atoi(parts[4].c_str()));
+    return node;
+}
+
+} // namespace
+
+std::string customGeomprop(const std::string& name, const std::string& type,
+                           const std::string& geomprop, const std::string& space,
+                           const std::string& index) {
+    return name + "/" + type + "/" + geomprop + "/" + space + "/" + index;
+}
 
 NetworkNode geompropNode(const std::string& name) {
     NetworkNode node;
+    if (name.find('/') != std::string::npos) node = customNode(name);
     node.path = "<" + name + ">";
     if (name == "UV0") {
         node.id = "ND_texcoord_vector2";

@@ -61,23 +61,26 @@ const ShadingModel* ModelLibrary::find(const std::string& id) const {
     return found == _byId.end() ? nullptr : found->second;
 }
 
-const ShadingModel*
-ModelLibrary::resolve(const std::string& category, ValueType outputType,
-                      const std::map<std::string, ValueType>& inputTypes) const {
-    const ShadingModel* best = nullptr;
-    int bestFit = -1;
-    for (const auto& model : _models) {
-        if (model->def.category != category) continue;
-        // A model may have more outputs than the one that a document names.
-        const bool several = model->def.outputs.size() > 1;
-        const int fit =
-            nodeDefFit(model->def, several ? ValueType::Unknown : outputType, inputTypes);
-        if (fit > bestFit) {
-            best = model.get();
-            bestFit = fit;
-        }
-    }
-    return best;
+void BestModel::offer(const ShadingModel& model) {
+    // A model may have more outputs than the one that a document names.
+    const bool several = model.def.outputs.size() > 1;
+    const int fit = nodeDefFit(model.def, several ? ValueType::Unknown : _outputType, _inputTypes);
+    if (fit < 0) return;
+    const bool right = _version.empty() ? model.isDefaultVersion || model.version.empty()
+                                        : model.version == _version;
+    if (_best && (right == _rightVersion ? fit <= _fit : _rightVersion)) return;
+    _best = &model;
+    _rightVersion = right;
+    _fit = fit;
+}
+
+const ShadingModel* ModelLibrary::resolve(const std::string& category, ValueType outputType,
+                                          const std::map<std::string, ValueType>& inputTypes,
+                                          const std::string& version) const {
+    BestModel best(outputType, inputTypes, version);
+    for (const auto& model : _models)
+        if (model->def.category == category) best.offer(*model);
+    return best.model();
 }
 
 const NodeDef* findNodeDef(const std::string& id) {

@@ -19,6 +19,32 @@ struct ShadingModel {
     NodeDef def;                    ///< inputs with defaults, outputs
     std::vector<NetworkNode> nodes; ///< paths are relative to the instance
     std::map<std::string, Connection> outputs;
+    std::string version;           ///< of the definition; mostly empty
+    bool isDefaultVersion = false; ///< whether nodes that ask for no version get this one
+
+    /// The name of the input that a token of the definition is; "[name]" in the texts of the body
+    /// stands for its value.
+    static std::string tokenInput(const std::string& name) { return "[" + name + "]"; }
+};
+
+/// The definition of a category that fits a node of a document best. A version that is asked for
+/// counts more than the types; without one, the default version does.
+class BestModel {
+public:
+    BestModel(ValueType outputType, const std::map<std::string, ValueType>& inputTypes,
+              const std::string& version)
+        : _outputType(outputType), _inputTypes(inputTypes), _version(version) {}
+    void offer(const ShadingModel& model);
+    const ShadingModel* model() const { return _best; }
+    int fit() const { return _fit; } ///< as nodeDefFit()
+
+private:
+    ValueType _outputType;
+    const std::map<std::string, ValueType>& _inputTypes;
+    const std::string& _version;
+    const ShadingModel* _best = nullptr;
+    bool _rightVersion = false;
+    int _fit = -1;
 };
 
 /// A model file compiled into the library. The list ends with nulls.
@@ -37,7 +63,8 @@ public:
     /// @param id the name of the nodedef, or the node category that it defines
     const ShadingModel* find(const std::string& id) const;
     const ShadingModel* resolve(const std::string& category, ValueType outputType,
-                                const std::map<std::string, ValueType>& inputTypes) const;
+                                const std::map<std::string, ValueType>& inputTypes,
+                                const std::string& version = "") const;
     /// Problems met while the models were read.
     const Diagnostics& diagnostics() const { return _diagnostics; }
     const std::vector<std::unique_ptr<ShadingModel>>& all() const { return _models; }

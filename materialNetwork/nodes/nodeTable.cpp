@@ -71,7 +71,9 @@ int NodeDef::findOutput(const std::string& name) const {
     for (size_t i = 0; i < outputs.size(); ++i)
         if (outputs[i].name == name) return int(i);
     // USD writes "out" or "surface" for nodes with one output, whatever the definition calls it.
-    return outputs.size() == 1 ? 0 : -1;
+    if (outputs.size() == 1) return 0;
+    // MaterialX's name for the output of a shader that has a second one here.
+    return name == "out" && !outputs.empty() && isClosureType(outputs[0].type) ? 0 : -1;
 }
 
 bool isTextType(ValueType type) {
@@ -98,7 +100,7 @@ NodeTable::NodeTable() {
          {mathNodes(), vectorNodes(), channelNodes(), conditionalNodes(), geometryNodes(),
           textureNodes(), usdNodes(), helperNodes(), noiseNodes(), shapeNodes(), colorNodes(),
           placedImageNodes(), hexTileNodes(), matrixNodes(), spaceNodes(), differenceNodes(),
-          closureNodes(), hairNodes()})
+          closureNodes(), hairNodes(), legacyNodes()})
         for (const NodeRow* row = rows.begin; row != rows.end; ++row)
             add(*row);
 
@@ -116,6 +118,7 @@ NodeTable::NodeTable() {
     alias("ND_multiply_bsdf_color3", "ND_multiply_bsdfC");
     alias("ND_multiply_bsdf_float", "ND_multiply_bsdfF");
     alias("ND_normalmap", "ND_normalmap_float");
+    alias("ND_geompropvalue_string", "ND_geompropvalueuniform_string");
     for (const char* type : {"float", "float2", "float3", "float4", "int", "string", "point",
                              "normal", "vector", "matrix", "boolean", "filename"}) {
         const std::string id = std::string("UsdPrimvarReader_") + type;

@@ -85,6 +85,7 @@ NodeRows spaceNodes();
 NodeRows differenceNodes();
 NodeRows closureNodes();
 NodeRows hairNodes();
+NodeRows legacyNodes();
 
 /// Types that most stdlib families have.
 inline constexpr const char* allTypes = "float color3 color4 vector2 vector3 vector4";

@@ -11,8 +11,7 @@ namespace {
 
 TextureWrap addressMode(PatternSetup& setup, const char* input) {
     const std::string mode = setup.text(input);
-    if (mode == "constant") return TextureWrap::Black;
-    if (mode == "clamp") return TextureWrap::Clamp;
+    if (mode == "constant" || mode == "clamp") return TextureWrap::Clamp;
     if (mode == "mirror") return TextureWrap::Mirror;
     if (mode != "periodic" && !mode.empty())
         setup.warn(input, "unknown address mode '" + mode + "'; periodic is used");
@@ -49,7 +48,16 @@ int openImage(PatternSetup& setup, const char* input) {
     return setup.textureValid(handle) || !setup.authored("default") ? handle : -1;
 }
 
+int imageEnds(PatternSetup& setup, const char* s, const char* t) {
+    const std::string file = setup.text("file");
+    if (file.find("<UDIM>") != std::string::npos || file.find("<UVTILE>") != std::string::npos)
+        return 0;
+    return (setup.text(s) == "constant" ? sh::IMAGE_ENDS_S : 0) |
+           (setup.text(t) == "constant" ? sh::IMAGE_ENDS_T : 0);
+}
+
 void prepareImage(PatternSetup& setup, PatternData& data) {
+    data.mode = imageEnds(setup, "uaddressmode", "vaddressmode");
     data.textures[0] = openImage(setup, "file");
 }
 

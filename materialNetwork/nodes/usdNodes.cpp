@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // UsdUVTexture of the UsdPreviewSurface specification.
 #define PATINA_NODE_FUNCTIONS "shaders/patterns/nodes/usd.glsl"
+#include "materialNetwork/nodes/imageSetup.h"
 #include "materialNetwork/nodes/nodeTable.h"
 #include "materialNetwork/nodes/patternFunctions.h"
 
@@ -9,13 +10,13 @@ namespace patina {
 namespace {
 
 /// "useMetadata", the default, without metadata in the file means black, as the specification says;
-/// MaterialX spells repeat "periodic".
+/// MaterialX spells repeat "periodic", and its "constant" ends at the fallback.
 /// @param own becomes whether the file is asked
 TextureWrap wrapMode(PatternSetup& setup, const char* input, bool& own) {
     const std::string mode = setup.text(input);
     own = mode == "useMetadata" || mode.empty();
     if (mode == "repeat" || mode == "periodic") return TextureWrap::Repeat;
-    if (mode == "clamp") return TextureWrap::Clamp;
+    if (mode == "clamp" || mode == "constant") return TextureWrap::Clamp;
     if (mode == "mirror") return TextureWrap::Mirror;
     if (mode != "black" && !own)
         setup.warn(input, "unknown wrap mode '" + mode + "'; black is used");
@@ -37,6 +38,7 @@ void prepareUvTexture(PatternSetup& setup, PatternData& data) {
     if (request.colorSpace.empty()) request.colorSpace = "auto";
     request.wrapS = wrapMode(setup, "wrapS", request.ownWrapS);
     request.wrapT = wrapMode(setup, "wrapT", request.ownWrapT);
+    data.mode = imageEnds(setup, "wrapS", "wrapT");
     request.input = "inputs:file";
     const int handle = setup.openTexture(request);
     if (setup.textureValid(handle) || !setup.authored("fallback")) data.textures[0] = handle;

@@ -144,6 +144,34 @@ TEST(Models, OpenPbrCoatsDarken) {
     EXPECT_NEAR(same, f0, 1e-3f);
 }
 
+/// The coat takes what it reflects (Schlick), and colours the rest; MaterialX 1.39's graphs.
+TEST(Models, EmissionLiesUnderTheCoat) {
+    const Inputs standard = {{"base", number(0)},
+                             {"emission", number(2)},
+                             {"coat", number(0.5f)},
+                             {"coat_IOR", number(1.5f)},
+                             {"coat_color", color(1, 0.5f, 0.25f)}};
+    const Inputs open = {{"base_weight", number(0)},
+                         {"emission_luminance", number(2)},
+                         {"coat_weight", number(0.5f)},
+                         {"coat_ior", number(1.5f)},
+                         {"coat_color", color(1, 0.5f, 0.25f)}};
+    for (const auto& [id, inputs] : {std::pair{"ND_standard_surface_surfaceshader", standard},
+                                     std::pair{"ND_open_pbr_surface_surfaceshader", open}}) {
+        Compiled c(modelNetwork(id, inputs));
+        for (const float theta : {0.0f, 60.0f}) {
+            ShadingPoint point;
+            point.viewDirection = direction(theta);
+            const float passes = 0.96f * (1.0f - std::pow(1.0f - point.viewDirection.z, 5.0f));
+            const glm::vec3 light = c.program->emission(point, point.viewDirection);
+            for (int i = 0; i < 3; ++i) {
+                const float tint = i == 0 ? 1.0f : i == 1 ? 0.5f : 0.25f;
+                EXPECT_NEAR(light[i], 1.0f + passes * tint, 1e-4f) << id << " " << theta;
+            }
+        }
+    }
+}
+
 TEST(Models, VersionsOfStandardSurface) {
     // The versions differ in the default of base: 0.8 and 1.
     const Inputs red = {{"base_color", color(1, 0, 0)}, {"specular", number(0.0f)}};

@@ -1,56 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Included documents, and documents of MaterialX 1.38.
-#include "materialNetwork/tests/patternFixture.h"
+#include "materialNetwork/tests/mtlxFixture.h"
 
-#include "materialNetwork/mtlx/document.h"
-
-#include <filesystem>
-#include <fstream>
+#include "materialNetwork/network/upgrade.h"
 
 namespace patina {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder of documents that lives as long as the test.
-class Documents {
-public:
-    explicit Documents(const std::string& name) : _folder(fs::path(testing::TempDir()) / name) {
-        fs::remove_all(_folder);
-        fs::create_directories(_folder / "sub");
-    }
-    ~Documents() { fs::remove_all(_folder); }
-    void write(const std::string& name, const std::string& body) const {
-        std::ofstream(_folder / name) << "<?xml version=\"1.0\"?>\n" << body;
-    }
-    std::vector<Network> read(const std::string& name, Diagnostics& diagnostics) const {
-        return readMtlx((_folder / name).string(), diagnostics);
-    }
-
-private:
-    fs::path _folder;
-};
-
-std::vector<Network> readBody(const std::string& body, Diagnostics& diagnostics) {
-    const Documents documents("patinaUpgrade");
-    documents.write("a.mtlx", "<materialx version=\"1.38\">" + body + "</materialx>");
-    return documents.read("a.mtlx", diagnostics);
-}
-
-/// The emission of a surface whose light is node "p" of a document, a color3.
-glm::vec3 lightOf(const std::string& body, ShadingPoint point = {},
-                  std::map<std::string, glm::vec4> primvars = {}) {
-    Diagnostics diagnostics;
-    const auto networks = readBody(body + R"(<uniform_edf name="e" type="EDF">
-          <input name="color" type="color3" nodename="p" /></uniform_edf>
-          <surface name="s" type="surfaceshader">
-          <input name="edf" type="EDF" nodename="e" /></surface>)",
-                                   diagnostics);
-    EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
-    EXPECT_EQ(networks.size(), 1u);
-    return networks.empty() ? glm::vec3(-1) : emitted(networks[0], point, std::move(primvars));
-}
 
 const char* const paint = R"(<materialx version="1.39" colorspace="srgb_texture" fileprefix="maps/">
   <image name="img" type="color3"><input name="file" type="filename" value="a.png" /></image>
@@ -139,6 +97,25 @@ TEST(MtlxUpgrade, ChannelsOfAConnection) {
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
 }
 
+TEST(MtlxUpgrade, ChannelsOfOutputs) {
+    const std::string graph = R"(<nodegraph name="g">
+        <constant name="c" type="color4">
+          <input name="value" type="color4" value="0.1, 0.2, 0.3, 0.4" /></constant>
+        <output name="tint" type="color3" nodename="c" channels="bgr" />
+        <output name="cover" type="float" nodename="c" channels="a" /></nodegraph>)";
+    expectVector(lightOf(graph + R"(<multiply name="p" type="color3">
+        <input name="in1" type="color3" nodegraph="g" output="tint" />
+        <input name="in2" type="float" nodegraph="g" output="cover" /></multiply>)"),
+                 0.12f, 0.08f, 0.04f);
+    // Of a graph, and of a node with several outputs.
+    expectVector(lightOf(graph + R"(<separate4 name="s4" type="multioutput">
+        <input name="in" type="color4" value="0.1, 0.2, 0.3, 0.4" /></separate4>
+      <multiply name="p" type="color3">
+        <input name="in1" type="color3" nodegraph="g" output="tint" channels="rrr" />
+        <input name="in2" type="float" nodename="s4" output="outb" channels="r" /></multiply>)"),
+                 0.09f, 0.09f, 0.09f);
+}
+
 TEST(MtlxUpgrade, RenamedInputsAndNormalMaps) {
     expectVector(lightOf(R"(<atan2 name="a" type="float"><input name="in1" type="float" value="1" />
         <input name="in2" type="float" value="1" /></atan2>
@@ -198,6 +175,92 @@ TEST(MtlxUpgrade, ThinSurfacesHaveABack) {
     EXPECT_EQ(surface->id, "ND_surface");
     EXPECT_EQ(surface->inputs.at("thin_walled").numbers[0], 1.0f);
     EXPECT_EQ(surface->connections.at("bsdf").node, "/f");
+}
+
+Network upgradedNetwork(Network network) {
+    Diagnostics diagnostics;
+    upgradeNetwork(network, diagnostics);
+    EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
+    return network;
+}
+
+/// The colour that a network of a stage emits, which says nothing of its version.
+glm::vec3 stageLight(std::vector<NetworkNode> nodes) {
+    nodes.push_back(
+        makeNode("surface", "ND_surface_unlit", {}, {{"emission_color", {"p", "out"}}}));
+    return emitted(upgradedNetwork(makeNetwork(std::move(nodes))));
+}
+
+TEST(MtlxUpgrade, NetworksOfStages) {
+    const NetworkNode reader =
+        makeNode("v", "ND_constant_vector3", {{"value", Value::makeVec3(.1f, .2f, .3f)}});
+    expectVector(
+        stageLight({reader, makeNode("p", "ND_swizzle_vector3_color3", {{"channels", text("zx1")}},
+                                     {{"in", {"v", "out"}}})}),
+        0.3f, 0.1f, 1.0f);
+    // Fewer channels than there are components: the first one stands in.
+    expectVector(stageLight({reader, makeNode("p", "ND_swizzle_vector3_color3",
+                                              {{"channels", text("y")}}, {{"in", {"v", "out"}}})}),
+                 0.2f, 0.1f, 0.1f);
+    expectVector(stageLight({makeNode("f", "ND_swizzle_color3_float",
+                                      {{"channels", text("g")}, {"in", color(1, 2, 3)}}),
+                             makeNode("p", "ND_convert_float_color3", {}, {{"in", {"f", "out"}}})}),
+                 2, 2, 2);
+    expectVector(
+        stageLight({makeNode("a", "ND_atan2_float", {{"in1", number(2)}, {"in2", number(1)}}),
+                    makeNode("p", "ND_convert_float_color3", {}, {{"in", {"a", "out"}}})}),
+        1.1071487f, 1.1071487f, 1.1071487f);
+    expectVector(
+        stageLight({makeNode("n", "ND_normalmap",
+                             {{"in", Value::makeVec3(.8f, .5f, .9f)}, {"space", text("object")}}),
+                    makeNode("p", "ND_convert_vector3_color3", {}, {{"in", {"n", "out"}}})}),
+        0.6f, 0.0f, 0.8f);
+    const Inputs five = {{"in1", color(1, 0, 0)}, {"in3", color(0, 0, 1)}};
+    const auto chosen = [&](float which) {
+        Inputs inputs = five;
+        inputs["which"] = number(which);
+        return stageLight({makeNode("p", "ND_switch_color3", inputs)});
+    };
+    expectVector(chosen(2.0f), 0, 0, 1);
+    expectVector(chosen(7.0f), 1, 0, 0); // out of the range of 1.38, which had five inputs
+}
+
+TEST(MtlxUpgrade, BitangentsOf138AreMadeOfNormalAndTangent) {
+    const auto bent = [](bool before139) {
+        Network network = makeNetwork(
+            {makeNode("n", "ND_normalmap_float",
+                      {{"in", Value::makeVec3(0.5f, 1.0f, 0.5f)},
+                       {"normal", Value::makeVec3(0, 0, 1)},
+                       {"tangent", Value::makeVec3(0, -1, 0)}}),
+             makeNode("p", "ND_convert_vector3_color3", {}, {{"in", {"n", "out"}}}),
+             makeNode("surface", "ND_surface_unlit", {}, {{"emission_color", {"p", "out"}}})});
+        return emitted(before139 ? upgradedNetwork(network) : network);
+    };
+    // Along the bitangent: the cross product of both, or the surface's own, which is y.
+    expectVector(bent(true), 1, 0, 0);
+    expectVector(bent(false), 0, 1, 0);
+}
+
+TEST(MtlxUpgrade, ThinSurfacesOfStagesHaveABack) {
+    const Network network = upgradedNetwork(
+        makeNetwork({makeNode("f", "ND_uniform_edf", {{"color", color(1, 0, 0)}}),
+                     makeNode("b", "ND_uniform_edf", {{"color", color(0, 1, 0)}}),
+                     makeNode("surface", "ND_thin_surface", {},
+                              {{"front_edf", {"f", "out"}}, {"back_edf", {"b", "out"}}})}));
+    expectVector(emitted(network), 1, 0, 0);
+    ShadingPoint behind;
+    behind.viewDirection = -behind.viewDirection;
+    expectVector(emitted(network, behind), 0, 1, 0);
+}
+
+TEST(MtlxUpgrade, ThinFilmsOfStages) {
+    const Network network = upgradedNetwork(bsdfNetwork(
+        {makeNode("film", "ND_thin_film_bsdf", {{"thickness", number(400)}}),
+         makeNode("metal", "ND_conductor_bsdf"),
+         makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {"film", ""}}, {"base", {"metal", ""}}})}));
+    EXPECT_EQ(network.find("/m/metal")->inputs.at("thinfilm_thickness").numbers[0], 400.0f);
+    Compiled c(network);
+    EXPECT_EQ(c.diagnostics.count(), 0) << warnings(c.diagnostics);
 }
 
 } // namespace patina

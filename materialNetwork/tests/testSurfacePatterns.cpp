@@ -139,6 +139,41 @@ TEST(SurfacePatterns, GltfImagesArePlacedAsGltfSays) {
                  0.1f, 0.2f, 0.5f);
 }
 
+/// Outside of 0 to 1 an image whose address mode is "constant" is the node's default.
+TEST(SurfacePatterns, ImagesEnd) {
+    for (const char* id :
+         {"ND_image_color3", "ND_tiledimage_color3", "ND_gltf_image_color3_color3_1_0"}) {
+        SCOPED_TRACE(id);
+        const auto at = [&](const char* u, const char* v, const glm::vec2& uv, float width = 0.0f) {
+            ShadingPoint point;
+            point.uvFootprint = width;
+            return shown(id,
+                         {{"default", color(0.1f, 0.6f, 0.3f)},
+                          {"uaddressmode", text(u)},
+                          {"vaddressmode", text(v)}},
+                         "", uv, point);
+        };
+        expectVector(at("constant", "constant", {0.25f, 0.75f}), 0.25f, 0.75f, 0.5f);
+        expectVector(at("constant", "periodic", {1.25f, 0.75f}), 0.1f, 0.6f, 0.3f);
+        expectVector(at("clamp", "constant", {0.25f, -0.5f}), 0.1f, 0.6f, 0.3f);
+        expectVector(at("constant", "periodic", {0.25f, 1.5f}), 0.25f, 1.5f, 0.5f);
+        // Half of the filter lies outside.
+        expectVector(at("constant", "clamp", {1.0f, 0.5f}, 0.1f), 0.55f, 0.55f, 0.4f);
+    }
+    // Tiles have no outside; MaterialX's UsdUVTexture ends at its fallback.
+    Inputs inputs = {{"uaddressmode", text("constant")},
+                     {"file", Value::makeFilename("a.<UDIM>.png")}};
+    expectVector(emitted(emitting({makeNode("x", "ND_image_color3", inputs)}), {},
+                         {{"st", {1.25f, 0.5f, 0, 0}}}),
+                 1.25f, 0.5f, 0.5f);
+    Value fallback;
+    fallback.type = ValueType::Color4;
+    fallback.numbers = {0.2f, 0.4f, 0.6f, 1.0f};
+    expectVector(shown("ND_UsdUVTexture_23", {{"wrapS", text("constant")}, {"fallback", fallback}},
+                       "rgb", {1.5f, 0.5f}),
+                 0.2f, 0.4f, 0.6f);
+}
+
 TEST(SurfacePatterns, TriplanarBlendsByTheNormal) {
     const auto at = [](float blend) {
         return emitted(emitting({makeNode("x", "ND_triplanarprojection_color3",

@@ -8,7 +8,7 @@ import stat
 
 from patina import limits
 
-_UDIM = "<UDIM>"
+_TILES = {"<UDIM>": r"\d{4}", "<UVTILE>": r"u\d+_v\d+"}
 # An element ends before the next one begins, so that each place of a hostile file is looked at once.
 _INCLUDE = re.compile(rb"""<xi:include\b[^<]*?\bhref\s*=\s*(?:"([^"]+)"|'([^']+)')""")
 _ENCODINGS = ((b"\xff\xfe\0\0", "utf-32-le"), (b"\0\0\xfe\xff", "utf-32-be"), (b"<\0\0\0", "utf-32-le"),
@@ -27,7 +27,7 @@ def forget():
 
 
 def note(path):
-    """:param path: of a file that is read; <UDIM> stands for any tile, a file in a package for the package"""
+    """:param path: of a file that is read; <UDIM> and <UVTILE> stand for any tile, a file in a package for the package"""
     if path:
         _noted.add(os.path.abspath(file_of(path)))
 
@@ -71,19 +71,27 @@ def note_network(network):
 
 
 def files():
-    """:returns: sorted list of the noted files; of <UDIM> those tiles that are there"""
+    """:returns: sorted list of the noted files; of <UDIM> and <UVTILE> those tiles that are there"""
     found = set()
     for file in _noted:
-        if _UDIM not in file:
+        folder, name = os.path.split(file)
+        tile = _tile_of(name)
+        if not tile:
             found.add(file)
             continue
-        folder, name = os.path.split(file)
-        tile = re.escape(name).replace(re.escape(_UDIM), r"\d{4}")
         try:
             found.update(os.path.join(folder, other) for other in os.listdir(folder) if re.fullmatch(tile, other))
         except OSError:
             found.add(file)
     return sorted(found)
+
+
+def _tile_of(name):
+    """:returns: regular expression of the tiles that a file name stands for; empty for a plain name"""
+    tile = re.escape(name)
+    for token, pattern in _TILES.items():
+        tile = tile.replace(re.escape(token), pattern)
+    return "" if tile == re.escape(name) else tile
 
 
 def read_by(path):
@@ -93,9 +101,9 @@ def read_by(path):
     except (OSError, ValueError):
         return None
     for file in sorted(_noted):
-        if _UDIM in file:
-            folder, name = os.path.split(file)
-            tile = re.escape(name).replace(re.escape(_UDIM), r"\d{4}")
+        folder, name = os.path.split(file)
+        tile = _tile_of(name)
+        if tile:
             if (os.path.realpath(folder) == os.path.dirname(os.path.realpath(path))
                     and re.fullmatch(tile, os.path.basename(os.path.realpath(path)))):
                 return file

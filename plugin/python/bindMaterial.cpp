@@ -8,6 +8,7 @@
 #include "materialNetwork/mtlx/document.h"
 #include "materialNetwork/nodes/nodeTable.h"
 #include "materialNetwork/network/translate.h"
+#include "materialNetwork/network/units.h"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -126,18 +127,30 @@ void bindMaterial(py::module_& m) {
           "The values that strings of a node may have, where that is a list.");
     m.def(
         "read_mtlx",
-        [](const std::string& path, py::object warnings) {
+        [](const std::string& path, py::object warnings, double metersPerUnit) {
             Diagnostics diagnostics;
             std::vector<Network> networks;
             {
                 py::gil_scoped_release release;
-                networks = readMtlx(path, diagnostics);
+                networks = readMtlx(path, diagnostics, metersPerUnit);
             }
             appendWarnings(diagnostics, warnings);
             return networks;
         },
-        py::arg("path"), py::arg("warnings") = py::none(),
-        "The materials of a MaterialX document. Warnings are appended to the list.");
+        py::arg("path"), py::arg("warnings") = py::none(), py::arg("meters_per_unit") = 1.0,
+        "The materials of a MaterialX document. Warnings are appended to the list. Distances that "
+        "have a unit become units of a scene with so many metres in each.");
+    m.def(
+        "unit_factor",
+        [](const std::string& unit, const std::string& id, const std::string& input,
+           double metersPerUnit) -> py::object {
+            const Unit known = unitOf(unit);
+            if (known.kind == Unit::Kind::Unknown) return py::none();
+            return py::float_(unitFactor(known, id, input, metersPerUnit));
+        },
+        py::arg("unit"), py::arg("id"), py::arg("input"), py::arg("meters_per_unit"),
+        "What a number in a unit of MaterialX is multiplied by where it is the input of a node "
+        "with that definition; None for an unknown unit.");
 }
 
 } // namespace patina

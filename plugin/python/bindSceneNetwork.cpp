@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Material networks.
 
-#include "materialNetwork/network/network.h"
+#include "materialNetwork/network/upgrade.h"
 #include "plugin/python/fields.h"
+#include "plugin/python/warningList.h"
 
 namespace py = pybind11;
 
@@ -120,6 +121,15 @@ void bindNetwork(py::module_& m) {
             },
             py::arg("name"), py::arg("node"), py::arg("output") = "",
             "Names the node that is the material's surface, displacement or volume.")
+        .def(
+            "upgrade",
+            [](Network& network) {
+                Diagnostics diagnostics;
+                upgradeNetwork(network, diagnostics);
+                return warningList(diagnostics);
+            },
+            "Makes a network of MaterialX 1.38 one of 1.39, whose nodes differ. Returns warnings, "
+            "dicts of prim, input, message and count.")
         .def_property_readonly("empty", &Network::empty, "Whether it has no node.")
         .def("nodes", &nodes, "Dicts of path, id, inputs and connections.")
         .def(

@@ -36,3 +36,18 @@ PATINA_FN vec3 patternRotate3d(vec3 v, float angle, vec3 axis) {
     float c = cos(angle * (PI / 180.0f));
     return v * c + cross(v, a) * s + a * (dot(a, v) * (1.0f - c));
 }
+
+// Directions in which an image ends at 0 and 1: beyond there is a colour of its node's own.
+const int IMAGE_ENDS_S = 1;
+const int IMAGE_ENDS_T = 2;
+
+// The share of an interval about u that lies within 0..1.
+PATINA_FN float intervalCover(float u, float width) {
+    float w = max(width, 1e-6f);
+    return min(min(1.0f, 1.0f / w), clamp(min(u, 1.0f - u) / w + 0.5f, 0.0f, 1.0f));
+}
+// The share of a filter that lies on the image. ends: bits above; width: of the filter.
+PATINA_FN float patternCover(vec2 uv, float width, int ends) {
+    return ((ends & IMAGE_ENDS_S) != 0 ? intervalCover(uv.x, width) : 1.0f) *
+           ((ends & IMAGE_ENDS_T) != 0 ? intervalCover(uv.y, width) : 1.0f);
+}

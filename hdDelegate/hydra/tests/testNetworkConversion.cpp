@@ -40,3 +40,22 @@ TEST(NetworkConversion, ConnectsManyNodesToOne) {
         }
     }
 }
+
+/// A network that does not say its version is of MaterialX 1.38, where switch has five inputs.
+TEST(NetworkConversion, NetworksAreOf138UnlessTheySayOtherwise) {
+    const SdfPath material("/material"), chosen("/material/chosen");
+    HdMaterialNetwork part;
+    part.nodes.push_back({chosen, TfToken("ND_atan2_float"), {{TfToken("in1"), VtValue(2.0f)}}});
+    part.nodes.push_back({SdfPath("/material/surface"), TfToken("ND_surface_unlit"), {}});
+    part.relationships.push_back({chosen, TfToken("out"), part.nodes[1].path, TfToken("emission")});
+    HdMaterialNetworkMap map;
+    map.map[HdMaterialTerminalTokens->surface] = part;
+    HdPatinaRenderParam param;
+    const Network old = networkOf(VtValue(map), material, param);
+    EXPECT_EQ(old.nodes.at(0).inputs.count("iny"), 1u);
+#if PXR_VERSION >= 2502
+    map.config["mtlx:version"] = VtValue(std::string("1.39"));
+    const Network current = networkOf(VtValue(map), material, param);
+    EXPECT_EQ(current.nodes.at(0).inputs.count("in1"), 1u);
+#endif
+}

@@ -49,7 +49,10 @@ _ROWS = (
     (r"^grid|field is left out|volume has no field|fields of type|is not read; it is left out|field moves with",
      "give the volume a `field:density` that is an OpenVDBAsset with a float or vector grid; its transform is the volume's "
      "own"),
-    (r"layers and frame ranges|file name varies", "name one file, or UDIM tiles by `<UDIM>`"),
+    (r"layers and frame ranges|file name varies", "name one file, or tiles by `<UDIM>` or `<UVTILE>`"),
+    (r"there is no unit", "name a unit of MaterialX's library, as `inch` or `radian`, or define it by a `unitdef`"),
+    (r"to inherit from|no such property of the geometry|there is no version|channels come from|thin_surface that no",
+     "check the file with MaterialX's `mxvalidate.py`, and correct what it names"),
     (r"included document|includes itself|included documents", "correct the `xi:include` of the MaterialX document"),
     (r"the document is ignored|the file …$|the folder cannot be read",
      "check the file with MaterialX's `mxvalidate.py`, and correct what it names"),

@@ -6,7 +6,7 @@ import re
 from patina import inputs
 from patina.farm import identity
 
-_UDIM = re.compile(r"<UDIM>", re.IGNORECASE)
+_TILE = re.compile(r"<(UDIM|UVTILE)>", re.IGNORECASE)
 
 
 def of(module, record):
@@ -38,7 +38,7 @@ def _add(root, found, missing):
     files = [root] + [layer.realPath for layer in layers if layer.realPath] + [str(asset) for asset in assets]
     # Files in a package belong to the package.
     found.update(os.path.abspath(inputs.file_of(file)) for file in files)
-    missing.update(str(name) for name in unresolved if not _UDIM.search(str(name)))
+    missing.update(str(name) for name in unresolved if not _TILE.search(str(name)))
 
 
 def _note_textures(module, document):

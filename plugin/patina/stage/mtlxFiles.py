@@ -14,13 +14,13 @@ from patina import inputs
 from .context import Guard
 
 _KEY = "patinaDocument"
-_networks = {}  # (file, material) -> Network
+_networks = {}  # mark of a material -> Network
 
 
 def network_of(material):
     """:returns: the Network of a material that stands for one of a document, else None"""
     mark = material.GetPrim().GetCustomDataByKey(_KEY)
-    return _networks.get(tuple(mark.rsplit("\n", 1))) if isinstance(mark, str) else None  # a file may hold any value there
+    return _networks.get(mark) if isinstance(mark, str) else None  # a file may hold any value there
 
 
 def supply(context, stage, errors, module):
@@ -79,20 +79,21 @@ def _layer_of(context, prim, file, module):
         return None
     inputs.check_regular(file)
     inputs.note_document(file)
-    stamp = (file, os.path.getmtime(file))
+    stamp = (file, os.path.getmtime(file), context.meters_per_unit)
     if stamp in _layers:
         return _layers[stamp]
     warnings = []
-    networks = module.read_mtlx(file, warnings)
+    networks = module.read_mtlx(file, warnings, context.meters_per_unit)
     for warning in warnings:
         context.warn(warning["prim"], warning["input"], warning["message"])
     layer = Sdf.Layer.CreateAnonymous(os.path.basename(file) + ".usda")
     for network in networks:
         name = network.path[len(file) + 1:]  # may hold colons, of namespaces
-        _networks[(file, name)] = network
+        mark = f"{file}\n{name}\n{context.meters_per_unit}"
+        _networks[mark] = network
         spec = Sdf.CreatePrimInLayer(layer, Sdf.Path("/MaterialX/Materials").AppendChild(_valid(name)))
         spec.specifier, spec.typeName = Sdf.SpecifierDef, "Material"
-        spec.customData[_KEY] = f"{file}\n{name}"
+        spec.customData[_KEY] = mark
     for path in ("/MaterialX", "/MaterialX/Materials"):
         spec = Sdf.CreatePrimInLayer(layer, path)
         spec.specifier = Sdf.SpecifierDef

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """UsdShade networks -> `_patina.Network`."""
 import numpy as np
-from pxr import Sdf, UsdShade
+from pxr import Sdf, Tf, UsdShade
 
 from patina import inputs
 
@@ -41,6 +41,7 @@ class _Translation:
         self.context, self.material, self.time = context, material, context.time
         self.source, self.shown = str(material.GetPath()), path
         self.network = module.Network(path)
+        self._factor_of = module.unit_factor
         self._names = {}  # path on the stage -> path in the network
         self._todo = []
         self._spaces = context.color_spaces
@@ -55,6 +56,9 @@ class _Translation:
                     self.network.set_terminal(terminal, node, self._known_output(shader, terminal, output))
         while self._todo:
             self._inputs(*self._todo.pop())
+        if _is_before_139(self.material):
+            for warning in self.network.upgrade():
+                self.context.warn(warning["prim"], warning["input"], warning["message"])
         for output in self.material.GetOutputs():
             if output.GetBaseName() in ("light", "mtlx:light") and output.HasConnectedSource():
                 self._warn(self.material.GetPrim(), output.GetFullName(), "light shaders of materials are not drawn; "
@@ -163,11 +167,39 @@ class _Translation:
         if type_ == Sdf.ValueTypeNames.Asset:
             value = assets.resolve(self.context, attribute)
         elif str(type_) not in _TEXT:
-            value = _numbers(value)
+            value = self._in_scene_units(_numbers(value), name, attribute, prim)
         try:
             self.network.set_input(node, name, str(type_), value, space)
         except (ValueError, TypeError) as error:
             self._warn(prim, name, f"{error}; the default is used")
+
+
+    def _in_scene_units(self, value, name, attribute, prim):
+        """:returns: the value of an input of a MaterialX node, whose unit importers keep as metadata"""
+        identifier = UsdShade.Shader(prim).GetShaderId() or ""
+        unit = _unit_of(attribute) if identifier.startswith("ND_") and not isinstance(value, (bool, int)) else ""
+        if not unit:
+            return value
+        factor = self._factor_of(unit, identifier, name, self.context.meters_per_unit)
+        if factor is None:
+            self._warn(prim, name, f"there is no unit '{unit}' of a distance or an angle; the number is used as it is")
+        return value if factor is None else value * factor
+
+
+def _unit_of(attribute):
+    """:returns: name of the unit that an attribute's numbers are in; empty when none is authored"""
+    unit = attribute.GetCustomDataByKey("unit")
+    if isinstance(unit, str):
+        return unit
+    shown = attribute.GetMetadata("displayUnit") if attribute.HasAuthoredMetadata("displayUnit") else None
+    return Sdf.GetNameForUnit(shown) if isinstance(shown, Tf.Enum) else ""
+
+
+def _is_before_139(material):
+    """:returns: whether a material is of MaterialX 1.38, as those are that do not say otherwise"""
+    version = material.GetPrim().GetAttribute("config:mtlx:version").Get() or "1.38"
+    major, _, minor = str(version).partition(".")
+    return major == "1" and minor.split(".")[0].isdigit() and int(minor.split(".")[0]) < 39
 
 
 def _reads_colors(prim):

@@ -4,61 +4,65 @@
 
 // glTF's own transform turns the other way round about the upper left corner.
 PATINA_FN_RARE vec4 gltfTexel(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
-                              vec2 offset, int order, NodeTexture map, PATINA_IN(SurfacePoint) p) {
+                              vec2 offset, int order, NodeMode ends, NodeTexture map,
+                              PATINA_IN(SurfacePoint) p) {
     if (!hasTexture(map)) return missing;
     vec2 inverseScale =
         vec2(scale.x != 0.0f ? 1.0f / scale.x : 0.0f, scale.y != 0.0f ? 1.0f / scale.y : 0.0f);
     vec2 at = patternPlace2d(uv, pivot, inverseScale, -rotate, vec2(-offset.x, offset.y), order);
-    return texel(map, at, p.uvFootprint * max(abs(scale.x), abs(scale.y)));
+    float width = p.uvFootprint * max(abs(scale.x), abs(scale.y));
+    return mix(missing, texel(map, at, width), patternCover(at, width, ends));
 }
 PATINA_FN vec4 nodeGltfImage(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
-                             vec2 offset, int order, vec4 factor, NodeTexture map,
+                             vec2 offset, int order, vec4 factor, NodeMode ends, NodeTexture map,
                              PATINA_IN(SurfacePoint) p) {
-    return gltfTexel(missing, uv, pivot, scale, rotate, offset, order, map, p) * factor;
+    return gltfTexel(missing, uv, pivot, scale, rotate, offset, order, ends, map, p) * factor;
 }
 PATINA_FN float nodeGltfScalarImage(float missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
-                                    vec2 offset, int order, float factor, NodeTexture map,
-                                    PATINA_IN(SurfacePoint) p) {
-    return gltfTexel(vec4(missing), uv, pivot, scale, rotate, offset, order, map, p).x * factor;
+                                    vec2 offset, int order, float factor, NodeMode ends,
+                                    NodeTexture map, PATINA_IN(SurfacePoint) p) {
+    return gltfTexel(vec4(missing), uv, pivot, scale, rotate, offset, order, ends, map, p).x *
+           factor;
 }
 PATINA_FN vec4 nodeGltfColorImage(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
                                   vec2 offset, PATINA_UNUSED(int, order), vec4 color,
-                                  vec4 geomColor, NodeTexture map, PATINA_IN(SurfacePoint) p,
-                                  PATINA_OUT(float) alpha) {
-    vec4 t = gltfTexel(missing, uv, pivot, scale, rotate, offset, 0, map, p) * color * geomColor;
+                                  vec4 geomColor, NodeMode ends, NodeTexture map,
+                                  PATINA_IN(SurfacePoint) p, PATINA_OUT(float) alpha) {
+    vec4 t =
+        gltfTexel(missing, uv, pivot, scale, rotate, offset, 0, ends, map, p) * color * geomColor;
     alpha = t.w;
     return t;
 }
 PATINA_FN vec3 nodeGltfNormalMap(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
-                                 vec2 offset, int order, vec3 n, vec3 t, vec3 b, NodeTexture map,
-                                 PATINA_IN(SurfacePoint) p) {
+                                 vec2 offset, int order, vec3 n, vec3 t, vec3 b, NodeMode ends,
+                                 NodeTexture map, PATINA_IN(SurfacePoint) p) {
     return patternNormalMap(
-        vec3(gltfTexel(missing, uv, pivot, scale, rotate, offset, order, map, p)), vec2(1.0f), n, t,
-        b);
+        vec3(gltfTexel(missing, uv, pivot, scale, rotate, offset, order, ends, map, p)), vec2(1.0f),
+        n, t, b);
 }
 // Black texels are the thickest, as MaterialX has it.
 PATINA_FN float nodeGltfThickness(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
                                   vec2 offset, PATINA_UNUSED(int, order), float least, float most,
-                                  NodeTexture map, PATINA_IN(SurfacePoint) p) {
-    vec4 t = gltfTexel(missing, uv, pivot, scale, rotate, offset, 0, map, p);
+                                  NodeMode ends, NodeTexture map, PATINA_IN(SurfacePoint) p) {
+    vec4 t = gltfTexel(missing, uv, pivot, scale, rotate, offset, 0, ends, map, p);
     return most + (least - most) * t.y;
 }
 PATINA_FN float nodeGltfAnisotropy(vec4 missing, vec2 uv, vec2 pivot, vec2 scale, float rotate,
                                    vec2 offset, PATINA_UNUSED(int, order), float strength,
-                                   float rotation, NodeTexture map, PATINA_IN(SurfacePoint) p,
-                                   PATINA_OUT(float) turned) {
-    vec4 t = gltfTexel(missing, uv, pivot, scale, rotate, offset, 0, map, p);
+                                   float rotation, NodeMode ends, NodeTexture map,
+                                   PATINA_IN(SurfacePoint) p, PATINA_OUT(float) turned) {
+    vec4 t = gltfTexel(missing, uv, pivot, scale, rotate, offset, 0, ends, map, p);
     turned = rotation + atan(t.y * 2.0f - 1.0f, t.x * 2.0f - 1.0f);
     return strength * t.z;
 }
 
 // rotation: degrees.
-PATINA_FN vec4 nodeLatLongImage(vec4 missing, vec3 d, float rotation, NodeTexture map) {
+PATINA_FN vec4 nodeLatLongImage(vec4 missing, vec3 d, float rotation, NodeMode ends,
+                                NodeTexture map) {
     if (!hasTexture(map)) return missing;
-    return texel(map,
-                 vec2(atan(d.x, d.z) * -0.15915494f + 0.5f + rotation / 360.0f,
-                      arcsine(d.y) * 0.31830989f + 0.5f),
-                 0.0f);
+    vec2 at = vec2(atan(d.x, d.z) * -0.15915494f + 0.5f + rotation / 360.0f,
+                   arcsine(d.y) * 0.31830989f + 0.5f);
+    return mix(missing, texel(map, at, 0.0f), patternCover(at, 0.0f, ends));
 }
 
 PATINA_FN vec4 planeTexel(vec4 missing, NodeTexture map, vec2 uv, float footprint) {

@@ -2,11 +2,15 @@
 // UsdUVTexture of the UsdPreviewSurface specification.
 #ifndef PATINA_NODE_ROWS
 
-PATINA_FN float nodeUvTexture(vec2 uv, vec4 scale, vec4 bias, vec4 missing, NodeTexture map,
-                              PATINA_IN(SurfacePoint) p, PATINA_OUT(float) g, PATINA_OUT(float) b,
-                              PATINA_OUT(float) a, PATINA_OUT(vec3) rgb, PATINA_OUT(vec4) rgba) {
+PATINA_FN float nodeUvTexture(vec2 uv, vec4 scale, vec4 bias, vec4 missing, NodeMode ends,
+                              NodeTexture map, PATINA_IN(SurfacePoint) p, PATINA_OUT(float) g,
+                              PATINA_OUT(float) b, PATINA_OUT(float) a, PATINA_OUT(vec3) rgb,
+                              PATINA_OUT(vec4) rgba) {
     vec4 t = missing;
-    if (hasTexture(map)) t = texel(map, uv, p.uvFootprint) * scale + bias;
+    if (hasTexture(map)) {
+        t = mix(missing, texel(map, uv, p.uvFootprint), patternCover(uv, p.uvFootprint, ends));
+        t = t * scale + bias;
+    }
     g = t.y;
     b = t.z;
     a = t.w;

@@ -72,7 +72,7 @@ const NodeRow rows[] = {
     {"ND_rotate3d_vector3", "rotate3d", "vector3 in=0, float amount=0, vector3 axis=0 1 0",
      "vector3", PATINA_PATTERN(patternRotate3d), Algebra::Rotate},
     {"ND_place2d_vector2", "place2d",
-     "vector2 texcoord=@UV0, vector2 pivot=0, vector2 scale=1, float rotate=0, vector2 offset=0, "
+     "vector2 texcoord=0, vector2 pivot=0, vector2 scale=1, float rotate=0, vector2 offset=0, "
      "integer operationorder=0",
      "vector2", PATINA_PATTERN(patternPlace2d)},
     {"UsdTransform2d", "UsdTransform2d",

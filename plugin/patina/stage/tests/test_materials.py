@@ -257,3 +257,45 @@ def test_primvars_of_a_material_are_those_of_prims_without(read):
     levels = {path: reading.prim(path).get("primvar level constant") for path in ("/ballm", "/own", "/above/s", "/unbound")}
     assert levels == {"/ballm": "3", "/own": "1", "/above/s": "2", "/unbound": None}
     assert reading.prim("/own")["primvar displayColor constant x3"] == "1 0 0"
+
+
+def test_numbers_with_a_unit_are_those_of_the_scene(read):
+    shader = """
+        token outputs:mtlx:surface.connect = </m/s.outputs:out>
+        def Shader "s" {
+            uniform token info:id = "%s"
+            float inputs:emission = 10 (%s)
+            token outputs:out }"""
+    for metadata, emission in (("displayUnit = in", 25.4), ('customData = { string unit = "inch" }', 25.4),
+                               ('customData = { string unit = "radian" }', 572.9578), ("hidden = 1", 10)):
+        m = read(material(shader % ("ND_surface_unlit", metadata))).prim("/m")  # in centimetres
+        assert float(m["float emission"]) == pytest.approx(emission, rel=1e-5), metadata
+    assert read(material(shader % ("Other", "displayUnit = in"))).prim("/m")["float emission"] == "10"
+    odd = read(material(shader % ("ND_surface_unlit", 'customData = { string unit = "stone" }')))
+    assert odd.prim("/m")["float emission"] == "10" and any("no unit 'stone'" in w for w in odd.warnings)
+
+
+def test_networks_are_of_138_unless_they_say_otherwise(read):
+    body = """
+        %s
+        token outputs:mtlx:surface.connect = </m/s.outputs:out>
+        def Shader "s" { uniform token info:id = "ND_surface_unlit"
+            color3f inputs:emission_color.connect = </m/w.outputs:out>
+            token outputs:out }
+        def Shader "w" { uniform token info:id = "ND_switch_color3"
+            float inputs:which = 7
+            color3f outputs:out }"""
+    for version, which in (("", "0"), ('"1.38"', "0"), ('"1.39"', "7"), ('"1.40.2"', "7"), ('""', "0")):
+        said = f"string config:mtlx:version = {version}" if version else ""
+        assert read(material(body % said)).prim("/m")["float which"] == which, version
+
+
+def test_a_shader_has_its_output_whatever_that_is_called():
+    _patina = pytest.importorskip("_patina")
+    network = _patina.Network("/m")
+    network.add_node("/m/s", "UsdPreviewSurface")
+    for output in ("out", ""):
+        network.set_terminal("surface", "/m/s", output)
+        network.set_terminal("displacement", "/m/s", output)
+        expanded, warnings = _patina.expand_material(network)
+        assert "surface" in expanded.terminals() and not warnings

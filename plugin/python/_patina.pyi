@@ -37,6 +37,10 @@ class Network:
         """
         Name -> (node, output).
         """
+    def upgrade(self) -> list[typing.Any]:
+        """
+        Makes a network of MaterialX 1.38 one of 1.39, whose nodes differ. Returns warnings, dicts of prim, input, message and count.
+        """
     @property
     def empty(self) -> bool:
         """
@@ -613,9 +617,9 @@ def read_image(path: str) -> ImageData:
     """
     Reads any image; RuntimeError says in one line why not.
     """
-def read_mtlx(path: str, warnings: typing.Any = None) -> list[Network]:
+def read_mtlx(path: str, warnings: typing.Any = None, meters_per_unit: float = 1.0) -> list[Network]:
     """
-    The materials of a MaterialX document. Warnings are appended to the list.
+    The materials of a MaterialX document. Warnings are appended to the list. Distances that have a unit become units of a scene with so many metres in each.
     """
 def set_denoiser_library(path: str) -> None:
     """
@@ -642,6 +646,10 @@ def translatable_models() -> list[str]:
 def translate_material(network: Network, target: str, warnings: typing.Any = None) -> Network:
     """
     The material as another shading model; a network without terminals where it cannot be.
+    """
+def unit_factor(unit: str, id: str, input: str, meters_per_unit: float) -> typing.Any:
+    """
+    What a number in a unit of MaterialX is multiplied by where it is the input of a node with that definition; None for an unknown unit.
     """
 def views(display: str) -> list[str]:
     """
@@ -679,5 +687,5 @@ def write_images(film: Film, path: str, options: dict[str, typing.Any] = {}, met
     """
     Writes a film: OpenEXR with all its AOVs, or an image for the screen.
     """
-ALBEDO_MICROFACET_SIZE: int = 511424
-ALBEDO_WARD_TABLE: int = 1051008
+ALBEDO_MICROFACET_SIZE: int = 515184
+ALBEDO_WARD_TABLE: int = 1058528

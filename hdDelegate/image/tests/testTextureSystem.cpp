@@ -298,6 +298,19 @@ TEST_F(Textures, UdimTiles) {
     EXPECT_FALSE(textures.valid(open(temp.file("none.<UDIM>.png"))));
 }
 
+/// Mudbox's names of tiles.
+TEST_F(Textures, UvTiles) {
+    writeImage(temp.file("m_u1_v1.png"), 4, 4, {1, 0, 0}, OIIO::TypeUInt8);
+    writeImage(temp.file("m_u2_v1.png"), 4, 4, {0, 1, 0}, OIIO::TypeUInt8);
+    writeImage(temp.file("m_u1_v2.png"), 4, 4, {0, 0, 1}, OIIO::TypeUInt8);
+    const int handle = open(temp.file("m_<UVTILE>.png"));
+    ASSERT_TRUE(textures.valid(handle));
+    EXPECT_EQ(textures.sample(handle, {0.5f, 0.5f}, 0), glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(textures.sample(handle, {1.5f, 0.5f}, 0), glm::vec4(0, 1, 0, 1));
+    EXPECT_EQ(textures.sample(handle, {0.5f, 1.5f}, 0), glm::vec4(0, 0, 1, 1));
+    EXPECT_EQ(diagnostics.count(), 0);
+}
+
 TEST_F(Textures, EqualRequestsShareAHandleAndDifferentOnesThePixels) {
     writeImage(temp.file("a.png"), 8, 8, {0.2f, 0.4f, 0.8f}, OIIO::TypeUInt8);
     TextureRequest request;

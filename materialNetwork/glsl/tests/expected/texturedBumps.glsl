@@ -33,7 +33,7 @@ Frame frames[1];
 vec3 passThrough;
 void instantiate() {
     r5 = nodeTuplePrimvar(primvar(0, parameters[0]));
-    r6 = nodeImage(parameters[1], r5.xy, 0, point);
+    r6 = nodeImage(parameters[1], r5.xy, 0, 0, point);
     r7 = vec4(nodeFractal2Scalar(parameters[2].x, patternWhole(parameters[3].x), parameters[4].x, parameters[5].x, r5.xy));
     r8 = vec4(nodeTexcoord(primvar(1, vec4(0.0))), 0.0);
     r9 = nodeShiftTexcoord(r5, parameters[6].x != 0.0, point);

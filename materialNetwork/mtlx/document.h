@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "materialNetwork/network/units.h"
 #include "materialNetwork/nodes/models.h"
 
 #include <string>

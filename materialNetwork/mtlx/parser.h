@@ -2,7 +2,6 @@
 #pragma once
 
 #include "materialNetwork/mtlx/document.h"
-#include "materialNetwork/network/units.h"
 
 #include <pugixml.hpp>
 

@@ -8,7 +8,6 @@
 #include "materialNetwork/mtlx/document.h"
 #include "materialNetwork/nodes/nodeTable.h"
 #include "materialNetwork/network/translate.h"
-#include "materialNetwork/network/units.h"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

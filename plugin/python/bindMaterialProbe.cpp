@@ -11,6 +11,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -125,24 +126,58 @@ glm::vec3 meanAlbedo(Bsdf& bsdf) {
     return mean;
 }
 
-/// The lobes for one outgoing direction after the other: set up where it is not that of the row
-/// before.
-class LobesByRow {
-public:
-    explicit LobesByRow(const MaterialProbe& probe) : _probe(probe) {}
+/// All that happens to light: it meets the surface with the chance `presence`, or goes straight on.
+struct WholeMaterial {
+    Bsdf bsdf; ///< of light that meets the surface
+    float presence;
+    glm::vec3 passes; ///< colour of light that goes on
 
-    Bsdf& seenFrom(const glm::vec3& wo) {
-        if (_bsdf && std::memcmp(&wo, &_wo, sizeof wo) == 0) return *_bsdf;
+    WholeMaterial(const MaterialProgram& program, const ShadingPoint& point) {
+        presence = program.opacity(point, &passes);
+        program.evaluate(point, bsdf);
+    }
+
+    BsdfEval eval(const glm::vec3& wi) {
+        BsdfEval e = meanEval(bsdf, wi);
+        e.diffuse *= presence;
+        e.specular *= presence;
+        e.pdf *= presence;
+        return e;
+    }
+
+    BsdfSample sample(const glm::vec4& u, const glm::vec3& wo) const {
+        BsdfSample s;
+        if (u.w < presence) {
+            s = bsdf.sample(glm::vec3(u), std::min(u.w / presence, 0x1.fffffep-1f));
+            s.pdf *= presence;
+            return s;
+        }
+        s.wi = -wo;
+        s.weight = passes;
+        s.pdf = 1.0f - presence;
+        s.event = sh::LOBE_TRANSMIT | sh::LOBE_DELTA;
+        return s;
+    }
+
+    glm::vec3 albedo() { return presence * meanAlbedo(bsdf) + (1.0f - presence) * passes; }
+};
+
+/// The material for one outgoing direction after the other: set up where it is not that of the row
+/// before.
+class MaterialByRow {
+public:
+    explicit MaterialByRow(const MaterialProbe& probe) : _probe(probe) {}
+
+    WholeMaterial& seenFrom(const glm::vec3& wo) {
+        if (_material && std::memcmp(&wo, &_wo, sizeof wo) == 0) return *_material;
         _wo = wo;
-        _bsdf.emplace();
-        _probe.program->evaluate(_probe.seenFrom(wo), *_bsdf);
-        return *_bsdf;
+        return _material.emplace(*_probe.program, _probe.seenFrom(wo));
     }
 
 private:
     const MaterialProbe& _probe;
     glm::vec3 _wo{0.0f};
-    std::optional<Bsdf> _bsdf;
+    std::optional<WholeMaterial> _material;
 };
 
 py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
@@ -153,11 +188,10 @@ py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
     float *values = f.mutable_data(), *densities = pdf.mutable_data();
     {
         py::gil_scoped_release release;
-        LobesByRow lobes(probe);
+        MaterialByRow materials(probe);
         for (size_t i = 0; i < n; ++i) {
-            Bsdf& bsdf = lobes.seenFrom(row(outgoing, i));
             const glm::vec3 direction = row(incoming, i);
-            const BsdfEval e = meanEval(bsdf, direction);
+            const BsdfEval e = materials.seenFrom(row(outgoing, i)).eval(direction);
             const float cosine = std::abs(direction.z);
             store(values, i, cosine > 0.0f ? (e.diffuse + e.specular) / cosine : glm::vec3(0.0f));
             densities[i] = e.pdf;
@@ -177,12 +211,13 @@ py::dict sample(const MaterialProbe& probe, const Floats& wo, const Floats& u) {
     int* events = event.mutable_data();
     {
         py::gil_scoped_release release;
-        LobesByRow lobes(probe);
+        MaterialByRow materials(probe);
         for (size_t i = 0; i < n; ++i) {
-            Bsdf& bsdf = lobes.seenFrom(row(outgoing, i));
+            const glm::vec3 wo = row(outgoing, i);
+            WholeMaterial& material = materials.seenFrom(wo);
             const float* r = random + 4 * i;
-            bsdf.seed(uint32_t(i));
-            const BsdfSample s = bsdf.sample({r[0], r[1], r[2]}, r[3]);
+            material.bsdf.seed(uint32_t(i));
+            const BsdfSample s = material.sample({r[0], r[1], r[2], r[3]}, wo);
             store(directions, i, s.event ? s.wi : glm::vec3(0.0f));
             store(weights, i, s.event ? s.weight : glm::vec3(0.0f));
             densities[i] = s.event ? s.pdf : 0.0f;
@@ -213,9 +248,7 @@ template <class Function> Floats perDirection(const Floats& wo, Function functio
 
 Floats albedo(const MaterialProbe& probe, const Floats& wo) {
     return perDirection(wo, [&](const glm::vec3& direction) {
-        Bsdf bsdf;
-        probe.program->evaluate(probe.seenFrom(direction), bsdf);
-        return meanAlbedo(bsdf);
+        return WholeMaterial(*probe.program, probe.seenFrom(direction)).albedo();
     });
 }
 
@@ -254,15 +287,19 @@ Floats emissionAt(const MaterialProbe& probe, const Floats& uv, float footprint)
 } // namespace
 
 void bindMaterialProbe(py::module_& m) {
-    py::class_<MaterialProbe>(m, "MaterialProbe", "A compiled material at one shading point.")
+    py::class_<MaterialProbe>(m, "MaterialProbe",
+                              "A compiled material at one shading point: its lobes, and light that "
+                              "passes straight on.")
         .def(py::init<const Network&, const MethodChoices&, double>(), py::arg("network"),
              py::arg("methods") = MethodChoices(), py::arg("tolerance") = -1.0)
         .def("eval", &eval, py::arg("wo"), py::arg("wi"),
-             "f without the cosine, and the density of sample(); delta lobes have no part in it.")
+             "f without the cosine, and the density of sample(); delta lobes and light that passes "
+             "straight on have no part in it.")
         .def("sample", &sample, py::arg("wo"), py::arg("u"),
              "wi, weight (f cos / pdf), pdf and event (0: no sample) for rows of four random "
              "numbers.")
-        .def("albedo", &albedo, py::arg("wo"), "Directional albedo, delta lobes included.")
+        .def("albedo", &albedo, py::arg("wo"),
+             "Directional albedo: what is reflected, transmitted and passes straight on.")
         .def_property_readonly(
             "stochastic",
             [](const MaterialProbe& probe) {

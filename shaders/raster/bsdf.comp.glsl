@@ -19,13 +19,21 @@ void main() {
     float presence = materialPresence(passes);
     materialSetup();
     MaterialEval e = materialEval(queries[i + 1].xyz);
-    MaterialSample s = materialSample(queries[i + 2].xyz, queries[i + 2].w);
-    int o = 7 * int(gl_GlobalInvocationID.x);
-    answers[o] = vec4(e.diffuse, e.pdf);
-    answers[o + 1] = vec4(e.specular, presence);
+    vec4 u = queries[i + 2];
+    bool met = u.w < presence;
+    MaterialSample s = materialSample(u.xyz, met ? min(u.w / presence, 1.0 - 1.0 / 16777216.0) : 0.0);
+    s.pdf *= presence;
+    if (!met) {
+        s.wi = -point.view;
+        s.weight = passes;
+        s.pdf = 1.0 - presence;
+        s.event = LOBE_TRANSMIT + LOBE_DELTA;
+    }
+    int o = 6 * int(gl_GlobalInvocationID.x);
+    answers[o] = vec4(e.diffuse, e.pdf) * presence;
+    answers[o + 1] = vec4(e.specular * presence, presence);
     answers[o + 2] = vec4(s.wi, float(s.event));
     answers[o + 3] = vec4(s.weight, s.pdf);
-    answers[o + 4] = vec4(materialAlbedo(), 0.0);
+    answers[o + 4] = vec4(materialAlbedo() * presence + passes * (1.0 - presence), 0.0);
     answers[o + 5] = vec4(materialEmission(point.view), 0.0);
-    answers[o + 6] = vec4(passes, 0.0);
 }

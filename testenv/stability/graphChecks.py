@@ -72,20 +72,9 @@ def rows(flags):
     return flags if flags.ndim == 1 else flags.any(axis=1)
 
 
-def present(probe, thin, wo):
-    """:returns: the share of light that meets the surface, per direction; 1 where none passes straight"""
-    return np.array([probe.opacity(row) if thin else 1.0 for row in wo])[:, None]
-
-
-def rounded(probe, thin, wo):
-    """:returns: the relative error, per direction, of values that are divided by the share that meets the surface: it is 1 less
-    what passes straight, and off by some units of the last digit, 2^-24"""
-    return 16.0 * 2.0 ** -24 / np.maximum(present(probe, thin, wo), 1e-30)
-
-
 def check(probe, graph, budget=BUDGET):
     """:param probe: MaterialProbe or RasterProbe
-    :param graph: with `bound` of the albedo and `thin`, as graphText.Graph has them
+    :param graph: with `bound` of the albedo, as graphText.Graph has it
     :returns: list of what failed, empty when all is well
     """
     bound = graph.bound
@@ -97,8 +86,7 @@ def check(probe, graph, budget=BUDGET):
     all_wo = directions()
     albedo, emission = probe.albedo(all_wo), probe.emission(all_wo)
     failures.check(rows(bad(albedo)), "albedo", {"wo": all_wo}, albedo)
-    failures.check(rows(albedo * present(probe, graph.thin, all_wo) > bound * (1.0 + budget)), f"albedo above {bound:g}",
-                   {"wo": all_wo}, albedo)
+    failures.check(rows(albedo > bound * (1.0 + budget)), f"albedo above {bound:g}", {"wo": all_wo}, albedo)
     failures.check(rows(bad(emission)), "emission", {"wo": all_wo}, emission)
     _check_samples(probe, failures)
     return failures
@@ -198,14 +186,12 @@ def check_furnace(probe, graph, budget=BUDGET):
         mean, error = furnace(probe, cosine, 11)
         albedo = probe.albedo(wo)[0]
         place = {"wo": wo}
-        share = present(probe, graph.thin, wo)[0]
-        highest = max(1.0, float((albedo * share).max()), graph.bound if np.isfinite(graph.bound) else 1.0)
-        slack = 5.0 * error * share + budget * highest
-        met = mean * share
-        failures.check([(met > graph.bound + slack).any()], f"sampled albedo above {graph.bound:g}", place, [mean])
+        highest = max(1.0, float(albedo.max()), graph.bound if np.isfinite(graph.bound) else 1.0)
+        slack = 5.0 * error + budget * highest
+        failures.check([(mean > graph.bound + slack).any()], f"sampled albedo above {graph.bound:g}", place, [mean])
         if graph.ward or not np.isfinite(graph.bound):  # a tint of 65504 makes much of the last digit
             continue
-        apart = (mean - albedo) * share
+        apart = mean - albedo
         far = apart > slack if graph.loses else np.abs(apart) > slack
         failures.check([far.any()], "sampled albedo is not albedo()", place, [np.append(mean, albedo)])
     return failures
@@ -223,18 +209,15 @@ def _beside(directions, step):
     return (turned / np.linalg.norm(turned, axis=1, keepdims=True)).astype(np.float32)
 
 
-def compare(probe, other, relative=5e-3, thin=False):
+def compare(probe, other, relative=5e-3):
     """Both back ends compute the same.
 
     :param other: a RasterProbe of the material of `probe`
     :param relative: difference that is accepted
-    :param thin: whether the material is a thin wall, whose values are divided by its opacity
     :returns: list of what differs
     """
-    def _apart(a, b, wo):  # beyond what two orders of rounding explain
-        allowed = np.maximum(relative, rounded(probe, True, wo)) if thin else relative
-        allowed = allowed[:, 0] if thin and a.ndim == 1 else allowed
-        return ~(np.abs(a - b) <= allowed * np.maximum(np.abs(a), np.abs(b)) + 2e-4)
+    def _apart(a, b):  # beyond what two orders of rounding explain
+        return ~(np.abs(a - b) <= relative * np.maximum(np.abs(a), np.abs(b)) + 2e-4)
 
     failures = Failures()
     wo, wi = pairs()
@@ -242,7 +225,7 @@ def compare(probe, other, relative=5e-3, thin=False):
     def differences(wo, wi):
         (f, pdf), (g, qdf) = probe.eval(wo, wi), other.eval(wo, wi)
         both, cosine = np.maximum(pdf, qdf) < NARROW, np.abs(wi[:, 2:])
-        return (both & rows(_apart(f * cosine, g * cosine, wo)), both & _apart(pdf, qdf, wo), np.column_stack([f, g]),
+        return (both & rows(_apart(f * cosine, g * cosine)), both & _apart(pdf, qdf), np.column_stack([f, g]),
                 np.column_stack([pdf, qdf]))
 
     f_apart, pdf_apart, f, pdf = differences(wo, wi)
@@ -256,12 +239,12 @@ def compare(probe, other, relative=5e-3, thin=False):
     all_wo = directions()
     for name in ("albedo", "emission"):
         a, b = getattr(probe, name)(all_wo), getattr(other, name)(all_wo)
-        failures.check(rows(_apart(a, b, all_wo)), f"{name} differs", {"wo": all_wo}, np.column_stack([a, b]))
+        failures.check(rows(_apart(a, b)), f"{name} differs", {"wo": all_wo}, np.column_stack([a, b]))
     generator = np.random.default_rng(9)
     wo = np.repeat(directions((0.9, 0.4, 0.1, -0.5), (0.7,)), 64, axis=0)
     u = generator.random((len(wo), 4), dtype=np.float32)
     s, t = probe.sample(wo, u), other.sample(wo, u)
-    apart = rows(_apart(s["weight"], t["weight"], wo)) | (s["event"] != t["event"]) | rows(np.abs(s["wi"] - t["wi"]) > 3e-3)
+    apart = rows(_apart(s["weight"], t["weight"])) | (s["event"] != t["event"]) | rows(np.abs(s["wi"] - t["wi"]) > 3e-3)
     # A choice may fall the other way where the random number is on the border, one sample in a hundred at most.
     if apart.mean() > 0.01:
         failures.check(apart, "sample differs", {"wo": wo, "u": u},

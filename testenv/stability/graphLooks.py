@@ -204,12 +204,10 @@ def check_means(probe, graph, drawn, number, allowed, furnace=True, densities=Tr
     mean, error = drawn.means(drawn.samples["weight"])
     bound = graph.bound if np.isfinite(graph.bound) else 1.0
     places = {"wo": drawn.views}
-    share = graphChecks.present(probe, graph.thin, drawn.views)
-    slack = quantile * error * share + allowed * np.maximum(np.maximum(1.0, bound), albedo * share)
-    met = mean * share
-    failures.check(graphChecks.rows(met > graph.bound + slack), f"sampled albedo above {graph.bound:g}", places, mean)
+    slack = quantile * error + allowed * np.maximum(np.maximum(1.0, bound), albedo)
+    failures.check(graphChecks.rows(mean > graph.bound + slack), f"sampled albedo above {graph.bound:g}", places, mean)
     if furnace and np.isfinite(graph.bound):
-        far = (mean - albedo) * share if graph.loses else np.abs(mean - albedo) * share
+        far = mean - albedo if graph.loses else np.abs(mean - albedo)
         failures.check(graphChecks.rows(far > slack), "sampled albedo is not albedo()", places, np.column_stack([mean, albedo]))
     if densities:
         # What reflects nothing may claim a density and draw nothing: no light counts by it.

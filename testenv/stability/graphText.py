@@ -82,7 +82,7 @@ class Graph:
     averages: the same of each closure, by the name of its node, where a layer takes the mean of its three channels from all
         of them (the method layerTransmittance=average).
     loses: normals are mapped, so that light may be lost below the horizon.
-    thin: light may pass straight through; then albedos are of what does not.
+    thin: light may pass straight through; how much the lobes count then hangs on the direction.
     layered: a closure lies over another one.
     ward: the albedo of Ward's lobe is that of an isotropic one.
     """

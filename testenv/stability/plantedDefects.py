@@ -45,9 +45,6 @@ class Planted:
     def albedo(self, wo):
         return self.probe.albedo(wo) * self.factor
 
-    def opacity(self, wo):
-        return self.probe.opacity(wo)
-
 
 def shines(probe, seed):
     """:returns: whether some light is spread at a place where it can be seen"""

@@ -94,7 +94,7 @@ def compared(probe, other, graph, methods):
     other = Remembering(other)
     found = ["raster: " + line for line in [*graphChecks.check(other, graph), *graphChecks.check_density(other)]]
     rough = methods.get("directionalAlbedo") in STEPPED or graphLooks.flat_curve(graph.nodes)
-    found += graphChecks.compare(probe, other, 5e-2 if rough else 5e-3, graph.thin)
+    found += graphChecks.compare(probe, other, 5e-2 if rough else 5e-3)
     return found
 
 

@@ -200,20 +200,3 @@ def test_back_ends_that_differ_are_found_but_at_a_jump():
     assert any("pdf differs" in line for line in graphChecks.compare(Broken(""), Broken("density")))
     assert any("albedo differs" in line for line in graphChecks.compare(Broken(""), Broken("albedo")))
     assert graphChecks.compare(Broken(""), Jumps(graphChecks.directions(graphChecks.INCOMING, (0.0, 3.9))[2])) == []
-
-
-class Thin(Broken):
-    """A thin wall of which this share meets the light."""
-
-    def __init__(self, defect, share):
-        super().__init__(defect)
-        self.share = share
-
-    def opacity(self, wo):
-        return self.share
-
-
-def test_thin_walls_are_compared_as_far_as_their_digits_go():
-    for share, differs in ((1.0, True), (1e-7, False)):
-        found = graphChecks.compare(Thin("", share), Thin("albedo", share), thin=True)
-        assert any("albedo differs" in line for line in found) == differs, (share, found)

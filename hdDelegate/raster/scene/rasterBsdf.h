@@ -13,7 +13,8 @@
 namespace patina {
 
 /// Numbers of one material at one shading point, as the driver computes them from the text that
-/// the rasterizer draws with. The normal is +z, the tangent +x; directions are unit vectors.
+/// the rasterizer draws with. Light that passes straight on is part of them, as a delta is. The
+/// normal is +z, the tangent +x; directions are unit vectors.
 class RasterBsdf {
 public:
     struct Query {
@@ -28,7 +29,6 @@ public:
         glm::vec4 weight;   ///< f |cos| / pdf; w: pdf
         glm::vec4 albedo;
         glm::vec4 emission;
-        glm::vec4 passes; ///< colour of what passes where the surface is not present
     };
 
     /// @param textures that the program was compiled with

@@ -2,9 +2,12 @@
 """Prints the light that a material reflects and transmits, for given directions, in numbers.
 
   eval     f (without the cosine) and the density with which wi would be sampled
-  sample   directions wi, their weight f cos / pdf, and their density (for a mirror or clear glass
-           the probability)
-  albedo   directional albedo: the share of the light that comes back towards wo
+  sample   directions wi, their weight f cos / pdf, and their density (for a mirror, clear glass, or
+           light that passes straight on, the probability)
+  albedo   directional albedo: the share of the light that comes back towards wo, from both sides
+
+Numbers are those of the whole material. Light that passes straight on, through a thin wall, a film or
+an opacity below 1, counts in sample and albedo. f has no part of it.
 
 Directions are unit vectors in the shading frame (z normal, x tangent) and point away from the
 surface; others are made unit vectors. With - for a direction, sets are read from standard input,

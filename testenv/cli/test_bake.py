@@ -207,3 +207,28 @@ def test_what_cannot_be_baked(tmp_path, capsys):
     assert main.main(["bake", str(document), str(tmp_path / "out.usda"), "--to", "gltf_pbr"]) == 1
     assert "no shading model" in capsys.readouterr().err
     assert not (tmp_path / "out.usda").exists()
+
+
+@pytest.mark.parametrize("inputs, mode, share", (
+    ('<input name="opacity" type="color3" value="0.25, 0.25, 0.25"/>', "presence", 0.25),
+    ('<input name="opacity" type="color3" nodename="paint"/>', "presence", None),
+    ('<input name="transmission" type="float" value="0.5"/>', "", 1.0),
+    ("", "", 1.0)))
+def test_glow_fades_with_the_opacity_of_standard_surface(tmp_path, inputs, mode, share):
+    document = tmp_path / "glow.mtlx"
+    ramp = PATTERNS.partition('<texcoord')[2].partition('<place2d')[0]
+    document.write_text(f"""<materialx version="1.39"><texcoord{ramp}
+      <standard_surface name="s" type="surfaceshader"><input name="emission" type="float" value="0.5"/>{inputs}
+      </standard_surface></materialx>""")
+    out = tmp_path / "glow.usda"
+    assert main.main(["bake", str(document), str(out), "--to", "UsdPreviewSurface", "--resolution", "16"]) == 0
+    assert (f'token inputs:opacityMode = "{mode}"' in out.read_text()) == bool(mode)
+    up = np.array([[0.0, 0.0, 1.0]], np.float32)
+    shown = []
+    for file in (document, out):
+        (_, network), = materials.load(str(file))[0]
+        probe = _patina.MaterialProbe(network)
+        probe.move_to(0.53125, 0.53125)  # the centre of a texel
+        shown.append(probe.emission(up)[0, 0] * (probe.opacity() if mode else 1.0))
+    assert shown[1] == pytest.approx(shown[0], abs=0.5 * 0.5 / 255 + 1e-5)  # half a step of a texture of 8 bits
+    assert share is None or shown[0] == pytest.approx(0.5 * share, rel=1e-5)

@@ -285,6 +285,14 @@ class _Preview(_Network):
 
         self.shader.CreateInput(name, Sdf.ValueTypeNames.Normal3f).Set(tuple(value))
 
+    def value(self, name, kind, value):
+        from pxr import Sdf
+
+        if name == "opacityMode":  # a word here, a number in MaterialX
+            self.shader.CreateInput(name, Sdf.ValueTypeNames.Token).Set("presence" if value >= 0.5 else "transparent")
+        else:
+            super().value(name, kind, value)
+
     def texture(self, name, kind, file, space):
         from pxr import Sdf
 

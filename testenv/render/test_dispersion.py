@@ -5,6 +5,7 @@ import functools
 import numpy as np
 import pytest
 import scipy.stats
+from scipy.spatial.transform import Rotation
 
 from inProcess import Stage
 
@@ -94,8 +95,10 @@ def prism_stage(folder, light):
     return path
 
 
-def slab_stage(folder, roughness=0.0, scale=1.0, abbe=9.0, light=WHITE):
+def slab_stage(folder, roughness=0.0, scale=1.0, abbe=9.0, light=WHITE, turn=(0.0, 0.0, 0.0)):
+    """:param turn: about an axis, by its length in radians"""
     points = [(x, y, z) for z in (-0.5, 0.5) for x, y in ((-8, -8), (8, -8), (8, 8), (-8, 8))]
+    points = Rotation.from_rotvec(turn).apply(points)
     path = folder / f"slab{roughness}{scale}{abbe}.usda"
     path.write_text(STAGE.format(x=0, counts="4, 4, 4, 4, 4, 4", points=text(points), light=light, roughness=roughness,
                                  indices="4, 5, 6, 7, 3, 2, 1, 0, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7",
@@ -166,9 +169,10 @@ def test_a_prism_bends_each_wavelength_as_snell_says(tmp_path, band):
         assert found[:, channel].mean() == pytest.approx(expected[channel], abs=0.02 * expected.max())
 
 
-def test_white_light_stays_white_through_a_slab(tmp_path):
-    """All wavelengths leave parallel faces as they came, and an even sky is white from every direction."""
-    found = means(slab_stage(tmp_path), "--maxDepth", 64)
+@pytest.mark.parametrize("turn", [(0.0, 0.0, 0.0), (0.3, 0.4, 0.1)])
+def test_white_light_stays_white_through_a_slab(tmp_path, turn):
+    """All wavelengths leave parallel faces as they came, and an even sky is white from every direction, however it lies."""
+    found = means(slab_stage(tmp_path, turn=turn), "--maxDepth", 64)
     for channel in range(3):
         assert scipy.stats.ttest_1samp(found[:, channel], 1.0).pvalue > SIGNIFICANCE, found.mean(0)
     assert found.mean(0) == pytest.approx([1, 1, 1], abs=0.02)

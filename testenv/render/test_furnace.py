@@ -4,7 +4,9 @@ import functools
 
 import numpy as np
 import pytest
+import scipy.stats
 
+from inProcess import Stage
 from rendering import color, record, scene
 
 SIZE, SAMPLES = 64, 1024
@@ -62,3 +64,49 @@ def test_background_is_the_dome(tmp_path):
     image = tmp_path / "furnace.exr"
     record(scene("furnace"), image, "--imageWidth", SIZE, "--imageHeight", SIZE, "--samples", 4)
     assert np.allclose(color(image)[0, :8], 1.0, atol=1e-6)
+
+
+BUBBLE = """#usda 1.0
+def Camera "camera"
+{
+    token projection = "orthographic"
+    float horizontalAperture = 6
+    float verticalAperture = 6
+    double3 xformOp:translate = (0, 0, 5)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def DomeLight "sky"
+{
+}
+def Sphere "bubble" (prepend apiSchemas = ["MaterialBindingAPI"])
+{
+    double radius = 0.45
+    rel material:binding = </soap>
+}
+def Material "soap"
+{
+    token outputs:mtlx:surface.connect = </soap/surface.outputs:out>
+    def Shader "surface"
+    {
+        uniform token info:id = "ND_open_pbr_surface_surfaceshader"
+        float inputs:transmission_weight = 1
+        float inputs:specular_ior = 1
+        float inputs:specular_roughness = 0
+        float inputs:thin_film_weight = 1
+        float inputs:thin_film_thickness = 0.5
+        bool inputs:geometry_thin_walled = 1
+        token outputs:out
+    }
+}
+"""
+
+
+def test_a_soap_bubble_shows_no_more_and_no_less_than_the_sky(tmp_path):
+    """Its colours are light that went another way. Paths that are reflected inside are rare, and must not count the more."""
+    path = tmp_path / "bubble.usda"
+    path.write_text(BUBBLE)
+    stage = Stage(path, "--imageWidth", 8, "--samples", 256, "--maxDepth", 64, image_height=8)
+    found = np.array([stage.image(seed).mean((0, 1)) for seed in range(12)])
+    for channel in range(3):  # significance 1e-4 of each, fixed seeds
+        assert scipy.stats.ttest_1samp(found[:, channel], 1.0).pvalue > 1e-4, found.mean(0)
+    assert found.mean(0) == pytest.approx([1, 1, 1], abs=0.01)

@@ -244,12 +244,10 @@ private:
         line("    passes = vec3(1.0);");
         instructions(_code.opacityCode);
         const std::string opacity = reg(_code.opacity) + ".x";
-        if (_code.hasPassThrough) {
-            line("    instantiate();");
-            line("    return presenceOf(" + opacity + ", passThrough, passes);");
-        } else {
-            line("    return unit(" + opacity + ");");
-        }
+        line("    presentShare = unit(" + opacity + ");");
+        if (_code.hasPassThrough) line("    instantiate();");
+        line(_code.hasPassThrough ? "    return presenceOf(" + opacity + ", passThrough, passes);"
+                                  : "    return presentShare;");
         line("}");
     }
 

@@ -5,14 +5,13 @@
 // says.
 #include "shaders/raster/links.glsl"
 #include "shaders/raster/shadows.glsl"
+#include "shaders/raster/glow.glsl"
 layout(location = 0) out vec4 outColor;
 // The data that a first look is smoothed by, see firstLook.frag.glsl.
 layout(location = 1) out vec4 outNoisy;  // light that neighbours find by other samples
 layout(location = 2) out vec4 outGuide;  // how light the material is; w: prim, 0 where nothing is smoothed
 layout(location = 3) out vec4 outPlace;
 layout(location = 4) out vec4 outNormal;
-layout(location = 7) uniform vec4 meshLight; // w: modes of RasterMeshLight
-layout(location = 13) uniform int meshFilters; // in lightTables: where those of the mesh light stand, place by place; -1 none
 
 #ifdef MATERIAL_IS_FIBRE
 const float lightTrust = 3.0; // what light through a fibre makes of few directions is noisier than its shadows are wrong
@@ -172,19 +171,6 @@ vec3 along(MaterialSample s) {
 #ifdef DOME_METHOD
 #include "shaders/raster/sky.glsl"
 #endif
-
-// The emission of the surface: its material's glow, and what a mesh light makes of it.
-vec3 glow() {
-    vec3 own = materialEmission(point.view);
-    if (meshLight.w == 0.0) return own;
-    vec3 light = dot(point.geometricNormal, point.view) > 0.0 ? meshLight.rgb : vec3(0.0);
-#ifdef LIGHT_FILTERS
-    if (meshFilters >= 0)
-        light *= filtersToCamera(int(lightTables[meshFilters + vIds.w].x), point.position, -point.view);
-#endif
-    if (meshLight.w == 3.0) return light;
-    return meshLight.w == 1.0 && MATERIAL_GLOWS ? light * own : light + own;
-}
 
 void main() {
     outNoisy = outGuide = outPlace = outNormal = vec4(0.0);

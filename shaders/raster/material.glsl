@@ -10,6 +10,7 @@
 const int ENERGY_CURVE_NODES = 64; // EnergyCurve::nodeCount
 
 SurfacePoint point;
+float presentShare = 1.0; // that is not absent, whatever passes through it; set by materialPresence()
 
 // Defined by the pass: the value of a primvar, or what stands in for it.
 vec4 primvar(int slot, vec4 fallback);

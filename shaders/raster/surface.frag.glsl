@@ -47,11 +47,18 @@ void loadTriangle() {
 const int FACETED = 2;
 const int TUBE = 4;
 const int STRIP = 8;
+const int CULLS_BACK = 16;
+const int CULLS_FRONT = 32;
 bool isTube() {
     return (drawInfo.z & (TUBE | STRIP)) != 0;
 }
 float tubeRadius = 0.0;
 
+// At the outline of a tube a normal may turn away.
+vec3 towardsViewer(vec3 normal, vec3 view) {
+    float c = dot(normal, view);
+    return c < 1e-3 ? normalize(normal + view * (1e-3 - c)) : normal;
+}
 // The near side of the tube that a strip stands for.
 void setOnStrip(vec3 view) {
     vec3 along = unitOr(vNormal, vTangent);
@@ -68,9 +75,12 @@ void setOnStrip(vec3 view) {
     }
     float front = sqrt(1.0 - h * h) * tubeRadius;
     vec3 facing = cross(across, along);
-    point.normal = point.geometricNormal = across * h + facing * sqrt(1.0 - h * h);
+    vec3 around = across * h + facing * sqrt(1.0 - h * h);
+    float slope = triangles[gl_PrimitiveID].slope;
+    point.normal = slope == 0.0 ? around : towardsViewer(normalize(around - along * slope), view);
+    point.geometricNormal = point.normal;
     point.position += facing * (front - vAcross.y * tubeRadius);
-    point.objectPosition += point.normal * tubeRadius * vNormalMatrix;
+    point.objectPosition += around * tubeRadius * vNormalMatrix;
     vTangent = along;
 }
 
@@ -110,12 +120,7 @@ void setPoint(vec3 view, float coneWidth) {
     } else {
         point.normal = (drawInfo.z & FACETED) != 0 ? vGeometricNormal : unitOr(vNormal, vGeometricNormal);
         if (dot(point.normal, point.geometricNormal) < 0.0) point.normal = -point.normal;
-        if ((drawInfo.z & TUBE) != 0) {
-            // At its outline a corner's normal may turn away.
-            float c = dot(point.normal, view);
-            if (c < 1e-3) point.normal = normalize(point.normal + view * (1e-3 - c));
-            point.geometricNormal = point.normal;
-        }
+        if ((drawInfo.z & TUBE) != 0) point.normal = point.geometricNormal = towardsViewer(point.normal, view);
     }
     vec3 t = vTangent - point.normal * dot(point.normal, vTangent);
     float l = length(t);
@@ -140,19 +145,18 @@ void setPointFromCamera() {
     float distance = length(toEye);
     vec3 view = isPerspective != 0 ? toEye / max(distance, 1e-20) : -forward;
     setPoint(view, isPerspective != 0 ? pixelSpread * distance : pixelSpread);
+#ifdef CULLS
+    if ((drawInfo.z & (dot(point.geometricNormal, view) < 0.0 ? CULLS_BACK : CULLS_FRONT)) != 0) discard;
+#endif
 }
 
 // Whether this pass shows the surface at all: presence as a chance (stochastic transparency).
-// passes: colour of the light that passes where it does not.
 // Numbers of one triangle in one pixel, so that what lies behind each other is drawn apart.
 float ownRandom(uint set) {
     uint id = hash(firstTriangle + uint(gl_PrimitiveID) + hash(uint(vInstance.x)));
     return randomAt(uvec2(gl_FragCoord.xy) + uvec2(id & 1023u, id >> 22u), uint(passIndex), set).x;
 }
-bool isPresent(out vec3 passes) {
-    return ownRandom(31u) < materialPresence(passes);
-}
 bool isPresent() {
     vec3 passes;
-    return isPresent(passes);
+    return ownRandom(31u) < materialPresence(passes);
 }

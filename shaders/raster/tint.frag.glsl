@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tint of coloured surfaces over all that is behind them, where this pass does not show them: factors,
-// so that their order does not matter.
-layout(location = 0) out vec4 outColor;
+// Surfaces that let light pass, where this pass does not show them: the tint over all that is behind them, as
+// factors, and the light that their present share gives off nevertheless.
+#include "shaders/raster/glow.glsl"
+layout(location = 0, index = 0) out vec4 outGlow;
+layout(location = 0, index = 1) out vec4 outTint;
 void main() {
     setPointFromCamera();
     vec3 passes;
-    if (isPresent(passes)) discard;
-    outColor = vec4(passes, 1.0);
+    float shown = materialPresence(passes);
+    if (ownRandom(31u) < shown) discard;
+    // Where the surface is shown it glows with its whole light: here is what that leaves to the share.
+    float glows = max(presentShare - shown, 0.0) / max(1.0 - shown, 1e-6);
+    outGlow = vec4(glow() * (glows * exposure), 0.0);
+    outTint = vec4(passes, 1.0);
 }

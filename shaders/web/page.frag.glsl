@@ -72,11 +72,14 @@ vec3 along(vec3 wi, vec3 diffuse, vec3 specular, float pdf, bool delta) {
 void main() {
     setPoint(eye, pixelAngle, passInfo.x);
     vec2 pixel = floor(gl_FragCoord.xy);
+    float glows = 1.0;
 #ifdef PRESENCE
     vec3 passes;
-    if (randomAt(pixel, uint(passInfo.x), 7u) >= materialPresence(passes)) discard;
+    float presence = materialPresence(passes);
+    if (randomAt(pixel, uint(passInfo.x), 7u) >= presence) discard;
+    glows = presentShare / presence; // what light passes through glows, too
 #endif
-    vec3 color = materialEmission(point.view);
+    vec3 color = materialEmission(point.view) * glows;
     materialSetup();
     float share = 1.0 / float(passInfo.y);
     // One loop over all samples, so that the lobes stand in the text once.

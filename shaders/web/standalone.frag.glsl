@@ -22,11 +22,11 @@ void main() {
     setPoint(eye, pixelAngle, pass);
     vec3 passes;
     float presence = materialPresence(passes);
-    vec3 color = materialEmission(point.view);
+    vec3 glow = materialEmission(point.view) * presentShare;
     materialSetup();
     MaterialEval f = materialEval(lightDirection); // with the cosine
-    color += (f.diffuse + f.specular) * lightIrradiance;
+    vec3 color = (f.diffuse + f.specular) * lightIrradiance;
     MaterialSample s = materialSample(u, randomAt(pixel, uint(pass), 3u));
     if (s.event != 0) color += s.weight * surroundings;
-    outColor = vec4(color * presence, presence);
+    outColor = vec4(color * presence + glow, presence);
 }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Surfaces that are half there: two of them, one behind the other, hide three quarters, wherever their triangles come from."""
+"""Surfaces that are half there: two of them, one behind the other, hide three quarters, wherever their triangles come from.
+What glows glows with its whole light, however much of what is behind it shows through."""
 import numpy as np
 import pytest
 
@@ -78,3 +79,28 @@ def test_prims_keep_their_random_numbers_when_others_come(opengl, tmp_path):  # 
                                          ' = ["xformOp:translate"]\n    point3f[]', 1)
     np.testing.assert_array_equal(alpha(tmp_path, other + STAGES["prims"]), before)
     assert 0.0 < before.std()
+
+
+def pane(name, opacity, emission, z):
+    """A card that glows; thin, so that nothing bends what is behind it."""
+    material = (f'def Material "{name}Looks"\n{{\n    token outputs:surface.connect = </{name}Looks/s.outputs:surface>\n'
+                '    def Shader "s"\n    {\n        uniform token info:id = "UsdPreviewSurface"\n'
+                f"        color3f inputs:emissiveColor = ({emission}, 0, 0)\n        color3f inputs:diffuseColor = (0, 0, 0)\n"
+                f"        float inputs:opacity = {opacity}\n        float inputs:ior = 1\n"
+                "        token outputs:surface\n    }\n}\n")
+    bound = f"    rel material:binding = </{name}Looks>\n"
+    return material + mesh(name, [z]).replace(HALF, bound).replace(
+        f'"{name}"\n', f'"{name}" (prepend apiSchemas = ["MaterialBindingAPI"])\n')
+
+
+@pytest.mark.parametrize("opacity", [0, 0.5, 1])
+def test_glow_is_not_scaled_by_opacity(opengl, tmp_path, opacity):  # noqa: F811
+    """As UsdPreviewSurface 2.6 has it where its opacityMode is transparent."""
+    file = tmp_path / "stage.usda"
+    file.write_text(CAMERA + pane("front", opacity, 0.5, 1) + pane("back", 1, 0.25, 0), encoding="utf-8")
+    images = {backend: inProcess.Stage(str(file), "--backend", backend, "--camera", "/camera", "-w", "16", "--samples", "256",
+                                       "--disableCameraLight").image(1) for backend in ("embree", "raster")}
+    # Six standard errors of the back pane's light, which is seen by chance.
+    error = 0.25 * np.sqrt(opacity * (1 - opacity) / (16 * 16 * 256))
+    for backend, image in images.items():
+        assert abs(image[..., 0].mean() - 0.5 - 0.25 * (1 - opacity)) < 6 * error + 1e-5, backend

@@ -95,7 +95,7 @@ RasterPasses::PassBlock RasterPasses::block(const RasterScene& scene,
 /// Only what is in front has to be shaded, which takes far longer than to find it.
 static bool isDrawnByDepth(const RasterDraw& d) {
     return !d.material->glsl.presence && !d.material->glsl.volumeOnly &&
-           !d.material->glsl.transmits;
+           !d.material->glsl.transmits && !d.culls();
 }
 
 void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which,
@@ -130,7 +130,7 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
                 slots[i] = RasterAovRequest::slot(d.material->primvars, _aovRequest.primvars[i]);
             gl.Uniform4i(8, slots[0], slots[1], slots[2], slots[3]);
         }
-        if (!aovs && which != ColoredPresence) {
+        if (!aovs) {
             const vec3& l = d.meshLight.radiance;
             gl.Uniform4f(7, l.x, l.y, l.z, float(d.meshLight.mode));
             gl.Uniform1i(13, filters ? filters->tableOfMesh(d.meshLight.filtered) : -1);
@@ -361,12 +361,13 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
         const Clipping clipping(view);
         gl.DepthMask(GL_FALSE);
         gl.Enable(GL_BLEND);
-        gl.BlendFunc(GL_ZERO, GL_SRC_COLOR);
+        gl.BlendFunc(GL_ONE, GL_SRC1_COLOR);
         _colorTarget.bind();
-        drawSurfaces(scene, visible, ColoredPresence);
+        drawSurfaces(scene, visible, ColoredPresence, &lights.filters());
         if (look) {
+            gl.BlendFunc(GL_ZERO, GL_SRC1_COLOR);
             _look->difference().bind();
-            drawSurfaces(scene, visible, ColoredPresence);
+            drawSurfaces(scene, visible, ColoredPresence, &lights.filters());
         }
         _colorTarget.bind();
     }

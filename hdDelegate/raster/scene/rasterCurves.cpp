@@ -19,8 +19,8 @@ using Rate = MeshAttribute::Rate;
 struct Ring {
     vec3 position, along; ///< `along` of unit length
     float radius;
-    float u;           ///< of attributes
-    float lean = 0.0f; ///< sine of the normal's angle to the circle's plane
+    float u;    ///< of attributes
+    float lean; ///< sine of the normal's angle to the circle's plane
     StripEnd end = StripGoesOn;
 };
 
@@ -83,14 +83,34 @@ private:
     }
     Ring ringAt(size_t s, float u) const {
         const vec4 weights = basisWeights(_set.basis, u), slopes = basisSlopes(_set.basis, u);
-        vec4 at(0.0f);
-        vec3 along(0.0f);
+        vec4 at(0.0f), step(0.0f);
         for (int k = 0; k < controls(); ++k) {
             at += weights[k] * control(s, k);
-            along += slopes[k] * vec3(control(s, k));
+            step += slopes[k] * control(s, k);
         }
-        const float length = glm::length(along);
-        return {vec3(at), length > 0.0f ? along / length : vec3(0, 0, 1), std::max(at.w, 0.0f), u};
+        const float length = glm::length(vec3(step));
+        const vec3 along = length > 0.0f ? vec3(step) / length : vec3(0, 0, 1);
+        return {vec3(at), along, std::max(at.w, 0.0f), u, leanOf(step.w, length)};
+    }
+    /// Embree's linear curves are cones that touch the spheres of both ends, its others circles
+    /// that are swept. @param widens how much, over the length
+    float leanOf(float widens, float length) const {
+        const float slope = widens / length;
+        if (!std::isfinite(slope)) return 0.0f;
+        return _linear ? std::clamp(-slope, -0.99f, 0.99f) : -slope / std::hypot(1.0f, slope);
+    }
+    /// The first or the last ring before a cap.
+    Ring edgeOf(size_t s, float u) const {
+        Ring ring = ringAt(s, u);
+        if (!_linear) return ring;
+        const float c = std::sqrt(1.0f - ring.lean * ring.lean);
+        if (isRound(s, u > 0.0f)) {
+            ring.position += ring.along * (ring.lean * ring.radius);
+            ring.radius *= c; // where cone and sphere touch
+        } else {
+            ring.radius /= c;
+        }
+        return ring;
     }
     /// As Embree's normal oriented curves: mixed as the points are.
     vec3 ribbonNormal(size_t s, float u) const {
@@ -172,10 +192,12 @@ private:
     void addCap(size_t s, bool end, std::vector<Ring>& rings) const {
         const Ring edge = ringAt(s, end ? 1.0f : 0.0f);
         const int steps = _strips ? 3 : std::max(2, (_sides + 2) / 4);
+        const float begin = std::asin(edge.lean), pole = end ? 0.5f * pi : -0.5f * pi;
         for (int i = 1; i <= steps; ++i) {
-            const float angle = 0.5f * pi * float(end ? i : steps + 1 - i) / float(steps);
+            const float part = float(end ? i : steps + 1 - i) / float(steps);
+            const float angle = begin + (pole - begin) * part;
             Ring ring = edge;
-            ring.lean = (end ? 1.0f : -1.0f) * std::sin(angle);
+            ring.lean = std::sin(angle);
             ring.position += edge.along * (ring.lean * edge.radius);
             ring.radius *= std::max(std::cos(angle), 0.0f);
             rings.push_back(ring);
@@ -238,12 +260,14 @@ private:
                                                        lo[from.components + c] * u);
         }
     }
-    void triangle(size_t s, const uint32_t v[3], const float u[3], const vec3& along) {
+    /// @param lean as of Ring
+    void triangle(size_t s, const uint32_t v[3], const float u[3], const vec3& along, float lean) {
         TriangleMesh& mesh = _out.mesh;
         mesh.triangles.emplace_back(v[0], v[1], v[2]);
         mesh.triangleFace.push_back(s < _set.segmentCurve.size() ? _set.segmentCurve[s] : int(s));
         mesh.triangleSubset.push_back(s < _set.segmentSubset.size() ? _set.segmentSubset[s] : 0);
         _out.along.push_back(along);
+        _out.slope.push_back(-lean / std::sqrt(std::max(1.0f - lean * lean, 1e-6f)));
         for (int k = 0; k < 3; ++k)
             corner(s, u[k]);
     }
@@ -252,7 +276,7 @@ private:
         if (isRound(s, false)) addCap(s, false, rings);
         const int steps = stepsOf(s);
         for (int i = 0; i <= steps; ++i)
-            rings.push_back(ringAt(s, float(i) / float(steps)));
+            rings.push_back(edgeOf(s, float(i) / float(steps)));
         // Where caps are drawn there is nothing to make longer.
         if (_strips && !isRound(s, false) && isOpen(s, false))
             rings.front().end = _linear ? StripBeginsRound : StripBegins;
@@ -269,6 +293,7 @@ private:
             const float length = std::max(glm::length(middle), 1e-6f);
             const float radius = std::max(0.5f * (rings[i].radius + rings[i + 1].radius), 1e-20f);
             const vec3 along = middle * (radius / length);
+            const float lean = 0.5f * (rings[i].lean + rings[i + 1].lean);
             for (int k = 0; k < _sides; ++k) {
                 const uint32_t own = uint32_t(k), next = uint32_t(open ? k + 1 : (k + 1) % _sides);
                 const uint32_t a = first[i] + own, b = first[i] + next;
@@ -276,8 +301,8 @@ private:
                 const float u0 = rings[i].u, u1 = rings[i + 1].u;
                 const uint32_t v0[3] = {a, b, d}, v1[3] = {a, d, c};
                 const float p0[3] = {u0, u0, u1}, p1[3] = {u0, u1, u1};
-                triangle(s, v0, p0, along);
-                triangle(s, v1, p1, along);
+                triangle(s, v0, p0, along, lean);
+                triangle(s, v1, p1, along, lean);
             }
         }
     }

@@ -62,8 +62,10 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
                              const RasterLightPlan& lights) {
     forgetUnused(settings);
     _lights = lights;
-    if (const RasterAovRequest aovs(settings.aovs); !(aovs == _aovs)) {
+    const bool culls = settings.cullStyle != "nothing";
+    if (const RasterAovRequest aovs(settings.aovs); !(aovs == _aovs) || culls != _culls) {
         _aovs = aovs;
+        _culls = culls;
         _materials.clear();
         for (const std::string& name : _aovs.leftOut)
             _diagnostics.warn("", "",
@@ -307,16 +309,16 @@ std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial
                                                               const std::string& lighting,
                                                               const std::string& user) {
     const bool faulty = !user.empty() && glFault("material") == user;
-    const std::string head = "#define PRIMVARS " + std::to_string(primvars) + "\n" +
-                             (_lights.needsFilters() ? "#define LIGHT_FILTERS\n" : "") +
-                             (glsl.presence ? "#define PRESENCE\n" : "") +
-                             "#define MATERIAL_GLOWS " + (glsl.emission ? "true\n" : "false\n") +
-                             (glsl.transmits ? "#define MATERIAL_TRANSMITS\n" : "") +
-                             (glsl.hasInterior ? "#define MATERIAL_HAS_INTERIOR\n" : "") +
-                             (glsl.volumeOnly ? "#define MATERIAL_IS_VOLUME\n" : "") +
-                             (glsl.fibre ? "#define MATERIAL_IS_FIBRE\n" : "") +
-                             "#define MATERIAL_IS_THIN " + (glsl.thin ? "true\n" : "false\n") +
-                             glsl.definitions;
+    const std::string head =
+        "#define PRIMVARS " + std::to_string(primvars) + "\n" +
+        (_lights.needsFilters() ? "#define LIGHT_FILTERS\n" : "") +
+        (glsl.presence ? "#define PRESENCE\n" : "") + (_culls ? "#define CULLS\n" : "") +
+        "#define MATERIAL_GLOWS " + (glsl.emission ? "true\n" : "false\n") +
+        (glsl.transmits ? "#define MATERIAL_TRANSMITS\n" : "") +
+        (glsl.hasInterior ? "#define MATERIAL_HAS_INTERIOR\n" : "") +
+        (glsl.volumeOnly ? "#define MATERIAL_IS_VOLUME\n" : "") +
+        (glsl.fibre ? "#define MATERIAL_IS_FIBRE\n" : "") + "#define MATERIAL_IS_THIN " +
+        (glsl.thin ? "true\n" : "false\n") + glsl.definitions;
     const std::string aovs = _aovs.text();
     const std::string lights = _lights.text();
     Kept& kept = _programs[lights + head + lighting + aovs + glsl.text + (faulty ? "faulty" : "")];

@@ -150,6 +150,7 @@ private:
     ProgramCompiler* _compiler;
     RasterLightPlan _lights;
     RasterAovRequest _aovs;
+    bool _culls = false; ///< the camera passes faces by
     std::set<std::string> _domeMethods;
     int _environmentSamples = 0; ///< 0: nobody has said how many
     Diagnostics& _diagnostics;

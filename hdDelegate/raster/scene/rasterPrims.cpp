@@ -151,6 +151,15 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     span.emits = request.needsMesh;
 }
 
+/// As the path tracer's camera rays: what is no face shows its front from every side.
+static int cullFlags(const Geometry& prim, const RenderSettings& settings) {
+    const std::string& style = settings.cullStyle;
+    if (prim.doubleSided && style.find("Unless") != std::string::npos) return 0;
+    const bool faces = prim.kind == GeometryKind::Mesh || prim.kind == GeometryKind::Implicit;
+    if (style.rfind("back", 0) == 0) return faces ? RasterDraw::cullsBack : 0;
+    return style.rfind("front", 0) == 0 ? RasterDraw::cullsFront : 0;
+}
+
 bool RasterScene::readsInstances(const RasterDraw& draw) const {
     const std::vector<std::string>& names = draw.material->primvars;
     bool reads = false;
@@ -206,7 +215,7 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
     for (size_t g = firstGroup; g < _groups.size(); ++g) {
         const RasterGroup& group = _groups[g];
         draw.group = int(g);
-        draw.flags = group.shape->flags;
+        draw.flags = group.shape->flags | cullFlags(*prim, settings);
         for (size_t subset = 0; subset < materials.size(); ++subset) {
             draw.material = materials[subset];
             if (!draw.material->programs) continue;

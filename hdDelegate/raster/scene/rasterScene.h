@@ -38,7 +38,11 @@ struct RasterDraw {
     const RasterSurface* surface = nullptr;
     const RasterSurface* casting = nullptr; ///< what shadow maps show
     int group = 0, subset = 0;
-    int primId = 0, flags = 0; ///< flags: of RasterShape
+    /// Flags beside those of RasterShape: faces that the camera does not see, see cullStyle.
+    static constexpr int cullsBack = 16, cullsFront = 32;
+    bool culls() const { return (flags & (cullsBack | cullsFront)) != 0; }
+
+    int primId = 0, flags = 0; ///< flags: of the shader's drawInfo
     uint32_t noise = 0;        ///< what triangles are counted from, for random numbers
     int values = 0;            ///< where those of instances begin, plus 1; 0: it shows none
     RasterMeshLight meshLight;

@@ -31,6 +31,8 @@ struct RasterTriangles {
     std::vector<float> ends;
     /// Of curves, per triangle: along, as long as the radius. Empty: tangents follow from `st`.
     std::vector<vec3> along;
+    /// Of curves, per triangle: how much the radius grows along it, by the length.
+    std::vector<float> slope;
 };
 
 /// The primitives that a shape is drawn as.

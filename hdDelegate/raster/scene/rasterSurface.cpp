@@ -124,6 +124,7 @@ RasterChunk::Triangle RasterSurfaceBuilder::triangle(unsigned t) const {
     out.element = t < _mesh.triangleFace.size() ? _mesh.triangleFace[t] : int(t);
     if (_form && !_form->along.empty()) {
         out.dPdu = _form->along[t];
+        out.slope = _form->slope[t];
         return out;
     }
     float uv[3][4];

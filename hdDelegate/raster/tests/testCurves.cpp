@@ -86,6 +86,50 @@ TEST(RasterCurves, ControlPointsThatOverflowMakeFiniteNumbersOfTriangles) {
     }
 }
 
+/// A straight curve whose radius falls from 0.8 to 0.2 over a length of 3: linear, or cubic with
+/// control points at equal distances, along which the radius is linear, too.
+CurveSet tapering(CurveBasis basis) {
+    CurveSet set;
+    set.basis = basis;
+    const int points = basis == CurveBasis::Linear ? 2 : 4;
+    set.controlPoints.resize(1);
+    for (int i = 0; i < points; ++i) {
+        const float u = float(i) / float(points - 1);
+        set.controlPoints[0].emplace_back(0.0f, 0.0f, 3.0f * u, 0.8f - 0.6f * u);
+    }
+    set.segments = {0};
+    set.segmentCurve = {0};
+    return set;
+}
+
+TEST(RasterCurves, NormalsOfTaperingTubesLeanForward) {
+    for (const CurveBasis basis : {CurveBasis::Linear, CurveBasis::Bezier}) {
+        // Swept circles make a cone of this slope. One that touches two spheres leans by the sine.
+        const float slope = 0.2f;
+        const float lean = basis == CurveBasis::Linear ? slope : slope / std::hypot(1.0f, slope);
+        const RasterTriangles tube = curveTriangles(tapering(basis), fineness(0.01f), false);
+        size_t cone = 0;
+        for (size_t i = 0; i < tube.mesh.positions[0].size(); ++i) {
+            const vec3 &p = tube.mesh.positions[0][i], &n = tube.mesh.normals[0][i];
+            EXPECT_NEAR(glm::length(n), 1.0f, 1e-5f);
+            // Where a cap begins, its sphere has the normal of the cone.
+            if (p.z < 0.8f * lean - 1e-4f || p.z > 3.0f + 0.2f * lean + 1e-4f) continue;
+            ++cone;
+            EXPECT_NEAR(n.z, lean, 1e-5f);
+            const float wide = glm::length(vec2(p)) / std::sqrt(1.0f - n.z * n.z);
+            const float axis = p.z - wide * n.z; // of the sphere that touches here
+            if (basis == CurveBasis::Linear) {
+                EXPECT_NEAR(wide, 0.8f - slope * axis, 2e-3f) << "as fine as its polygon";
+            }
+        }
+        EXPECT_GT(cone, 10u);
+        const RasterTriangles strip = curveTriangles(tapering(basis), fineness(100.0f), true);
+        ASSERT_EQ(strip.slope.size(), strip.mesh.triangles.size());
+        for (const float s : strip.slope)
+            EXPECT_NEAR(s, -lean / std::sqrt(1.0f - lean * lean), 1e-5f);
+    }
+}
+
 TEST(RasterCurves, DomedStripsHaveMoreColumns) {
     const CurveSet set = bent(0.01f);
     const RasterFineness fine = fineness(0.05f);

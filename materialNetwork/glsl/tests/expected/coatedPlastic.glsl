@@ -45,7 +45,8 @@ void materialSetup() {
 }
 float materialPresence(out vec3 passes) {
     passes = vec3(1.0);
-    return unit(parameters[72].x);
+    presentShare = unit(parameters[72].x);
+    return presentShare;
 }
 vec3 materialEmission(vec3 wo) {
     return vec3(0.0);

@@ -61,7 +61,8 @@ void materialSetup() {
 }
 float materialPresence(out vec3 passes) {
     passes = vec3(1.0);
-    return unit(parameters[76].x);
+    presentShare = unit(parameters[76].x);
+    return presentShare;
 }
 vec3 materialEmission(vec3 wo) {
     return vec3(0.0);

@@ -42,8 +42,8 @@ Plan planMaterial(const Network& network, Diagnostics& diagnostics, const Method
         return plan;
     }
     std::vector<std::string> cuts;
-    Graph simple = simplifyMaterial(graph, cuts, diagnostics);
-    return makePlan(std::move(simple), std::move(cuts), diagnostics, methods);
+    const Graph simple = simplifyMaterial(graph, cuts, diagnostics);
+    return makePlan(simple, std::move(cuts), diagnostics, methods);
 }
 
 /// Lobes have no weights of their own in layers that are walked, so `returned` stands for these.
@@ -85,12 +85,12 @@ std::string explainMaterial(const Network& network, Diagnostics& diagnostics,
                "its "
                "place; what follows is of that fallback.\n\n" +
                explainMaterial(makeDisplayColorNetwork(), diagnostics, methods);
-    Graph simple = simplifyMaterial(graph, cuts, diagnostics);
+    const Graph simple = simplifyMaterial(graph, cuts, diagnostics);
     const size_t before = graph.nodes.size();
     std::string text = dumpNetwork(network) + "\n" + dumpGraph(simple);
     text += "(" + std::to_string(before) + " nodes before simplification, " +
             std::to_string(simple.nodes.size()) + " after)\n\n";
-    return text + dumpPlan(makePlan(std::move(simple), std::move(cuts), diagnostics, methods));
+    return text + dumpPlan(makePlan(simple, std::move(cuts), diagnostics, methods));
 }
 
 Network expandedMaterial(const Network& network, Diagnostics& diagnostics) {

@@ -8,6 +8,7 @@
 #include "hdDelegate/geometry/primvarExpand.h"
 #include "hdDelegate/scene/primCompare.h"
 #include "materialNetwork/material.h"
+#include "materialNetwork/network/geomprop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +67,6 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
         surface->placed = takeAtRest(shape);
         surface->rest = std::make_shared<const PrimShape>(std::move(shape));
     }
-    surface->stAttribute = surface->findAttribute("st");
     return surface;
 }
 
@@ -114,7 +114,6 @@ EmbreeScene::shape(const std::shared_ptr<const Geometry>& prim,
             expandConstant(primvar, prim->path, _diagnostics, attribute))
             surface->own.push_back(std::move(attribute));
     }
-    surface->stAttribute = surface->findAttribute("st");
     return surface;
 }
 
@@ -200,8 +199,16 @@ MaterialSlot EmbreeScene::makeSlot(const Surface& surface, const std::string& ma
                                    const View& view) {
     MaterialSlot slot;
     slot.program = program(materialPath, surface.prim->path, view);
-    for (const auto& primvar : slot.program->primvars())
-        slot.attributes.push_back(surface.findAttribute(primvar.name));
+    const bool flat = surface.shape == Surface::Shape::Triangles;
+    if (flat) slot.tangentSet = surface.findTangentSet(slot.program->tangentSet());
+    const std::vector<MaterialPrimvar>& primvars = slot.program->primvars();
+    for (size_t i = 0; i < primvars.size(); ++i) {
+        slot.attributes.push_back(surface.findAttribute(primvars[i].name));
+        const std::string set = setOfTangents(primvars[i].name);
+        if (!flat || set.empty()) continue;
+        slot.tangents.resize(primvars.size(), -1);
+        slot.tangents[i] = surface.findAttribute(set);
+    }
     std::vector<int> there = slot.attributes;
     if (!surface.prim->group.empty())
         for (size_t i = 0; i < there.size(); ++i)

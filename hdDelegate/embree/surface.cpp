@@ -41,17 +41,39 @@ struct Local {
     vec3 across{0.0f};   ///< from a curve's middle line, in radii
 };
 
+/// Corners of the triangle that is hit, in group space.
+struct Corners {
+    vec3 p[3];
+    explicit Corners(const Hit& hit) {
+        const uvec3& t = hit.surface->topology().triangles[hit.primitive];
+        const auto positions = stepsAt(hit.surface->positions(), hit.time);
+        for (int k = 0; k < 3; ++k)
+            p[k] = positions.at(t[k]);
+    }
+    const vec3& operator[](int k) const { return p[k]; }
+};
+
+/// Of a uv set over the triangle that is hit, in group space.
+TangentFrame frameOf(const Hit& hit, int set) {
+    vec2 at[3];
+    for (int k = 0; k < 3; ++k) {
+        float value[4];
+        if (!readAttribute(*hit.surface, set, hit.primitive, float(k == 1), float(k == 2), value))
+            return {};
+        at[k] = vec2(value[0], value[1]);
+    }
+    return tangentFrame(Corners(hit).p, at);
+}
+
 Local triangleLocal(const Hit& hit) {
     const Surface& surface = *hit.surface;
     const TriangleMesh& mesh = surface.topology();
     const uvec3 tri = mesh.triangles[hit.primitive];
-    const auto positions = stepsAt(surface.positions(), hit.time);
-    const vec3 p[3] = {positions.at(tri.x), positions.at(tri.y), positions.at(tri.z)};
+    const Corners p(hit);
     const float w = 1.0f - hit.u - hit.v;
     Local local;
     local.position = p[0] * w + p[1] * hit.u + p[2] * hit.v;
     vec3 ng = glm::cross(p[1] - p[0], p[2] - p[0]);
-    const float area2 = glm::length(ng);
     if (surface.flipNormals) ng = -ng;
     local.geometricNormal = safeNormalize(ng, vec3(0, 0, 1));
     local.normal = local.geometricNormal;
@@ -68,20 +90,13 @@ Local triangleLocal(const Hit& hit) {
         }
         local.normal = safeNormalize(n, local.geometricNormal);
     }
-    float uv[3][4];
-    if (surface.stAttribute >= 0 &&
-        readAttribute(surface, surface.stAttribute, hit.primitive, 0, 0, uv[0]) &&
-        readAttribute(surface, surface.stAttribute, hit.primitive, 1, 0, uv[1]) &&
-        readAttribute(surface, surface.stAttribute, hit.primitive, 0, 1, uv[2])) {
-        const float du1 = uv[1][0] - uv[0][0], dv1 = uv[1][1] - uv[0][1];
-        const float du2 = uv[2][0] - uv[0][0], dv2 = uv[2][1] - uv[0][1];
-        const float determinant = du1 * dv2 - du2 * dv1;
-        if (determinant != 0.0f && std::isfinite(determinant)) {
-            local.dPdu = ((p[1] - p[0]) * dv2 - (p[2] - p[0]) * dv1) / determinant;
-            local.dPdv = ((p[2] - p[0]) * du1 - (p[1] - p[0]) * du2) / determinant;
-            local.uvPerLength = std::sqrt(std::abs(determinant) / std::max(area2, 1e-30f));
-        }
-    }
+    const int set = surface.material(hit.primitive).tangentSet;
+    if (set < 0) return local;
+    const TangentFrame frame = frameOf(hit, set);
+    if (!frame.fromTexture) return local;
+    local.dPdu = frame.dpdu;
+    local.dPdv = frame.dpdv;
+    local.uvPerLength = frame.uvPerLength;
     return local;
 }
 
@@ -126,6 +141,12 @@ int Surface::findAttribute(const std::string& name) const {
         for (size_t i = 0; i < shared->mesh.attributes.size(); ++i)
             if (shared->mesh.attributes[i].name == name) return int(list.size() + i);
     return -1;
+}
+
+int Surface::findTangentSet(const std::string& wanted) const {
+    if (!shared) return tangentSet(attributes(), wanted);
+    const int set = tangentSet(shared->mesh.attributes, wanted);
+    return set < 0 ? set : set + int(own.size());
 }
 
 const MeshAttribute& Surface::attribute(int index) const {
@@ -175,6 +196,12 @@ bool SurfacePoint::read(int slotIndex, float out[4]) const {
     const int attribute = slot->attributes[slotIndex];
     if (attribute >= 0)
         return readAttribute(*hit->surface, attribute, hit->primitive, hit->u, hit->v, out);
+    if (!slot->tangents.empty() && slot->tangents[size_t(slotIndex)] >= 0) {
+        vec4 value = frameOf(*hit, slot->tangents[size_t(slotIndex)]).value();
+        value = vec4(mat3(hit->surface->groupToObject) * vec3(value), value.w);
+        std::copy_n(&value.x, 4, out);
+        return true;
+    }
     return hit->stepCount > 0 &&
            readInstances(hit->steps, hit->stepCount,
                          slot->program->primvars()[size_t(slotIndex)].name, out);

@@ -16,7 +16,10 @@ namespace patina {
 struct MaterialSlot {
     std::shared_ptr<const MaterialProgram> program;
     std::vector<int> attributes; ///< per program->primvars(): index of the prim's attribute, or -1
-    bool opaque = true;          ///< opacity is 1 everywhere on this prim
+    int tangentSet = -1;         ///< the attribute that tangents follow, or -1
+    /// As `attributes`, of the uv sets whose tangents are read; empty: none are.
+    std::vector<int> tangents;
+    bool opaque = true; ///< opacity is 1 everywhere on this prim
 };
 
 /// A prim's shape for rays, in its group's space (world space for prims that are not instanced),
@@ -45,7 +48,6 @@ struct Surface {
     bool flipNormals = false;            ///< the baked transform mirrors: windings turn
     int primId = 0;                      ///< for the AOV: rank of the prim's path
     std::vector<int> categories;         ///< interned names, sorted
-    int stAttribute = -1;
 
     enum class Shape { Triangles, Curves, Points } shape = Shape::Triangles;
 
@@ -66,6 +68,8 @@ struct Surface {
     const TriangleMesh& topology() const { return shared ? shared->mesh : rest->mesh; }
     mat4 placeAt(float time) const; ///< of a shared shape. @param time 0..1 over the shutter
     int findAttribute(const std::string& name) const;
+    /// The place of the uv set that tangents follow, as of tangentSet(); -1: none
+    int findTangentSet(const std::string& wanted) const;
     const MeshAttribute& attribute(int index) const; ///< of findAttribute()
     const MaterialSlot& material(unsigned primitive) const;
     int element(unsigned primitive) const; ///< authored face, curve or point index

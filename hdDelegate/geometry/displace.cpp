@@ -90,20 +90,18 @@ std::vector<vec3> weightedNormals(const TriangleMesh& mesh, size_t step) {
 
 class Reader : public PrimvarReader {
 public:
-    Reader(const TriangleMesh& mesh, const std::vector<int>& attributes)
-        : _mesh(mesh), _attributes(attributes) {}
+    Reader(const TriangleMesh& mesh, const std::vector<MeshPrimvar>& primvars)
+        : _mesh(mesh), _primvars(primvars) {}
     bool read(int slot, float out[4]) const override {
-        const int attribute = _attributes[size_t(slot)];
-        return attribute >= 0 &&
-               evalAttribute(_mesh, _mesh.attributes[size_t(attribute)], triangle,
-                             corner == 1 ? 1.0f : 0.0f, corner == 2 ? 1.0f : 0.0f, out);
+        return _primvars[size_t(slot)].read(_mesh, triangle, corner == 1 ? 1.0f : 0.0f,
+                                            corner == 2 ? 1.0f : 0.0f, out);
     }
     unsigned triangle = 0;
     int corner = 0;
 
 private:
     const TriangleMesh& _mesh;
-    const std::vector<int>& _attributes;
+    const std::vector<MeshPrimvar>& _primvars;
 };
 
 /// Data shared by all corners while a mesh is displaced.
@@ -111,21 +109,20 @@ struct Displacement {
     TriangleMesh& mesh;
     const std::vector<std::shared_ptr<const MaterialProgram>>& materials;
     const mat4& objectToWorld;
-    const MeshAttribute* st;
     Places places;
-    std::vector<std::vector<int>> attributes; ///< per material
-    std::vector<vec3> before;                 ///< normal of every corner, undisplaced, first step
+    std::vector<std::vector<MeshPrimvar>> primvars; ///< per material
+    std::vector<const MeshAttribute*> sets; ///< that tangents follow, per material; may be null
+    std::vector<vec3> before;               ///< normal of every corner, undisplaced, first step
 
     Displacement(TriangleMesh& m, const std::vector<std::shared_ptr<const MaterialProgram>>& list,
                  const mat4& toWorld)
-        : mesh(m), materials(list), objectToWorld(toWorld), st(m.attribute("st")), places(m) {
+        : mesh(m), materials(list), objectToWorld(toWorld), places(m) {
         for (const auto& program : materials) {
-            attributes.emplace_back();
-            if (!program) continue;
-            for (const MaterialPrimvar& primvar : program->primvars()) {
-                const MeshAttribute* a = mesh.attribute(primvar.name);
-                attributes.back().push_back(a ? int(a - mesh.attributes.data()) : -1);
-            }
+            primvars.emplace_back();
+            if (program)
+                for (const MaterialPrimvar& primvar : program->primvars())
+                    primvars.back().emplace_back(mesh, primvar.name);
+            sets.push_back(tangentSet(mesh, program ? program->displacementSet() : std::string()));
         }
         before.resize(mesh.triangles.size() * 3);
         parallelFor(size_t(0), mesh.triangles.size(), [&](size_t t) {
@@ -147,13 +144,13 @@ struct Displacement {
             const size_t material = materialOf(t);
             const MaterialProgram* program = materials[material].get();
             if (!program || !program->hasDisplacement()) return;
-            Reader reader(mesh, attributes[material]);
+            Reader reader(mesh, primvars[material]);
             reader.triangle = unsigned(t);
             ShadingPoint s;
             s.primvars = &reader;
             s.objectToWorldNormal = normalMatrix;
             s.uvFootprint = footprint(t);
-            const TangentFrame frame = tangentFrame(mesh, st, unsigned(t));
+            const TangentFrame frame = tangentFrame(mesh, sets[material], unsigned(t));
             for (int k = 0; k < 3; ++k) {
                 reader.corner = k;
                 s.objectPosition = mesh.positions[0][mesh.triangles[t][k]];
@@ -176,6 +173,7 @@ struct Displacement {
 
     /// Texture coordinates that one triangle covers across.
     float footprint(size_t t) const {
+        const MeshAttribute* st = sets[materialOf(t)];
         if (!st) return 0.0f;
         float a[4], b[4], c[4];
         if (!evalAttribute(mesh, *st, unsigned(t), 0, 0, a) ||
@@ -210,7 +208,7 @@ struct Displacement {
                 const uint32_t c = places.corners[i];
                 sum += normals[place] * amount[c].z;
                 if (amount[c].x == 0.0f && amount[c].y == 0.0f) continue;
-                const TangentFrame frame = tangentFrame(mesh, st, c / 3, step);
+                const TangentFrame frame = tangentFrame(mesh, sets[materialOf(c / 3)], c / 3, step);
                 vec3 x, y;
                 orthonormalBasis(normals[place], x, y);
                 const vec3& n = normals[place];

@@ -47,6 +47,10 @@ public:
     bool hasSubsurface() const { return _facts.hasSubsurface; }
     bool hasDisplacement() const { return _facts.hasDisplacement; }
     bool usesUv() const { return _facts.usesUv; } ///< reads texture coordinates
+    /// The uv set that ShadingPoint::tangent follows, lengthPerUv and uvFootprint with it.
+    const std::string& tangentSet() const { return _facts.tangentSet; }
+    /// The same for displacement().
+    const std::string& displacementSet() const { return _facts.displacementSet; }
     bool jitters() const {
         return _facts.jitters;
     } ///< blurs, with taps that ShadingPoint::seed moves

@@ -171,17 +171,8 @@ private:
 
     /// @param type of texture coordinates; Unknown for positions
     static bool isRead(const GraphNode& node, ValueType& type) {
-        const std::string& category = node.def->category;
-        if (category == "position") return true;
-        const ValueType out =
-            node.def->outputs.empty() ? ValueType::Unknown : node.def->outputs[0].type;
-        const bool reads =
-            category == "texcoord" || category == "geompropvalue" || category == "UsdPrimvarReader";
-        if (!reads ||
-            (out != ValueType::Vec2 && (category != "texcoord" || out != ValueType::Vec3)))
-            return false;
-        type = out;
-        return true;
+        type = texcoordType(node);
+        return type != ValueType::Unknown || node.def->category == "position";
     }
 
     const Graph& _in;

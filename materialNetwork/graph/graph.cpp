@@ -236,6 +236,17 @@ Graph buildGraph(const Network& network, Diagnostics& diagnostics) {
     return GraphBuilder(network, diagnostics).run();
 }
 
+ValueType texcoordType(const GraphNode& node) {
+    const std::string& category = node.def->category;
+    const ValueType out =
+        node.def->outputs.empty() ? ValueType::Unknown : node.def->outputs[0].type;
+    const bool texcoord = category == "texcoord";
+    const bool reads = texcoord || category == "geompropvalue" || category == "UsdPrimvarReader";
+    return reads && (out == ValueType::Vec2 || (texcoord && out == ValueType::Vec3))
+               ? out
+               : ValueType::Unknown;
+}
+
 bool constantNumber(const Operand& operand, float& out, int i) {
     if (!operand.isConstant() || int(operand.value.numbers.size()) <= i) return false;
     out = operand.value.numbers[size_t(i)];

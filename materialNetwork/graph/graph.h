@@ -32,12 +32,18 @@ struct Graph {
     std::string path; ///< of the material
     std::vector<GraphNode> nodes;
     std::map<std::string, Operand> terminals;
+    /// The uv sets that tangents follow, of shading and of displacement; see withTangentSets().
+    std::string tangentSet, displacementSet;
 };
 
 /// Builds the graph of an expanded network. Unknown nodes, unknown inputs and outputs, type
 /// mismatches, missing connections and cycles are reported by prim and input; each such input takes
 /// its authored value, or else its default.
 Graph buildGraph(const Network& network, Diagnostics& diagnostics);
+
+/// The type of the texture coordinates that a node reads off the surface. Primvars of two
+/// components count as such. Unknown for other nodes.
+ValueType texcoordType(const GraphNode& node);
 
 /// The constant number of an operand, component i. @returns false when it is not constant
 bool constantNumber(const Operand& operand, float& out, int i = 0);

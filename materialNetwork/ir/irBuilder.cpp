@@ -207,6 +207,8 @@ MaterialIr IrBuilder::build() {
                     _data[i].slot >= 0 || nodeOf(int(i)).def->category == "UsdPrimvarReader";
     _ir.opacityIsOne = _plan.opacity.isConstant() && !_plan.opacity.value.numbers.empty() &&
                        _plan.opacity.value.numbers[0] >= 1.0f;
+    _ir.facts.tangentSet = _plan.graph.tangentSet;
+    _ir.facts.displacementSet = _plan.graph.displacementSet;
     _ir.facts.isThinWalled = _plan.thinWalled;
     _ir.facts.isVolumeOnly = _plan.volumeOnly;
     return std::move(_ir);

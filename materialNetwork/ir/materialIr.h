@@ -103,6 +103,8 @@ struct MaterialFacts {
     bool usesUv = false, jitters = false;
     bool disperses = false;       ///< what it lets through bends by its wavelength
     bool heroWavelengths = false; ///< of which a path carries several at once
+    /// The uv sets that tangents follow, of shading and of displacement.
+    std::string tangentSet, displacementSet;
 };
 
 /// A compiled material that knows no back end: patterns as instructions over registers of four

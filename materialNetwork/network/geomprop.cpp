@@ -57,4 +57,22 @@ NetworkNode geompropNode(const std::string& name) {
     return node;
 }
 
+std::string texcoordPrimvar(int index) {
+    return index > 0 ? "st" + std::to_string(index) : "st";
+}
+
+namespace {
+const std::string tangentsOf = "<tangent>";
+} // namespace
+
+std::string tangentPrimvar(const std::string& set) {
+    return tangentsOf + set;
+}
+
+std::string setOfTangents(const std::string& primvar) {
+    return primvar.compare(0, tangentsOf.size(), tangentsOf) == 0
+               ? primvar.substr(tangentsOf.size())
+               : std::string();
+}
+
 } // namespace patina

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes that read the surface.
 #define PATINA_NODE_FUNCTIONS "shaders/patterns/nodes/geometry.glsl"
+#include "materialNetwork/network/geomprop.h"
 #include "materialNetwork/nodes/nodeTable.h"
 #include "materialNetwork/nodes/patternFunctions.h"
 
@@ -15,10 +16,14 @@ void prepareSpace(PatternSetup& setup, PatternData& data) {
         setup.warn("space", "unknown space '" + space + "'; object space is used");
 }
 
-/// Set 0 is "st", as every exporter to USD writes it; set n is "stn".
 void prepareTexcoord(PatternSetup& setup, PatternData& data) {
-    const int index = int(setup.number("index", 0.0f));
-    data.slot = setup.primvarSlot(index > 0 ? "st" + std::to_string(index) : "st", ValueType::Vec2);
+    data.slot =
+        setup.primvarSlot(texcoordPrimvar(int(setup.number("index", 0.0f))), ValueType::Vec2);
+}
+
+void prepareSetTangent(PatternSetup& setup, PatternData& data) {
+    prepareSpace(setup, data);
+    data.slot = setup.primvarSlot(tangentPrimvar(setup.text("set")), ValueType::Vec4);
 }
 
 void prepareGeomColor(PatternSetup& setup, PatternData& data) {

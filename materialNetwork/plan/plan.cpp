@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/plan/plan.h"
 
+#include "materialNetwork/graph/tangentSets.h"
 #include "materialNetwork/plan/layering.h"
 #include "materialNetwork/nodes/nodeTable.h"
 
@@ -305,10 +306,10 @@ private:
 
 } // namespace
 
-Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics,
+Plan makePlan(const Graph& graph, std::vector<std::string> cuts, Diagnostics& diagnostics,
               const MethodChoices& methods) {
     Plan plan;
-    plan.graph = std::move(graph);
+    plan.graph = withTangentSets(graph);
     plan.leftOut = std::move(cuts);
     for (const ChoicePoint& point : choicePoints())
         plan.methods[point.name] = chosenMethod(methods, point.name);

@@ -56,7 +56,7 @@ struct Plan {
 
 /// @param graph simplified
 /// @param cuts what simplify() removed; becomes the beginning of Plan::leftOut
-Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics,
+Plan makePlan(const Graph& graph, std::vector<std::string> cuts, Diagnostics& diagnostics,
               const MethodChoices& methods = {});
 
 /// Whether the method of a choice point makes a difference to a closure, but not by itself to

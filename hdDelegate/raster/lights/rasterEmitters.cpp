@@ -2,7 +2,6 @@
 #include "hdDelegate/raster/lights/rasterEmitters.h"
 
 #include "hdDelegate/geometry/primvarEval.h"
-#include "hdDelegate/geometry/tangentFrames.h"
 #include "hdDelegate/parallel.h"
 #include "materialNetwork/cpu/programCode.h"
 #include "base/maths.h"
@@ -60,7 +59,7 @@ public:
         s.normal =
             unitOr(source.normalMatrix * evalNormal(mesh, triangle, uv.x, uv.y), s.geometricNormal);
         if (glm::dot(s.normal, s.geometricNormal) < 0.0f) s.normal = -s.normal;
-        const TangentFrame frame = tangentFrame(mesh, source.st, triangle);
+        const TangentFrame frame = tangentFrame(mesh, source.tangents, triangle);
         const mat3 linear(source.toWorld);
         vec3 tangent = linear * frame.dpdu;
         tangent -= s.normal * glm::dot(s.normal, tangent);
@@ -83,10 +82,8 @@ public:
     Place& operator=(const Place&) = delete;
 
     bool read(int slot, float out[4]) const override {
-        const int attribute = _source.attributes[size_t(slot)];
-        if (attribute >= 0)
-            return evalAttribute(*_source.mesh, _source.mesh->attributes[size_t(attribute)],
-                                 _triangle, _uv.x, _uv.y, out);
+        const MeshPrimvar& primvar = _source.primvars[size_t(slot)];
+        if (primvar.attribute) return primvar.read(*_source.mesh, _triangle, _uv.x, _uv.y, out);
         return readInstances(_source.steps.data(), int(_source.steps.size()),
                              _source.program->primvars()[size_t(slot)].name, out);
     }
@@ -242,13 +239,11 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
     source.normalMatrix = glm::transpose(glm::inverse(mat3(toWorld)));
     source.origin = origin;
     source.steps = steps;
-    source.st = mesh->attribute("st");
+    source.tangents = tangentSet(*mesh, program->tangentSet());
     source.even = (!usesGlow || !dependsOnView(program->code())) && program->isOpaque();
     source.sides = light.mode == RasterMeshLight::Independent || !source.even;
-    for (const MaterialPrimvar& primvar : program->primvars()) {
-        const MeshAttribute* a = mesh->attribute(primvar.name);
-        source.attributes.push_back(a ? int(a - mesh->attributes.data()) : -1);
-    }
+    for (const MaterialPrimvar& primvar : program->primvars())
+        source.primvars.emplace_back(*mesh, primvar.name);
     source.mirrored = glm::determinant(mat3(toWorld)) < 0.0f;
     source.twoSided =
         source.glows && !closed &&

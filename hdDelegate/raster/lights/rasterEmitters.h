@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/geometry/triangleMesh.h"
+#include "hdDelegate/geometry/tangentFrames.h"
 #include "hdDelegate/raster/scene/rasterInstances.h"
 #include "materialNetwork/cpu/materialProgram.h"
 
@@ -83,11 +83,11 @@ private:
         mat3 normalMatrix{1.0f};
         vec3 origin{0.0f};
         std::vector<InstanceStep> steps;
-        std::vector<int> attributes; ///< of the mesh, per primvar of the program; -1: none
-        const MeshAttribute* st = nullptr;
-        bool glows = false, even = false;       ///< even: alike towards all directions of a side
-        bool sides = false;                     ///< one side may give other light than the other
-        bool twoSided = true, mirrored = false; ///< of its triangles, as category
+        std::vector<MeshPrimvar> primvars;       ///< of the program
+        const MeshAttribute* tangents = nullptr; ///< the uv set that they follow
+        bool glows = false, even = false;        ///< even: alike towards all directions of a side
+        bool sides = false;                      ///< one side may give other light than the other
+        bool twoSided = true, mirrored = false;  ///< of its triangles, as category
         int category = -1;
         size_t place = 0;
     };

@@ -104,7 +104,7 @@ bool RasterMaterials::edit(const SceneDelta::Paths& edited, const SceneState& st
         const auto special = [](const MaterialProgram& program) {
             return program.hasEmission() || program.hasDisplacement();
         };
-        if (special(now) || special(before) ||
+        if (special(now) || special(before) || now.tangentSet() != before.tangentSet() ||
             !std::equal(now.primvars().begin(), now.primvars().end(), before.primvars().begin(),
                         before.primvars().end(),
                         [](const auto& a, const auto& b) { return a.name == b.name; }))

@@ -112,6 +112,7 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     for (const RasterMaterial* material : materials) {
         const MaterialProgram& program = *material->program;
         request.primvars.push_back(material->primvars);
+        request.tangentSets.push_back(program.tangentSet());
         const bool bends = program.hasDisplacement() && (prim->kind == GeometryKind::Mesh ||
                                                          prim->kind == GeometryKind::Implicit);
         request.displacers.push_back(bends ? material->program : nullptr);

@@ -21,7 +21,7 @@ bool displaces(const RasterShapeCache::Request& request) {
 bool serves(const RasterShapeCache::Request& old, const RasterShapeCache::Request& request) {
     return (old.needsMesh || !request.needsMesh) && old.timeCode == request.timeCode &&
            old.strips == request.strips && old.primvars == request.primvars &&
-           old.displacers == request.displacers &&
+           old.tangentSets == request.tangentSets && old.displacers == request.displacers &&
            (!displaces(request) || old.toWorld == request.toWorld) &&
            sameShape(*old.prim, *request.prim);
 }
@@ -46,9 +46,10 @@ std::string nameOf(const RasterShapeCache::Request& request) {
     add(kinds, std::size(kinds));
     add(sizes, std::size(sizes));
     text(prim.group);
-    for (const auto& surface : request.primvars) {
+    for (size_t i = 0; i < request.primvars.size(); ++i) {
         text("");
-        for (const std::string& primvar : surface)
+        text(request.tangentSets[i]);
+        for (const std::string& primvar : request.primvars[i])
             text(primvar);
     }
     for (const Primvar& primvar : prim.primvars) {
@@ -137,7 +138,8 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Request& reques
         describe(*shape, mesh);
         RasterSurfaceBuilder builder(mesh, storageLimit(), HeldFences::mostTriangles());
         for (size_t subset = 0; subset < request.primvars.size(); ++subset)
-            shape->surfaces.push_back(builder.make(subset, request.primvars[subset]));
+            shape->surfaces.push_back(
+                builder.make(subset, request.primvars[subset], request.tangentSets[subset]));
         if (request.needsMesh) shape->mesh = std::shared_ptr<const TriangleMesh>(made, &mesh);
         return shape;
     }
@@ -154,7 +156,8 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Request& reques
         if (triangles.mesh.triangles.empty()) return;
         RasterSurfaceBuilder builder(triangles, storageLimit(), HeldFences::mostTriangles());
         for (size_t subset = 0; subset < request.primvars.size(); ++subset)
-            surfaces.push_back(builder.make(subset, request.primvars[subset]));
+            surfaces.push_back(
+                builder.make(subset, request.primvars[subset], request.tangentSets[subset]));
     };
     fill(form.seen, shape->surfaces);
     fill(form.casting, shape->casting);

@@ -38,6 +38,7 @@ public:
         size_t edgeBudget = SIZE_MAX; ///< triangles that edges alone ask for; follows from both
         float timeCode = 0.0f;        ///< of points that move
         std::vector<std::vector<std::string>> primvars; ///< that materials read, per surface
+        std::vector<std::string> tangentSets;           ///< of the materials
         /// Null where nothing displaces.
         std::vector<std::shared_ptr<const MaterialProgram>> displacers;
         mat4 toWorld{1.0f}; ///< that displacement sees

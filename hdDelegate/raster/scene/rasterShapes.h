@@ -29,7 +29,7 @@ struct RasterTriangles {
     /// Of strips, by vertex: whether the tube ends there and how, a StripEnd; more by StripDome
     /// where the vertex is on the dome over the strip (instance.glsl).
     std::vector<float> ends;
-    /// Of curves, per triangle: along, as long as the radius. Empty: tangents follow from `st`.
+    /// Of curves, per triangle: along, as long as the radius. Empty: tangents follow from a uv set.
     std::vector<vec3> along;
     /// Of curves, per triangle: how much the radius grows along it, by the length.
     std::vector<float> slope;

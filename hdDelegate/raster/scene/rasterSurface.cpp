@@ -45,7 +45,7 @@ void RasterChunk::bind(GLuint vertexArray) const {
 RasterSurfaceBuilder::RasterSurfaceBuilder(const TriangleMesh& mesh, size_t storageLimit,
                                            size_t mostTriangles)
     : _mesh(mesh), _storageLimit(storageLimit), _mostTriangles(mostTriangles),
-      _st(mesh.attribute("st")), _first(mesh.positions[0].size(), none) {}
+      _first(mesh.positions[0].size(), none) {}
 
 RasterSurfaceBuilder::RasterSurfaceBuilder(const RasterTriangles& triangles, size_t storageLimit,
                                            size_t mostTriangles)
@@ -53,18 +53,21 @@ RasterSurfaceBuilder::RasterSurfaceBuilder(const RasterTriangles& triangles, siz
     _form = &triangles;
 }
 
-RasterSurface RasterSurfaceBuilder::make(size_t subset, const std::vector<std::string>& primvars) {
+RasterSurface RasterSurfaceBuilder::make(size_t subset, const std::vector<std::string>& primvars,
+                                         const std::string& tangents) {
     using Rate = MeshAttribute::Rate;
     RasterSurface surface;
     _attributes.clear();
+    _tangents = tangentSet(_mesh, tangents);
     _sharesAll = _mesh.normals.empty() || _mesh.normalRate == Rate::PerVertex;
     for (const std::string& name : primvars) {
-        const MeshAttribute* attribute = _mesh.attribute(name);
-        if (attribute) {
+        const MeshPrimvar own(_mesh, name);
+        if (own.attribute) {
             surface.primvarBits |= 1 << _attributes.size();
-            _sharesAll &= attribute->rate == Rate::PerVertex || attribute->rate == Rate::Constant;
+            const Rate rate = own.attribute->rate;
+            _sharesAll &= !own.tangents && (rate == Rate::PerVertex || rate == Rate::Constant);
         }
-        _attributes.push_back(attribute);
+        _attributes.push_back(own);
     }
     const size_t perTriangle = std::max(sizeof(RasterChunk::Triangle),
                                         3 * sizeof(vec4) * std::max<size_t>(1, primvars.size()));
@@ -94,9 +97,9 @@ uint32_t RasterSurfaceBuilder::vertex(unsigned t, int c) {
     if (!_mesh.normals.empty()) own.normal = evalNormal(_mesh, t, u, v);
     if (_form && !_form->ends.empty()) own.normal *= _form->ends[position];
     const size_t count = _attributes.size(), at = _primvars.size();
-    for (const MeshAttribute* attribute : _attributes) {
+    for (const MeshPrimvar& attribute : _attributes) {
         float value[4] = {0, 0, 0, 0};
-        if (attribute) evalAttribute(_mesh, *attribute, t, u, v, value);
+        attribute.read(_mesh, t, u, v, value);
         _primvars.emplace_back(value[0], value[1], value[2], value[3]);
     }
     // Sharing saves memory, and no more: of very many values at one point some are looked at.
@@ -127,17 +130,11 @@ RasterChunk::Triangle RasterSurfaceBuilder::triangle(unsigned t) const {
         out.slope = _form->slope[t];
         return out;
     }
-    float uv[3][4];
-    if (!_st || !evalAttribute(_mesh, *_st, t, 0, 0, uv[0]) ||
-        !evalAttribute(_mesh, *_st, t, 1, 0, uv[1]) || !evalAttribute(_mesh, *_st, t, 0, 1, uv[2]))
-        return out;
-    const float du1 = uv[1][0] - uv[0][0], dv1 = uv[1][1] - uv[0][1];
-    const float du2 = uv[2][0] - uv[0][0], dv2 = uv[2][1] - uv[0][1];
-    const float determinant = du1 * dv2 - du2 * dv1;
-    if (determinant == 0.0f || !std::isfinite(determinant)) return out;
-    out.dPdu = ((p[1] - p[0]) * dv2 - (p[2] - p[0]) * dv1) / determinant;
-    out.dPdv = ((p[2] - p[0]) * du1 - (p[1] - p[0]) * du2) / determinant;
-    out.uvPerLength = std::sqrt(std::abs(determinant) / std::max(glm::length(out.normal), 1e-30f));
+    const TangentFrame frame = _tangents ? tangentFrame(_mesh, _tangents, t) : TangentFrame();
+    if (!frame.fromTexture) return out;
+    out.dPdu = frame.dpdu;
+    out.dPdv = frame.dpdv;
+    out.uvPerLength = frame.uvPerLength;
     return out;
 }
 

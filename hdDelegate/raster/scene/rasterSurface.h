@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/geometry/triangleMesh.h"
+#include "hdDelegate/geometry/tangentFrames.h"
 #include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/scene/rasterShapes.h"
 
@@ -65,7 +65,9 @@ public:
 
     /// @param subset as of TriangleMesh::triangleSubset
     /// @param primvars that a material reads, in its order
-    RasterSurface make(size_t subset, const std::vector<std::string>& primvars);
+    /// @param tangentSet of the material
+    RasterSurface make(size_t subset, const std::vector<std::string>& primvars,
+                       const std::string& tangentSet = {});
 
 private:
     struct Corner;
@@ -76,11 +78,11 @@ private:
     const TriangleMesh& _mesh;
     const RasterTriangles* _form = nullptr;
     size_t _storageLimit, _mostTriangles;
-    const MeshAttribute* _st;
-    std::vector<const MeshAttribute*> _attributes; ///< null where the mesh has none
-    bool _sharesAll = false;                       ///< every corner at a position carries the same
-    std::vector<uint32_t> _first, _next;           ///< vertices of the chunk at a position: a list
-    std::vector<uint32_t> _used;                   ///< positions with a list
+    const MeshAttribute* _tangents = nullptr; ///< the uv set that they follow, or null
+    std::vector<MeshPrimvar> _attributes;
+    bool _sharesAll = false;             ///< every corner at a position carries the same
+    std::vector<uint32_t> _first, _next; ///< vertices of the chunk at a position: a list
+    std::vector<uint32_t> _used;         ///< positions with a list
     std::vector<RasterChunk::Vertex> _vertices;
     std::vector<vec4> _primvars;
     std::vector<RasterChunk::Triangle> _triangles;

@@ -30,6 +30,23 @@ PATINA_FN vec3 nodeTangent(NodeMode space, PATINA_IN(SurfacePoint) p) {
 PATINA_FN vec3 nodeBitangent(NodeMode space, PATINA_IN(SurfacePoint) p) {
     return tangentIn(p.bitangent, space, p);
 }
+// Of another uv set than that of the point. along: dP/du in object space, and the side of the bitangent; 0 where
+// the surface has no such set.
+PATINA_FN vec3 setTangent(vec4 along, PATINA_IN(SurfacePoint) p) {
+    vec3 t = transpose(inverse(p.objectToWorldNormal)) * vec3(along);
+    t = t - p.normal * dot(p.normal, t);
+    float l = length(t);
+    return l > 1e-20f && l < 1e30f ? t / l : vec3(0.0f);
+}
+PATINA_FN vec3 nodeSetTangent(NodeMode space, NodePrimvarOrZero along, PATINA_IN(SurfacePoint) p) {
+    vec3 t = setTangent(along, p);
+    return tangentIn(dot(t, t) > 0.0f ? t : p.tangent, space, p);
+}
+PATINA_FN vec3 nodeSetBitangent(NodeMode space, NodePrimvarOrZero along, PATINA_IN(SurfacePoint) p) {
+    vec3 t = setTangent(along, p);
+    float side = along.w * determinant(p.objectToWorldNormal) < 0.0f ? -1.0f : 1.0f;
+    return tangentIn(dot(t, t) > 0.0f ? cross(p.normal, t) * side : p.bitangent, space, p);
+}
 PATINA_FN vec3 nodeViewDirection(NodeMode space, PATINA_IN(SurfacePoint) p) {
     return tangentIn(viewOf(p), space, p);
 }
@@ -75,6 +92,10 @@ const NodeRow rows[] = {
      PATINA_PATTERN(nodeTangent), Algebra::None, nullptr, prepareSpace},
     {"ND_bitangent_vector3", "bitangent", "string space=object, integer index=0", "vector3",
      PATINA_PATTERN(nodeBitangent), Algebra::None, nullptr, prepareSpace},
+    {"PatinaSetTangent", "set_tangent", "string space=object, string set=", "vector3",
+     PATINA_PATTERN(nodeSetTangent), Algebra::None, nullptr, prepareSetTangent},
+    {"PatinaSetBitangent", "set_bitangent", "string space=object, string set=", "vector3",
+     PATINA_PATTERN(nodeSetBitangent), Algebra::None, nullptr, prepareSetTangent},
     {"ND_viewdirection_vector3", "viewdirection", "string space=world", "vector3",
      PATINA_PATTERN(nodeViewDirection), Algebra::None, nullptr, prepareSpace},
     {"ND_texcoord_$", "texcoord", "integer index=0", "$", PATINA_PATTERN(nodeTexcoord),

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Normal maps in both back ends: the frame is that of the uv set which the map is read by, T along +u and B along +v."""
+import numpy as np
+import pytest
+
+import inProcess
+
+NORMAL = np.array([0.48, 0.36, 0.8])  # in the frame of the map, of unit length
+PIXELS = 8                            # that a card is wide
+TO_SUN = np.array([0.6, 0.0, 0.8])
+ALBEDO = 0.8
+
+PLAIN = [(0, 0), (1, 0), (1, 1), (0, 1)]
+MIRRORED = [(1, 0), (0, 0), (0, 1), (1, 1)]
+TURNED = [(0, 1), (0, 0), (1, 0), (1, 1)]  # +u is up, +v to the left
+FLIPPED = [(0, 1), (1, 1), (1, 0), (0, 0)]
+FRAMES = {"plain": ((1, 0), (0, 1)), "mirrored": ((-1, 0), (0, 1)), "turned": ((0, 1), (-1, 0)), "flipped": ((1, 0), (0, -1))}
+UVS = {"plain": PLAIN, "mirrored": MIRRORED, "turned": TURNED, "flipped": FLIPPED}
+
+# name -> (sets of the mesh by name, how its coordinates run; sets that the material reads; changes of the card)
+CARDS = {
+    "st": ({"st": "plain"}, ["st"], ""),
+    "mirrored": ({"st": "mirrored"}, ["st"], ""),
+    "flipped": ({"st": "flipped"}, ["st"], ""),
+    "second": ({"st": "plain", "st1": "turned"}, ["st1"], ""),
+    "named": ({"UVMap": "turned"}, ["UVMap"], ""),
+    "two": ({"st": "flipped", "st1": "turned"}, ["st", "st1"], ""),
+    "two the other way": ({"st": "turned", "other": "mirrored"}, ["other", "st"], ""),
+    "subdivided": ({"st": "plain", "st1": "turned"}, ["st", "st1"], "subdivided"),
+    "instance that mirrors": ({"st": "plain", "st1": "turned"}, ["st", "st1"], "instance"),
+    "subset": ({"st": "plain", "st1": "mirrored"}, ["st1", "st"], "subset"),
+}
+LIT = {"lit": ({"st": "plain", "st1": "turned"}, "st1"), "lit by name": ({"UVMap": "mirrored"}, "UVMap")}
+
+HEAD = """#usda 1.0
+(
+    upAxis = "Y"
+)
+def Camera "camera"
+{
+    token projection = "orthographic"
+    float horizontalAperture = %(across)d
+    float verticalAperture = 10
+    double3 xformOp:translate = (%(middle)s, 0, 5)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def DistantLight "sun"
+{
+    float inputs:intensity = 3.14159265
+    float inputs:angle = 0.1
+    bool inputs:normalize = 1
+    float3 xformOp:rotateXYZ = (0, %(turn).6f, 0)
+    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
+}
+"""
+
+
+def expected(run, mirrors=False):
+    """:returns: the normal in world space of a card whose coordinates run so"""
+    t, b = (np.array([*v, 0.0]) for v in FRAMES[run])
+    normal = NORMAL[0] * t + NORMAL[1] * b + NORMAL[2] * np.array([0.0, 0.0, 1.0])
+    return normal * (-1, 1, 1) if mirrors else normal
+
+
+def shader(name, kind, inputs, output):
+    lines = "".join(f"        {line}\n" for line in inputs)
+    return f'    def Shader "{name}"\n    {{\n        uniform token info:id = "{kind}"\n{lines}        {output}\n    }}\n'
+
+
+def glowing(name, sets):
+    """A material that gives off the mean of its maps' normals, from 0 to 1 for -1 to 1."""
+    text, total = "", "map0"
+    for i, uv in enumerate(sets):
+        text += shader(f"uv{i}", "ND_geompropvalue_vector2", [f'string inputs:geomprop = "{uv}"'], "float2 outputs:out")
+        text += shader(f"image{i}", "ND_image_vector3", ["asset inputs:file = @map.exr@",
+                       f"float2 inputs:texcoord.connect = </{name}/uv{i}.outputs:out>"], "float3 outputs:out")
+        text += shader(f"map{i}", "ND_normalmap_float", [f"float3 inputs:in.connect = </{name}/image{i}.outputs:out>"],
+                       "float3 outputs:out")
+    if len(sets) > 1:
+        total = "sum"
+        text += shader("sum", "ND_add_vector3", [f"float3 inputs:in{i + 1}.connect = </{name}/map{i}.outputs:out>"
+                                                 for i in range(2)], "float3 outputs:out")
+    text += shader("half", "ND_multiply_vector3FA", [f"float3 inputs:in1.connect = </{name}/{total}.outputs:out>",
+                                                     f"float inputs:in2 = {0.5 / len(sets)}"], "float3 outputs:out")
+    text += shader("above", "ND_add_vector3FA", [f"float3 inputs:in1.connect = </{name}/half.outputs:out>",
+                                                 "float inputs:in2 = 0.5"], "float3 outputs:out")
+    text += shader("color", "ND_convert_vector3_color3", [f"float3 inputs:in.connect = </{name}/above.outputs:out>"],
+                   "color3f outputs:out")
+    text += shader("surface", "ND_surface_unlit", [f"color3f inputs:emission_color.connect = </{name}/color.outputs:out>"],
+                   "token outputs:out")
+    return f'def Material "{name}"\n{{\n    token outputs:mtlx:surface.connect = </{name}/surface.outputs:out>\n{text}}}\n'
+
+
+def preview(name, uv):
+    text = shader("uv", "UsdPrimvarReader_float2", [f'string inputs:varname = "{uv}"'], "float2 outputs:result")
+    text += shader("map", "UsdUVTexture", ["asset inputs:file = @map.exr@", 'token inputs:sourceColorSpace = "raw"',
+                   "float4 inputs:scale = (2, 2, 2, 1)", "float4 inputs:bias = (-1, -1, -1, 0)",
+                   f"float2 inputs:st.connect = </{name}/uv.outputs:result>"], "float3 outputs:rgb")
+    text += shader("surface", "UsdPreviewSurface", [f"color3f inputs:diffuseColor = ({ALBEDO}, {ALBEDO}, {ALBEDO})",
+                   "float inputs:roughness = 1", "float inputs:ior = 1",
+                   f"normal3f inputs:normal.connect = </{name}/map.outputs:rgb>"], "token outputs:surface")
+    return f'def Material "{name}"\n{{\n    token outputs:surface.connect = </{name}/surface.outputs:surface>\n{text}}}\n'
+
+
+def card(name, material, sets, x, how=""):
+    """A square of width 1 about (x, 0, 0); its points are from -2 to 2 along x, which its transform makes narrower."""
+    uvs = "".join(f"    texCoord2f[] primvars:{uv} = {UVS[run]} (\n        interpolation = \"vertex\"\n    )\n"
+                  for uv, run in sets.items())
+    scale = "(-0.25, 0.5, 3)" if how == "instance" else "(0.25, 0.5, 3)"
+    place = (f"    double3 xformOp:translate = ({x}, 0, 0)\n    float3 xformOp:scale = {scale}\n"
+             '    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]\n')
+    bound = f"    rel material:binding = </{material}>\n"
+    subset = (f'    def GeomSubset "all" (prepend apiSchemas = ["MaterialBindingAPI"])\n    {{\n'
+              f'        uniform token elementType = "face"\n        uniform token familyName = "materialBind"\n'
+              f"        int[] indices = [0]\n    {bound}    }}\n" if how == "subset" else "")
+    mesh = (f"    point3f[] points = [(-2, -1, 0), (2, -1, 0), (2, 1, 0), (-2, 1, 0)]\n    int[] faceVertexCounts = [4]\n"
+            f"    int[] faceVertexIndices = [0, 1, 2, 3]\n{uvs}{subset or ('' if how == 'instance' else bound)}"
+            f'    uniform token subdivisionScheme = "{"catmullClark" if how == "subdivided" else "none"}"\n')
+    schemas = '(prepend apiSchemas = ["MaterialBindingAPI"])'
+    if how == "instance":
+        return (f'class "{name}_source"\n{{\n    def Mesh "mesh"\n    {{\n{mesh}    }}\n}}\n'
+                f'def Xform "{name}" (\n    instanceable = true\n    inherits = </{name}_source>\n'
+                f'    prepend apiSchemas = ["MaterialBindingAPI"]\n)\n{{\n{bound}{place}}}\n')
+    return f'def Mesh "{name}" {schemas}\n{{\n{mesh}{place}}}\n'
+
+
+@pytest.fixture(scope="module")
+def stage(tmp_path_factory):
+    import _patina
+
+    folder = tmp_path_factory.mktemp("tangentSets")
+    texel = (0.5 * NORMAL + 0.5).astype(np.float32)
+    _patina.write_image(str(folder / "map.exr"), np.broadcast_to(texel, (4, 4, 3)).copy(), ["R", "G", "B"], {"half": False})
+    count = len(CARDS) + len(LIT)
+    text = HEAD % {"across": 10 * count, "middle": 0.5 * (count - 1),
+                   "turn": np.degrees(np.arctan2(TO_SUN[0], TO_SUN[2]))}
+    for i, (sets, read, how) in enumerate(CARDS.values()):
+        text += glowing(f"m{i}", read) + card(f"c{i}", f"m{i}", sets, i, how)
+    for i, (sets, read) in enumerate(LIT.values(), len(CARDS)):
+        text += preview(f"m{i}", read) + card(f"c{i}", f"m{i}", sets, i)
+    (folder / "stage.usda").write_text(text, encoding="utf-8")
+    return str(folder / "stage.usda"), count
+
+
+@pytest.mark.parametrize("backend", ["embree", "raster"])
+def test_frames_follow_the_set_of_the_map(stage, backend):
+    if backend == "raster" and inProcess.without_opengl():
+        pytest.skip(inProcess.without_opengl())
+    path, count = stage
+    image = inProcess.Stage(path, "--backend", backend, "--camera", "/camera", "-w", str(PIXELS * count), "--samples", "4",
+                            "--disableCameraLight", image_height=PIXELS).image(1)
+    found = image[2:-2].reshape(PIXELS - 4, count, PIXELS, 3)[:, :, 2:-2].mean(axis=(0, 2))
+    for i, (name, (sets, read, how)) in enumerate(CARDS.items()):
+        wanted = np.mean([expected(sets[uv], how == "instance") for uv in read], axis=0)
+        # Half floats of textures and of targets keep eleven bits.
+        np.testing.assert_allclose(2.0 * found[i] - 1.0, wanted, atol=2e-3, err_msg=name)
+    for i, (name, (sets, read)) in enumerate(LIT.items(), len(CARDS)):
+        # The sun is 0.1 degrees wide: its light differs by less than its half angle, and no sample misses it.
+        np.testing.assert_allclose(found[i], ALBEDO * (expected(sets[read]) @ TO_SUN), atol=2e-3, err_msg=name)

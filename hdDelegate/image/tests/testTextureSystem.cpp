@@ -296,19 +296,9 @@ TEST_F(Textures, UdimTiles) {
     EXPECT_EQ(textures.sample(handle, {1e30f, -1e30f}, 0), magenta);
     EXPECT_EQ(diagnostics.count(), 2);
     EXPECT_FALSE(textures.valid(open(temp.file("none.<UDIM>.png"))));
-}
-
-/// Mudbox's names of tiles.
-TEST_F(Textures, UvTiles) {
-    writeImage(temp.file("m_u1_v1.png"), 4, 4, {1, 0, 0}, OIIO::TypeUInt8);
-    writeImage(temp.file("m_u2_v1.png"), 4, 4, {0, 1, 0}, OIIO::TypeUInt8);
     writeImage(temp.file("m_u1_v2.png"), 4, 4, {0, 0, 1}, OIIO::TypeUInt8);
-    const int handle = open(temp.file("m_<UVTILE>.png"));
-    ASSERT_TRUE(textures.valid(handle));
-    EXPECT_EQ(textures.sample(handle, {0.5f, 0.5f}, 0), glm::vec4(1, 0, 0, 1));
-    EXPECT_EQ(textures.sample(handle, {1.5f, 0.5f}, 0), glm::vec4(0, 1, 0, 1));
+    handle = open(temp.file("m_<UVTILE>.png")); // as Mudbox names tiles
     EXPECT_EQ(textures.sample(handle, {0.5f, 1.5f}, 0), glm::vec4(0, 0, 1, 1));
-    EXPECT_EQ(diagnostics.count(), 0);
 }
 
 TEST_F(Textures, EqualRequestsShareAHandleAndDifferentOnesThePixels) {

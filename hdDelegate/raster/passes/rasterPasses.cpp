@@ -372,6 +372,7 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
         _colorTarget.bind();
     }
     gl.Disable(GL_BLEND);
+    gl.BlendFunc(GL_ONE, GL_ZERO); // Mesa refuses several targets for dual sources, blending or not
     drawVolumes(scene);
     gl.DepthMask(GL_TRUE);
 

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <string>
 
 namespace patina {
 
@@ -15,6 +16,16 @@ public:
     /// @returns false when the geometry has no such primvar; out is untouched then
     virtual bool read(int slot, float out[4]) const = 0;
 };
+
+/// The primvar of a uv set: "st", as every exporter to USD writes it, "st1" and so on.
+std::string texcoordPrimvar(int index);
+
+/// The primvar that stands for the tangents of a uv set: dP/du in object space, and the side of
+/// the bitangent, 1 or -1 where coordinates are mirrored. Geometry makes it from the set. Its name
+/// is none that USD has.
+std::string tangentPrimvar(const std::string& set);
+/// The uv set of a tangentPrimvar(); empty for the names of other primvars.
+std::string setOfTangents(const std::string& primvar);
 
 /// Where a material is evaluated. World space, unit vectors.
 struct ShadingPoint {

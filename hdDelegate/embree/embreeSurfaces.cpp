@@ -8,7 +8,7 @@
 #include "hdDelegate/geometry/primvarExpand.h"
 #include "hdDelegate/scene/primCompare.h"
 #include "materialNetwork/material.h"
-#include "materialNetwork/network/geomprop.h"
+#include "materialNetwork/shadingPoint.h"
 
 #include <algorithm>
 #include <cmath>

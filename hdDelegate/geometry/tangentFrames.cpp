@@ -2,7 +2,7 @@
 #include "hdDelegate/geometry/tangentFrames.h"
 
 #include "hdDelegate/geometry/primvarEval.h"
-#include "materialNetwork/network/geomprop.h"
+#include "materialNetwork/shadingPoint.h"
 #include "base/maths.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "hdDelegate/hydra/values.h"
 
-#include "materialNetwork/network/upgrade.h"
+#include "materialNetwork/network/translate.h"
 #include "materialNetwork/nodes/models.h"
 
 #include <pxr/base/tf/stringUtils.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/graph/tangentSets.h"
 
-#include "materialNetwork/network/geomprop.h"
+#include "materialNetwork/shadingPoint.h"
 #include "materialNetwork/nodes/nodeTable.h"
 
 #include <map>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/network/geomprop.h"
 
+#include "materialNetwork/shadingPoint.h"
+
 #include <cstdlib>
 #include <sstream>
 #include <vector>

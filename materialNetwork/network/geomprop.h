@@ -20,14 +20,4 @@ std::string customGeomprop(const std::string& name, const std::string& type,
                            const std::string& geomprop, const std::string& space,
                            const std::string& index);
 
-/// The primvar of a uv set: "st", as every exporter to USD writes it, "st1" and so on.
-std::string texcoordPrimvar(int index);
-
-/// The primvar that stands for the tangents of a uv set: dP/du in object space, and the side of
-/// the bitangent, 1 or -1 where coordinates are mirrored. Geometry makes it from the set. Its name
-/// is none that USD has.
-std::string tangentPrimvar(const std::string& set);
-/// The uv set of a tangentPrimvar(); empty for the names of other primvars.
-std::string setOfTangents(const std::string& primvar);
-
 } // namespace patina

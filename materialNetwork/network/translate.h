@@ -22,4 +22,7 @@ std::vector<std::string> translatableModels();
 Network translateMaterial(const Network& network, const std::string& target,
                           Diagnostics& diagnostics);
 
+/// Rewrites a network that was authored against MaterialX 1.38 as 1.39 has it, see upgradeNodes().
+void upgradeNetwork(Network& network, Diagnostics& diagnostics);
+
 } // namespace patina

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/network/upgrade.h"
 
+#include "materialNetwork/network/translate.h"
+
 #include "materialNetwork/network/geomprop.h"
 
 #include <algorithm>

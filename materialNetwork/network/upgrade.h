@@ -21,7 +21,4 @@ void upgradeNodes(std::vector<NetworkNode>& nodes, std::map<std::string, Connect
                   const std::function<bool(const std::string& path)>& before139,
                   Diagnostics& diagnostics);
 
-/// The same of a whole network that was authored against 1.38.
-void upgradeNetwork(Network& network, Diagnostics& diagnostics);
-
 } // namespace patina

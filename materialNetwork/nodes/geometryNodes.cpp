@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes that read the surface.
 #define PATINA_NODE_FUNCTIONS "shaders/patterns/nodes/geometry.glsl"
-#include "materialNetwork/network/geomprop.h"
+#include "materialNetwork/shadingPoint.h"
 #include "materialNetwork/nodes/nodeTable.h"
 #include "materialNetwork/nodes/patternFunctions.h"
 

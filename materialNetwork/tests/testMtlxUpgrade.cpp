@@ -2,7 +2,7 @@
 // Included documents, and documents of MaterialX 1.38.
 #include "materialNetwork/tests/mtlxFixture.h"
 
-#include "materialNetwork/network/upgrade.h"
+#include "materialNetwork/network/translate.h"
 
 namespace patina {
 

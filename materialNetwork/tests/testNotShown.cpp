@@ -46,8 +46,8 @@ TEST(NotShown, AFallbackIsExplainedAsOne) {
                         .fallback);
     }
     EXPECT_NE(warnings(diagnostics)
-                  .find("/m [surface] node /m/surface has the unknown type 'ND_light'; "
-                        "the terminal is ignored"),
+                  .find("/m/surface (ND_light) is not drawn: lights come from the stage, not from "
+                        "materials; the terminal is ignored"),
               std::string::npos)
         << warnings(diagnostics);
     EXPECT_EQ(explained("UsdPreviewSurface", clean).find(sentence), std::string::npos);

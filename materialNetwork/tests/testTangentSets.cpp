@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tangents follow the uv set that a map is read by.
 
-#include "materialNetwork/network/geomprop.h"
+#include "materialNetwork/shadingPoint.h"
 #include "materialNetwork/tests/patternFixture.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Material networks.
 
-#include "materialNetwork/network/upgrade.h"
+#include "materialNetwork/network/translate.h"
 #include "plugin/python/fields.h"
 #include "plugin/python/warningList.h"
 

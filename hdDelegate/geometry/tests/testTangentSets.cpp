@@ -4,7 +4,7 @@
 #include "hdDelegate/geometry/displace.h"
 #include "hdDelegate/geometry/tangentFrames.h"
 #include "materialNetwork/material.h"
-#include "materialNetwork/network/geomprop.h"
+#include "materialNetwork/shadingPoint.h"
 
 #include <gtest/gtest.h>
 

@@ -348,7 +348,8 @@ TEST_F(Textures, TheFinestLevelAloneHasNoWiderFilters) {
     request.colorSpace = "raw";
     const glm::vec2 texel(0.375f, 0.5f);
     EXPECT_EQ(finest.sample(finest.open(request), texel, 1.0f).r, 1.0f);
-    EXPECT_EQ(textures.sample(textures.open(request), texel, 1.0f).r, 0.5f);
+    // Coarser levels of images of eight bits have eight bits.
+    EXPECT_NEAR(textures.sample(textures.open(request), texel, 1.0f).r, 0.5f, 1.0f / 255.0f);
 }
 
 TEST_F(Textures, LinearImagesForLights) {

@@ -107,7 +107,7 @@ def test_references_are_kept(charted, capsys):
     stamp = before.stat().st_mtime_ns
     stage = out.parent / HOSTILE
     assert main.main(["chart", str(stage), "--out", str(out), "--imageWidth", "32", "--maxSamples", "4", "--backend", "embree",
-                      "--tolerances", "none", "--json"]) == 0
+                      "--tolerances", "none", "--method", "layering=positionFree", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)["stages"][0]
     assert before.stat().st_mtime_ns == stamp and found["references"]["all"]["seconds"] == 0.0
     assert {r["backend"] for r in found["rows"]} == {"embree"}

@@ -73,7 +73,7 @@ def quad(**changes):
     ({"counts": "[2, 4]", "indices": "[0, 1, 0, 1, 2, 3]"}, "face"),
     ({"points": "[(nan, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]"}, "points"),
     ({"points": "[(inf, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]"}, "points"),
-    ({"extra": "texCoord2f[] primvars:st = [(0, 0)] (interpolation = \"vertex\")"}, "st"),
+    ({"extra": "texCoord2f[] primvars:st = [(0, 0), (1, 1)] (interpolation = \"vertex\")"}, "st"),
     ({"extra": "int[] holeIndices = [7]"}, "holeIndices"),
     ({"extra": "int[] creaseIndices = [0, 1]\n    int[] creaseLengths = [5]\n    float[] creaseSharpnesses = [1]"}, "crease"),
 ])

@@ -25,7 +25,7 @@ VIEWS = 3
 # points: of a replicate. quantile: of Student's t with 15 degrees of freedom, exceeded on either side in `significance` of all
 # cases. test_graphLooks.py computes them.
 Look = namedtuple("Look", "points quantile significance")
-LOOKS = (Look(16, 4.073, 1e-3), Look(128, 4.073, 1e-3), Look(1024, 5.239, 1e-4))
+LOOKS = (Look(32, 4.073, 1e-3), Look(128, 4.073, 1e-3), Look(1024, 5.239, 1e-4))
 COMPARED = VIEWS * (3 + 3 + 1)  # weights with albedo() and with the bound, by channel, and densities
 EVEN = 1.0 / (4.0 * math.pi)
 # The largest error of albedo(), as a share of a white lobe's (testLobeAlbedo): no sample is needed to explain it.

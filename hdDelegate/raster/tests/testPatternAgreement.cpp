@@ -162,7 +162,7 @@ std::vector<glm::vec4> reference(const Case& c, int trial) {
 class PatternAgreement : public ::testing::TestWithParam<size_t> {};
 
 constexpr size_t chunk = 8; ///< nodes per shader: drivers take long over large ones
-constexpr size_t chunks = 31;
+constexpr size_t chunks = 32;
 
 TEST_P(PatternAgreement, OfNodesWithTheirFunctions) {
     PATINA_NEED_CONTEXT();

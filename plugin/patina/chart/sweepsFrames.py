@@ -57,17 +57,17 @@ def _unbent(degrees, wo, grid=96):
 
 
 def _normals(count):
-    """White diffuse under a slanted normal: light below the surface is lost; a view behind the normal bends it."""
+    """White diffuse under a slanted normal: light below the surface is lost; a view behind the normal changes nothing."""
     x = list(np.linspace(0.0, 88.0, count))
     wo = probes.towards(0.5, np.pi)  # from the side that the normal turns away from
-    found = {"bent to the view": [probes.sampled(_mapped("oren_nayar_diffuse_bsdf", d, color=(1.0,) * 3), wo, 2048) for d in x],
+    found = {"lit by its normal": [probes.sampled(_mapped("oren_nayar_diffuse_bsdf", d, color=(1.0,) * 3), wo, 2048) for d in x],
              "black behind the normal": [_unbent(d, wo[0].astype(float)) for d in x]}
     # A loss that no method avoids: the light that a slanted plane sends below the horizon.
-    kept = [0.5 * (1.0 + np.cos(np.radians(min(d, 30.0)))) for d in x]
+    kept = [0.5 * (1.0 + np.cos(np.radians(d))) for d in x]
     return Sweep("normals below the horizon, diffuse", "frames",
                  "A view behind the mapped normal finds black: rims of smooth shapes and steep bumps go dark.",
                  "degrees of slant", x,
-                 "albedo, view at 60 degrees", found, kept, always("bent to the view", x), 0.06, "black behind the normal",
+                 "albedo, view at 60 degrees", found, kept, always("lit by its normal", x), 0.06, "black behind the normal",
                  switch=30.0, shows=10)
 
 

@@ -59,7 +59,7 @@ def charted(tmp_path_factory):
     out = folder / "out"
     status = main.main(["chart", str(bad), str(good), str(folder / "missing.usda"),
                         str(folder / "\udcff.usda"), "--out", str(out), "--imageWidth", "32",
-                        "--maxSamples", "20", "--tolerances", "0.5", "--method", "layering=positionFree", "--quiet",
+                        "--maxSamples", "20", "--tolerances", "0.5", "--method", "energyCompensation=randomWalk", "--quiet",
                         f"--json={folder / 'rows.json'}"])
     return out, status, json.loads((folder / "rows.json").read_text())
 
@@ -107,7 +107,7 @@ def test_references_are_kept(charted, capsys):
     stamp = before.stat().st_mtime_ns
     stage = out.parent / HOSTILE
     assert main.main(["chart", str(stage), "--out", str(out), "--imageWidth", "32", "--maxSamples", "4", "--backend", "embree",
-                      "--tolerances", "none", "--method", "layering=positionFree", "--json"]) == 0
+                      "--tolerances", "none", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)["stages"][0]
     assert before.stat().st_mtime_ns == stamp and found["references"]["all"]["seconds"] == 0.0
     assert {r["backend"] for r in found["rows"]} == {"embree"}

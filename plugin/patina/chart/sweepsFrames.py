@@ -60,7 +60,8 @@ def _normals(count):
     """White diffuse under a slanted normal: light below the surface is lost; a view behind the normal changes nothing."""
     x = list(np.linspace(0.0, 88.0, count))
     wo = probes.towards(0.5, np.pi)  # from the side that the normal turns away from
-    found = {"lit by its normal": [probes.sampled(_mapped("oren_nayar_diffuse_bsdf", d, color=(1.0,) * 3), wo, 2048) for d in x],
+    white = [_mapped("oren_nayar_diffuse_bsdf", d, color=(1.0,) * 3) for d in x]
+    found = {"lit by its normal": [probes.sampled(probe, wo, 2048) for probe in white],
              "black behind the normal": [_unbent(d, wo[0].astype(float)) for d in x]}
     # A loss that no method avoids: the light that a slanted plane sends below the horizon.
     kept = [0.5 * (1.0 + np.cos(np.radians(d))) for d in x]

@@ -38,7 +38,7 @@ std::function<float(const glm::vec3&)> interfaceOf(float roughness) {
 }
 
 /// Patina's ball, what albedo scaling says, and the mean of Cycles' Principled BSDF with the same numbers (Blender
-/// 5.0.1, 64 x 64 pixels, 256 samples, whose standard error is below 0.0002).
+/// 5.0.1, 64 x 64 pixels, 256 samples).
 void expectMean(const char* name, Inputs inputs, const char* model,
                 const std::function<float(const glm::vec3&)>& closedForm, float cycles) {
     const float found = meanOf(albedoOf(makeNetwork({makeNode("surface", model, std::move(inputs))})));

@@ -63,7 +63,8 @@ bool expandPrimvar(const Primvar& primvar, const ElementCounts& counts, const st
     const size_t elements = primvar.indices.empty() ? stored : primvar.indices.size();
     const size_t expected = counts.of(primvar.interpolation);
     const bool constant = primvar.interpolation == Interpolation::Constant;
-    const bool one = elements == 1; // one for all, whatever is authored, as Storm and RenderMan take it
+    const bool one =
+        elements == 1; // one for all, whatever is authored, as Storm and RenderMan take it
     if (constant ? elements < 1 : elements != expected && !one) {
         diagnostics.warn(prim, input,
                          std::to_string(elements) + " elements where " +

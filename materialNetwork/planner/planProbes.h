@@ -9,10 +9,10 @@ struct ProgramCode;
 
 /// A lobe as one place of a material shows it from one angle.
 struct ClosureContribution {
-    int closure = -1; ///< in Plan::closures
+    int closure = -1;         ///< in Plan::closures
     const char* kind = "";    ///< `dielectric`, `conductor`, `schlick`...; as in methodTable.h
-    float share = 0.0f;   ///< of the luminance of the directional albedo, 0..1
-    float beneath = 0.0f; ///< share of what lies under it in layers
+    float share = 0.0f;       ///< of the luminance of the directional albedo, 0..1
+    float beneath = 0.0f;     ///< share of what lies under it in layers
     float reflectance = 0.0f; ///< luminance at normal incidence
     float roughness = 0.0f;   ///< root of alpha, mean of both axes; 0: a mirror
     float thickness = 0.0f;   ///< of a film, nm

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mean of a ball under a white sky, seen by an orthographic camera: beside the closed form of albedo
-// scaling, and beside another renderer's ball.
+// The mean of a ball under a white sky, seen by an orthographic camera: beside the closed form of
+// albedo scaling, and beside another renderer's ball.
 #include "materialNetwork/tests/statistics.h"
 
 #include <functional>
@@ -37,11 +37,12 @@ std::function<float(const glm::vec3&)> interfaceOf(float roughness) {
         {makeNode("bsdf", "ND_dielectric_bsdf", {{"roughness", pair(roughness * roughness)}})}));
 }
 
-/// Patina's ball, what albedo scaling says, and the mean of Cycles' Principled BSDF with the same numbers (Blender
-/// 5.0.1, 64 x 64 pixels, 256 samples).
+/// Patina's ball, what albedo scaling says, and the mean of Cycles' Principled BSDF with the same
+/// numbers (Blender 5.0.1, 64 x 64 pixels, 256 samples).
 void expectMean(const char* name, Inputs inputs, const char* model,
                 const std::function<float(const glm::vec3&)>& closedForm, float cycles) {
-    const float found = meanOf(albedoOf(makeNetwork({makeNode("surface", model, std::move(inputs))})));
+    const float found =
+        meanOf(albedoOf(makeNetwork({makeNode("surface", model, std::move(inputs))})));
     EXPECT_NEAR(found, meanOf(closedForm), 2e-3f) << name;
     EXPECT_NEAR(found / cycles, 1.0f, 0.03f) << name;
 }
@@ -84,9 +85,8 @@ TEST(LayerMeans, PlasticCoatSheenAndMetalLookAsInOtherRenderers) {
                     {"fuzz_weight", number(1.0f)},
                     {"fuzz_roughness", number(0.5f)}},
                    "ND_open_pbr_surface_surfaceshader", over(fuzz, uncoated), b.sheen);
-        const auto metal =
-            albedoOf(bsdfNetwork({makeNode("bsdf", "ND_generalized_schlick_bsdf",
-                                           {{"color0", c}, {"roughness", pair(0.04f)}})}));
+        const auto metal = albedoOf(bsdfNetwork({makeNode(
+            "bsdf", "ND_generalized_schlick_bsdf", {{"color0", c}, {"roughness", pair(0.04f)}})}));
         expectMean("metal",
                    {{"diffuseColor", c}, {"roughness", number(0.2f)}, {"metallic", number(1.0f)}},
                    "UsdPreviewSurface", metal, b.metal);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers by albedo scaling, the default, and by the method `returned`: both lose nothing where nothing
-// is absorbed, and gain nothing. The first follows its definition, the second counts what an
-// interface sends back down to its base.
+// Layers by albedo scaling, the default, and by the method `returned`: both lose nothing where
+// nothing is absorbed, and gain nothing. The first follows its definition, the second counts what
+// an interface sends back down to its base.
 #include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/planner/planner.h"
 #include "materialNetwork/tests/statistics.h"
@@ -96,8 +96,8 @@ TEST(LayerReturn, LosesNothingWhereNothingAbsorbs) {
     EXPECT_LT(largest.z, 0.96f);
 }
 
-// A base of albedo a under an interface of reflectance F shows F + (1 - F) a, whatever the tolerance
-// is, and whatever the base is.
+// A base of albedo a under an interface of reflectance F shows F + (1 - F) a, whatever the
+// tolerance is, and whatever the base is.
 TEST(LayerScaling, SmoothOverAnythingIsItsDefinition) {
     FakeTextures textures;
     Diagnostics diagnostics;
@@ -186,11 +186,11 @@ TEST(LayerReturn, TintsColourTheTopAlone) {
     const Value orange = color(1.0f, 0.5f, 0.0f);
     const Network tinted = bsdfNetwork({interface("top", 1.5f, 0.0f, {{"tint", orange}}),
                                         diffuse("base", grey(1.0f)), layer("bsdf", "top", "base")}),
-                  factored = bsdfNetwork({interface("bare", 1.5f, 0.0f),
-                                          makeNode("top", "ND_multiply_bsdfC", {{"in2", orange}},
-                                                   {{"in1", {"bare", ""}}}),
-                                          diffuse("base", grey(1.0f)),
-                                          layer("bsdf", "top", "base")});
+                  factored =
+                      bsdfNetwork({interface("bare", 1.5f, 0.0f),
+                                   makeNode("top", "ND_multiply_bsdfC", {{"in2", orange}},
+                                            {{"in1", {"bare", ""}}}),
+                                   diffuse("base", grey(1.0f)), layer("bsdf", "top", "base")});
     for (const MethodChoices& methods : {scaled, returned})
         for (const Network& network : {tinted, factored})
             for (int c = 0; c < 3; ++c)
@@ -211,7 +211,8 @@ TEST(LayerReturn, GlassOfTwoHalvesStaysWhole) {
 TEST(LayerReturn, SamplesAndValuesAgree) {
     for (const MethodChoices& methods : {scaled, returned})
         for (const auto& [name, network] : lossless())
-            expectSamplesAndValuesAgree(*compiled(network, methods), direction(50.0f), name, 20000, 7);
+            expectSamplesAndValuesAgree(*compiled(network, methods), direction(50.0f), name, 20000,
+                                        7);
 }
 
 } // namespace patina

@@ -79,7 +79,8 @@ TEST(Planner, TablesServeInterfacesThatWalksAskAnew) {
     const MethodChoices walks = {{"layering", "positionFree"}};
     const MethodPlan plan = planOf(network, 0.01, walks);
     EXPECT_NE(at(plan, "directionalAlbedo").method, "quadrature");
-    EXPECT_LT(timeOf(plan), 0.5 * timeOf(planOf(network, 0.0, walks))) << "2304 facets at each step";
+    EXPECT_LT(timeOf(plan), 0.5 * timeOf(planOf(network, 0.0, walks)))
+        << "2304 facets at each step";
 }
 
 TEST(Planner, LargerTolerancesAreNeverSlower) {
@@ -167,7 +168,8 @@ TEST(Planner, ABackEndWithoutWalksSaysWhatItTakes) {
     const MethodPlan walked = planOf(coatedGold(0.1f, 0.9f), 1e-4), scaled = withoutWalks(walked);
     EXPECT_EQ(at(walked, "energyCompensation").method, "randomWalk");
     EXPECT_EQ(at(scaled, "energyCompensation").method, "turquin");
-    EXPECT_EQ(at(scaled, "energyCompensation").error, at(walked, "energyCompensation").errorDefault);
+    EXPECT_EQ(at(scaled, "energyCompensation").error,
+              at(walked, "energyCompensation").errorDefault);
     double sum = 0.0;
     for (const PlannedMethod& m : scaled.choices)
         sum += m.error;

@@ -63,13 +63,25 @@ CameraFrame::CameraFrame(const Camera& camera, const RenderSettings& settings)
                   std::max(1e-6f, camera.verticalAperture));
     const vec2 offset = vec2(camera.horizontalApertureOffset, camera.verticalApertureOffset) * unit;
     eyeSize = imageSize * shareOf(camera.lens.stereo);
-    const float aspect = eyeSize.x / eyeSize.y * float(std::max(1e-6, settings.pixelAspectRatio));
+    const PixelWindow& frame = settings.frameWindow;
+    const bool overscan =
+        frame[2] >= frame[0] && frame[3] >= frame[1] && camera.lens.hasOverscan();
+    const vec2 frameSize =
+        overscan ? vec2(float(frame[2]) - frame[0], float(frame[3]) - frame[1]) + 1.0f : eyeSize;
+    const float aspect = frameSize.x / frameSize.y * float(std::max(1e-6, settings.pixelAspectRatio));
     aperture = conform(aperture * unit, aspect, settings.aspectRatioConformPolicy);
     const float focal = std::max(1e-6f, camera.focalLength) * unit;
     // An orthographic camera's aperture is in scene units too, as GfCamera has it.
     const float scale = orthographic ? 1.0f : 1.0f / focal;
     windowMin = (offset - 0.5f * aperture) * scale;
     windowMax = (offset + 0.5f * aperture) * scale;
+    if (overscan) { // pixels count from the upper left
+        const vec2 pixel = (windowMax - windowMin) / frameSize;
+        windowMin.x -= float(frame[0]) * pixel.x;
+        windowMax.y += float(frame[1]) * pixel.y;
+        windowMax.x = windowMin.x + imageSize.x * pixel.x;
+        windowMin.y = windowMax.y - imageSize.y * pixel.y;
+    }
     if (settings.enableDepthOfField && camera.fStop > 0.0f && focusDistance > 0.0f && !orthographic)
         lensRadius = 0.5f * focal / camera.fStop;
     _pixelSpread = radial ? smallestAngle(camera.lens, windowMax - windowMin, eyeSize)

@@ -13,7 +13,7 @@ namespace patina {
 struct CameraFrame {
     CameraFrame(const Camera& camera, const RenderSettings& settings);
 
-    vec2 imageSize{1.0f};                           ///< pixels
+    vec2 imageSize{1.0f};                           ///< pixels of the film, with overscan
     vec2 eyeSize{1.0f};                             ///< pixels of the part of one eye
     vec2 windowMin{0.0f}, windowMax{0.0f};          ///< at distance 1; orthographic: scene units
     float lensRadius = 0.0f;                        ///< scene units; 0: everything is sharp

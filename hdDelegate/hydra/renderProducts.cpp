@@ -57,9 +57,11 @@ std::string problemOf(const std::string& aov) {
     }
 }
 
-/// The place between two pixels of an edge of [0,1].
+constexpr double largestSize = 65536.0; // pixels, as of --imageWidth
+
+/// The place between two pixels of an edge; the frame has 0 to 1.
 int edgeOf(double edge, int size) {
-    return int(std::clamp(std::round(edge * size), 0.0, std::max(double(size), 0.0)));
+    return int(std::clamp(std::round(edge * size), -largestSize, size + largestSize));
 }
 
 /// The pixels, first and last, whose centres lie in a rectangle of [0,1], y up; all of them where a
@@ -73,6 +75,29 @@ std::optional<PixelWindow> pixelsOf(const GfRange2f& ndc, int width, int height)
                                 edgeOf(most[0], width) - 1, edgeOf(1.0 - least[1], height) - 1};
     if (window[2] < window[0] || window[3] < window[1]) return std::nullopt;
     return window;
+}
+
+/// Sets the film's size. Where the data window reaches beyond the frame, the film is that window.
+/// @returns false where pixels beside the frame are left out
+bool place(HdPatinaSettings& s, PixelWindow window, const Scene& scene, const std::string& camera) {
+    const bool inside = window == allPixels || (window[0] >= 0 && window[1] >= 0 &&
+                                                window[2] < s.width && window[3] < s.height);
+    s.dataWindow = window;
+    if (inside) return true;
+    const auto state = scene.snapshot();
+    const auto found = state->cameras.find(camera);
+    const int width = window[2] - window[0] + 1, height = window[3] - window[1] + 1;
+    if (std::max(width, height) <= largestSize &&
+        (found == state->cameras.end() || found->second->lens.hasOverscan())) {
+        const int right = s.width - 1 - window[0], bottom = s.height - 1 - window[1];
+        s.frameWindow = {-window[0], -window[1], right, bottom};
+        s.dataWindow = allPixels;
+        s.width = width, s.height = height;
+        return true;
+    }
+    s.dataWindow = {std::max(window[0], 0), std::max(window[1], 0),
+                    std::min(window[2], s.width - 1), std::min(window[3], s.height - 1)};
+    return false;
 }
 
 bool flagOf(const VtDictionary& settings, const char* name, bool initial) {
@@ -116,11 +141,13 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
     if (!product.aspectRatioConformPolicy.IsEmpty())
         s.aspectRatioConformPolicy = product.aspectRatioConformPolicy.GetString();
     const auto window = pixelsOf(product.dataWindowNDC, s.width, s.height);
-    if (window)
-        std::copy(window->begin(), window->end(), s.dataWindow.begin());
-    else
+    if (!window)
         param.warn(product.productPath, "dataWindowNDC",
                    "holds no pixel; the whole image is rendered");
+    else if (!place(s, *window, *param.scene(), output.camera))
+        param.warn(product.productPath, "dataWindowNDC",
+                   "reaches beyond what the camera's film can hold; no pixels are rendered outside of "
+                   "the image");
     s.enableMotionBlur = s.enableMotionBlur && !product.disableMotionBlur;
 #if PATINA_HAS_PRODUCT_DEPTH_OF_FIELD
     s.enableDepthOfField = s.enableDepthOfField && !product.disableDepthOfField;
@@ -186,9 +213,16 @@ void HdPatinaRenderProducts::write(const Output& output) {
     _session->stop(); // the film is at rest, and no listener runs any more
     ImageOptions options;
     options.aovs = output.order;
-    options.displayWidth = output.settings.width;
-    options.displayHeight = output.settings.height;
-    const PixelWindow& window = output.settings.dataWindow;
+    const HdPatinaSettings& s = output.settings;
+    const PixelWindow& frame = s.frameWindow;
+    PixelWindow window = s.dataWindow;
+    options.displayWidth = s.width;
+    options.displayHeight = s.height;
+    if (frame != allPixels) { // with overscan
+        options.displayWidth = frame[2] - frame[0] + 1;
+        options.displayHeight = frame[3] - frame[1] + 1;
+        window = {-frame[0], -frame[1], s.width - 1 - frame[0], s.height - 1 - frame[1]};
+    }
     std::copy(window.begin(), window.end(), options.dataWindow);
     options.pixelAspectRatio = output.settings.pixelAspectRatio;
     for (const auto& product : _state.products())

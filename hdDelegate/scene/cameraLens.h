@@ -39,6 +39,11 @@ struct CameraLens {
     bool operator==(const CameraLens& other) const;
     bool operator!=(const CameraLens& other) const { return !(*this == other); }
     bool standard() const { return projection == LensProjection::Standard; }
+    /// Whether the film can reach beyond the frame: its middle has no meaning of its own.
+    bool hasOverscan() const {
+        return standard() && stereo != StereoView::SideBySide && stereo != StereoView::OverUnder &&
+               distortionMap.empty() && distortionK1 == 0.0f && distortionK2 == 0.0f;
+    }
     bool fisheye() const {
         return projection == LensProjection::FisheyeEquidistant ||
                projection == LensProjection::FisheyeEquisolid ||

@@ -118,6 +118,7 @@ py::dict cameraDict(const Scene& scene, const std::string& path) {
     dict["shutter_close"] = camera.shutterClose;
     dict["exposure_scale"] = camera.exposureScale;
     dict["image_aspect"] = imageAspect(camera);
+    dict["has_overscan"] = camera.lens.hasOverscan();
     return dict;
 }
 
@@ -240,7 +241,7 @@ void bindScene(py::module_& m) {
              "Paths of all geometry, instancers, lights, cameras or materials; ValueError for "
              "another kind.")
         .def("camera", &cameraDict, py::arg("path"),
-             "A camera's values by set_camera()'s keywords, and image_aspect, the width over the "
+             "A camera's values by set_camera()'s keywords, has_overscan, and image_aspect, the width over the "
              "height "
              "that its image has of itself; KeyError where there is none.")
         .def(

@@ -87,7 +87,8 @@ def test_nothing_is_installed_without_the_library(tmp_path):
     if has_library():
         pytest.skip("this build has made its library")
     done = cmake("--install", BUILD, "--prefix", tmp_path / "prefix")
-    assert done.returncode != 0 and "The library is not built" in done.stderr and "--target patina" in done.stderr
+    said = " ".join(done.stderr.split())  # CMake breaks lines where a path was long
+    assert done.returncode != 0 and "The library is not built" in said and "--target patina" in said
     assert not (tmp_path / "prefix").exists()
 
 

@@ -71,7 +71,9 @@ def test_script_in_names_stays_text(make, chromium, tmp_path):
     assert layer.replace("_", "a").isalnum()
 
 
-RUNS = """window.owned = [];
+# The first line ends the driver's own task, in which the browser lets text become code.
+RUNS = """await new Promise(resolve => setTimeout(resolve, 0));
+window.owned = [];
 const script = document.createElement("script");
 script.textContent = "owned.push('script')";
 document.body.append(script);

@@ -72,7 +72,7 @@ TEST(RenderProducts, WindowsWithoutPixelsAreToldOf) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     EXPECT_EQ(warningsOf(range(0.75f, 0.75f, 0.25f, 0.25f)), 1) << "the wrong way round";
     EXPECT_EQ(warningsOf(range(0.5f, 0.0f, 0.51f, 1.0f)), 1) << "between two pixels";
-    EXPECT_EQ(warningsOf(range(2.0f, 0.0f, 3.0f, 1.0f)), 1) << "beside the image";
+    EXPECT_EQ(warningsOf(range(2.0f, 0.0f, 3.0f, 1.0f)), 0) << "beside the frame";
     EXPECT_EQ(warningsOf(range(1e30f, 0.0f, 2e30f, 1.0f)), 1);
     EXPECT_EQ(warningsOf(range(-2e30f, 0.0f, -1e30f, 1.0f)), 1);
     EXPECT_EQ(warningsOf(range(nan, 0.0f, 1.0f, 1.0f)), 1);

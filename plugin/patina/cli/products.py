@@ -12,6 +12,7 @@ from patina.cli.errors import CommandError
 
 _AOV_NAMES = {"Ci": "color", "beauty": "color", "C.*": "color", "a": "alpha", "z": "depth", "N": "normal", "P": "position"}
 _SIZE = (2048, 1080)  # UsdRender's own
+_FAR = 1000.0  # frames that a window may reach beyond the frame
 _HALF = ("half", "half3", "half4", "color3h", "color4h")
 
 
@@ -75,7 +76,8 @@ def _shot(prim, product, arguments, time, decimals):
     output = shot.Output(image, tuple([*aovs, *extra]), arguments.half or half)
     size = _size(prim, product, arguments)
     camera = arguments.camera or prim.target(product, "camera")
-    return shot.Shot(time, [output], camera, size, _render_settings(prim, product, arguments, size))
+    return shot.Shot(time, [output], camera, size, _render_settings(prim, product, arguments, size),
+                     prim=str(product.GetPath() if product else prim.path))
 
 
 def _placed(product, name, arguments):
@@ -120,11 +122,8 @@ def _render_settings(prim, product, arguments, size):
         settings["enableDepthOfField"] = False
     window = prim.numbers(product, "dataWindowNDC", 4) if arguments.dataWindow is None else None
     if window is not None and window != [0.0, 0.0, 1.0, 1.0]:
-        # y up; pixels whose centres lie inside belong to it. Cut first: products of huge numbers overflow.
-        if min(window) < 0.0 or max(window) > 1.0:
-            prim.warn(prim.where(product, "dataWindowNDC"), "dataWindowNDC",
-                      "reaches beyond the image; no pixels are rendered outside of it")
-        (x0, y0, x1, y1), (width, height) = (min(1.0, max(0.0, n)) for n in window), size
+        # y up; pixels whose centres lie inside belong to it.
+        (x0, y0, x1, y1), (width, height) = (min(_FAR, max(-_FAR, n)) for n in window), size
         settings["dataWindow"] = [round(x0 * width), round((1.0 - y1) * height),
                                   round(x1 * width) - 1, round((1.0 - y0) * height) - 1]
         if settings["dataWindow"][2] < settings["dataWindow"][0] or settings["dataWindow"][3] < settings["dataWindow"][1]:

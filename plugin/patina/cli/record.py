@@ -18,6 +18,7 @@ Exit status: 0 done, 1 failed with a one-line reason, 2 wrong usage, 75 failed f
 a lost device) or ended by a signal: a scheduler may run the same again, with --resume.
 """
 import dataclasses
+import functools
 import os
 
 from patina.cli import (checkpoints, compiled, denoiser, frames, goOn, openStage, outputs, overrides, recordFlags,
@@ -196,8 +197,10 @@ class _Job:
         settings = dict(self.settings, **shot.settings)
         wanted = dict.fromkeys([*shot.aovs(), *(denoiser.GUIDES if self.arguments.denoise else ()),
                                 *(reports.AOVS if self.arguments.report else ())])
-        width, height = shots.size_of(shot, self.scene.camera(info.camera), settings["pixelAspectRatio"])
-        settings.update(width=width, height=height, aovs=list(wanted), timeMaterials=bool(self.arguments.report))
+        camera = self.scene.camera(info.camera)
+        size = shots.size_of(shot, camera, settings["pixelAspectRatio"])
+        shots.place(settings, size, camera, functools.partial(self.statistics.warn, shot.prim))
+        settings.update(aovs=list(wanted), timeMaterials=bool(self.arguments.report))
         return settings
 
     def _film(self, shot, settings, info):

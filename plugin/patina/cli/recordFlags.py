@@ -85,7 +85,8 @@ def _add_output_flags(group):
     group.add_argument("--makeOutputPath", "--make-output-path", action="store_true",
                        help="make the folders of what is written, where they are not there")
     group.add_argument("--dataWindow", type=_window, metavar="X0,Y0,X1,Y1",
-                       help="render only these pixels, both corners included, counted from the upper left")
+                       help="render only these pixels, both corners included, counted from the upper left; pixels beyond the "
+                            "image are overscan, which an OpenEXR file keeps beside its frame")
     group.add_argument("--aov", action="append", default=[], metavar="NAME",
                        help=f"also write this (repeatable, OpenEXR only): {', '.join(ALL_AOVS)}, any primvars:NAME, "
                             f"or all; light by its paths: {', '.join(LIGHT_AOVS)}, or NAME=lpe:EXPRESSION, in which "
@@ -185,8 +186,6 @@ def image_options_of(arguments):
                "display": arguments.display, "view": arguments.view, "pixel_aspect_ratio": arguments.pixelAspectRatio,
                "raw": arguments.colorCorrectionMode == "disabled",
                "outliers": arguments.outliers, "aovs": ["color", "alpha"] + aovs_of(arguments)}
-    if arguments.dataWindow:
-        options["data_window"] = arguments.dataWindow
     return options
 
 
@@ -242,7 +241,7 @@ def _suffix(text):
 
 def _window(text):
     values = [int(word) for word in text.split(",")]
-    if len(values) != 4 or values[0] < 0 or values[1] < 0 or values[2] < values[0] or values[3] < values[1]:
+    if len(values) != 4 or values[2] < values[0] or values[3] < values[1] or max(map(abs, values)) >= 2**31:
         raise ValueError
     return values
 

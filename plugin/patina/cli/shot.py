@@ -20,6 +20,7 @@ class Shot:
     size: tuple = (None, None)  # pixels; what is None follows from the camera
     settings: dict = field(default_factory=dict)  # render settings that differ from those of the command
     page: object = None  # of --report
+    prim: str = ""  # path of the product that it comes from, for messages
 
     @property
     def image(self):

@@ -50,12 +50,42 @@ def size_of(shot, camera, pixel_aspect):
     return width, height
 
 
+def place(settings, size, camera, warn):
+    """Sets the film's size. Where the data window reaches beyond the frame, the film is that window.
+
+    :param settings: dict of render settings, changed
+    :param size: of the frame, pixels
+    :param warn: takes an input's name and a message"""
+    width, height = settings["width"], settings["height"] = size
+    window = settings.get("dataWindow")
+    if not window or window[0] >= 0 and window[1] >= 0 and window[2] < width and window[3] < height:
+        return
+    film = window[2] - window[0] + 1, window[3] - window[1] + 1
+    if camera["has_overscan"] and film[0] * film[1] <= recordFlags.MAX_PIXELS and max(film) <= recordFlags.LARGEST_SIZE:
+        x, y = window[:2]
+        settings.update(width=film[0], height=film[1], frameWindow=[-x, -y, width - 1 - x, height - 1 - y])
+        del settings["dataWindow"]
+        return
+    warn("dataWindowNDC", "reaches beyond the image " + (
+        "by too many pixels" if camera["has_overscan"] else "of a camera whose lens has no overscan") +
+        "; no pixels are rendered outside of it")
+    window = [max(window[0], 0), max(window[1], 0), min(window[2], width - 1), min(window[3], height - 1)]
+    settings["dataWindow"] = window
+    if window[2] < window[0] or window[3] < window[1]:
+        del settings["dataWindow"]
+
+
 def image_options(arguments, shot, output, settings):
     """:param settings: of the render
     :returns: dict of image options of a file"""
     options = dict(recordFlags.image_options_of(arguments), aovs=list(output.aovs), half=output.half,
                    pixel_aspect_ratio=settings["pixelAspectRatio"])
-    if "dataWindow" in settings:
+    frame = settings.get("frameWindow")
+    if frame:
+        x, y = -frame[0], -frame[1]
+        options.update(display_width=frame[2] - frame[0] + 1, display_height=frame[3] - frame[1] + 1,
+                       data_window=[x, y, x + settings["width"] - 1, y + settings["height"] - 1])
+    elif "dataWindow" in settings:
         options["data_window"] = settings["dataWindow"]
     if arguments.denoise and "color" in output.aovs and output.image.lower().endswith(".exr"):
         options["aovs"].append(denoiser.NOISY)

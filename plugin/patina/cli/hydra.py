@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shows where the Hydra plugin is and whether a host can use it.
+"""Shows where the Hydra plugin is and whether a host can use it; builds it for several OpenUSDs.
 
   patina hydra
+  patina hydra --usd /opt/usd-24.11 --usd blender-5.0/ --headers OpenUSD/
   eval "$(patina hydra --environment)"; usdview stage.usda --renderer Patina
 
 The plugin is built for the OpenUSD that CMake found (PXR_USD_LOCATION, pxr_DIR or /usr/local/USD). The check
-loads it as a host does, and says why a host would refuse it. `cmake --install` puts it into PREFIX/plugin/usd; set
+loads it as a host does, and says why a host would refuse it. --usd, which is for a checkout, builds plugins side by side. `cmake --install` puts it into PREFIX/plugin/usd; set
 PXR_PLUGINPATH_NAME to that folder then.
 """
 import os
 import shlex
 import subprocess
 
-from patina.cli.errors import CommandError
+from patina.cli import hydraHosts
+from patina.cli.errors import CommandError, UsageError
 
 
 def add_arguments(parser):
@@ -20,7 +22,19 @@ def add_arguments(parser):
                         help="print the shell line that lets hosts find the plugin, and nothing else")
 
 
+    parser.add_argument("--usd", action="append", default=[], metavar="FOLDER",
+                        help="build the plugin for this OpenUSD, each in a folder of its own (repeatable): an installed one, or a "
+                             "program with an OpenUSD inside, such as Blender's")
+    parser.add_argument("--headers", action="append", default=[], metavar="FOLDER",
+                        help="of a program: OpenUSD's source of the very version, which programs do not bring (repeatable, in the "
+                             "order of --usd)")
+
+
 def run(arguments):
+    if arguments.usd:
+        return _build(arguments)
+    if arguments.headers:
+        raise UsageError("patina hydra: --headers belongs to --usd")
     folder, program = _places()
     if arguments.environment:
         print(f"export PXR_PLUGINPATH_NAME={shlex.quote(folder)}${{PXR_PLUGINPATH_NAME:+:$PXR_PLUGINPATH_NAME}}")
@@ -33,6 +47,17 @@ def run(arguments):
         environment.pop(name, None)
     if subprocess.run([program], env=environment, check=False).returncode:
         raise CommandError("a host would refuse the plugin; the reason is above")
+    return 0
+
+
+def _build(arguments):
+    command, build = os.environ.get("PATINA_COMMAND"), os.environ.get("PATINA_BUILD_DIR")
+    if not command or not build:
+        raise CommandError("--usd needs a checkout: ./patina hydra --usd FOLDER")
+    made = hydraHosts.build(arguments.usd, arguments.headers, os.path.join(build, "hosts"), command)
+    print("\nPXR_PLUGINPATH_NAME for each of them:")
+    for host, folder in zip(arguments.usd, made):
+        print(f"  {host}  {folder}")
     return 0
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Models that stand as cards: textured sides of their extents, or a cross of three planes."""
+"""Models that stand as cards: textured sides of their extents, a cross of three planes, or pictures where they were taken."""
 import os
 
 import numpy as np
@@ -17,8 +17,9 @@ _FACES = {
 _ST = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], np.float32)
 
 
-def faces_of(context, prim):
-    """:returns: dict from face to texture (empty for none), of the faces that are drawn"""
+def faces_of(context, prim, geometry):
+    """:param geometry: cross, box or fromTexture
+    :returns: dict from face to texture (empty for none), of the faces that are drawn"""
     textures = {}
     for face in _FACES:
         attribute = prim.GetAttribute("model:cardTexture" + face)
@@ -27,12 +28,14 @@ def faces_of(context, prim):
             context.warn(prim.GetPath(), "model:cardTexture" + face, f"there is no file {file}; the card is plain")
             file = ""
         textures[face] = file
+    if geometry == "fromTexture":
+        return {face: file for face, file in textures.items() if file}
     if any(textures.values()):
         # Sides without a picture of their own show that of the other side, or are left out.
         opposite = {face: face[0] + ("Neg" if face.endswith("Pos") else "Pos") for face in textures}
         textures = {face: file or textures[opposite[face]] for face, file in textures.items()
                     if file or textures[opposite[face]]}
-    if get(prim, "model:cardGeometry", context.time, "cross") != "box":
+    if geometry != "box":
         textures = {face: file for face, file in textures.items() if face.endswith("Pos")}
     return textures
 
@@ -48,17 +51,44 @@ def quad(face, low, high, cross):
     return points
 
 
+def quad_of_picture(metadata):
+    """The image's own `worldtoscreen`, 16 numbers by rows, takes the model to [-1,1]; y of the screen points down, as UsdImaging
+    has it. Older files call it worldToNDC.
+
+    :param metadata: dict of an image
+    :returns: four corners of a card
+    :raises RuntimeError: where the image has no such matrix, or none that can be turned back"""
+    text = metadata.get("worldtoscreen") or metadata.get("worldToNDC") or ""
+    try:
+        matrix = np.array([float(word) for word in str(text).replace(",", " ").split()]).reshape(4, 4)
+        corners = np.column_stack([_ST[:, 0] * 2 - 1, 1 - _ST[:, 1] * 2, np.zeros(4), np.ones(4)]) @ np.linalg.inv(matrix)
+    except (ValueError, np.linalg.LinAlgError):
+        raise RuntimeError("the picture has no worldtoscreen matrix of 16 numbers that can be turned back") from None
+    with np.errstate(all="ignore"):
+        points = (corners[:, :3] / corners[:, 3:]).astype(np.float32)
+    if not np.isfinite(points).all():
+        raise RuntimeError("the picture's worldtoscreen matrix puts corners out of reach")
+    return points
+
+
 def emit(context, found, low, high, common, color, module):
     """:param common: fields of the meshes: group, transform"""
     prim = found.prim
     geometry = get(prim, "model:cardGeometry", context.time, "cross")
-    if geometry not in ("cross", "box"):
+    if geometry not in ("cross", "box", "fromTexture"):
         context.warn(prim.GetPath(), "model:cardGeometry",
                      f"'{shown(geometry)}' is not drawn; a cross is shown instead")
-    for face, file in faces_of(context, prim).items():
+    for face, file in faces_of(context, prim, geometry).items():
         path = f"{found.path}/card{face}"
+        points = quad(face, low, high, geometry != "box")
+        if geometry == "fromTexture":
+            try:
+                points = quad_of_picture(module.read_image(file).metadata)
+            except RuntimeError as error:
+                context.warn(prim.GetPath(), "model:cardTexture" + face, f"{error}; the card is left out")
+                continue
         context.edit.set_mesh(
-            path, points=quad(face, low, high, geometry != "box"), face_vertex_counts=np.array([4], np.int32),
+            path, points=points, face_vertex_counts=np.array([4], np.int32),
             face_vertex_indices=np.arange(4, dtype=np.int32), double_sided=True,
             material=_material(context, path + "/material", file, module) if file else "",
             primvars=[("st", "vertex", _ST, None), ("displayColor", "constant", np.array([color], np.float32))],

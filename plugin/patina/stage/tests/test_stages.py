@@ -2,6 +2,7 @@
 """Whole files: broken ones, composition errors, models drawn as boxes, and every asset that is there."""
 import os
 
+import numpy as np
 import pytest
 
 
@@ -79,6 +80,24 @@ def test_models_drawn_as_cards(read, numbers, tmp_path):
     assert numbers(cross.prim("/model/cardZPos")["points"])[2::3] == [0, 0, 0, 0]
     assert not cross.has("/model/cardZNeg")
     assert any("model:cardTextureXPos: there is no file" in w for w in cross.warnings)
+
+
+def test_cards_stand_where_their_pictures_were_taken(read, numbers, tmp_path):
+    import _patina
+
+    # Takes the model's square of 4 by 2 units around (10, 0, 3) to the screen.
+    matrix = "0.5, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, -5, 0, -3, 1"
+    for name, metadata in (("x", {"worldtoscreen": matrix}), ("old", {"worldToNDC": matrix}), ("none", {})):
+        _patina.write_image(str(tmp_path / (name + ".exr")), np.ones((2, 2, 4), np.float32), metadata=metadata)
+    cards = read("""def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"]) {
+        uniform token model:drawMode = "cards"  uniform token model:cardGeometry = "fromTexture"
+        asset model:cardTextureXPos = @./x.exr@  asset model:cardTextureZNeg = @./old.exr@
+        asset model:cardTextureYPos = @./none.exr@
+        def Cube "c" { double size = 2 } }""")
+    for name in ("XPos", "ZNeg"):
+        assert numbers(cards.prim("/model/card" + name)["points"]) == [8, -1, 3, 12, -1, 3, 12, 1, 3, 8, 1, 3]
+    assert not cards.has("/model/cardYPos") and not cards.has("/model/cardXNeg")
+    assert any("no worldtoscreen matrix" in w for w in cards.warnings)
 
 
 def test_metadata(read):

@@ -19,6 +19,8 @@
 #define PATINA_HAS_CREATE_ARGS (HD_API_VERSION >= 83)
 /// Only the container form of IsSupported is left.
 #define PATINA_HAS_CREATE_ARGS_SCHEMA (HD_API_VERSION >= 103)
+/// HdRendererPlugin::GetSceneIndexCreateArgs.
+#define PATINA_HAS_SCENE_INDEX_CREATE_ARGS (HD_API_VERSION >= 101)
 /// HdSceneDelegate::SampleTransform and others take the interval.
 #define PATINA_HAS_SAMPLE_INTERVAL (HD_API_VERSION >= 68)
 /// HdExtComputationUtils::SampleComputedPrimvarValues takes it too.

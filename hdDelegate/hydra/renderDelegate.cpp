@@ -238,21 +238,21 @@ void HdPatinaRenderDelegate::CommitResources(HdChangeTracker*) {
     _state->param.reportWarnings();
 }
 
-TfToken HdPatinaRenderDelegate::GetMaterialBindingPurpose() const {
+TfToken HdPatinaRenderDelegate::materialBindingPurpose() {
     return HdTokens->full;
 }
 
-TfTokenVector HdPatinaRenderDelegate::GetMaterialRenderContexts() const {
+TfTokenVector HdPatinaRenderDelegate::materialRenderContexts() {
     // Some releases stop at the first context that yields anything, and every lookup falls back to
     // the universal one: mtlx has to come first.
     return {TfToken("mtlx"), TfToken()};
 }
 
-TfTokenVector HdPatinaRenderDelegate::GetRenderSettingsNamespaces() const {
+TfTokenVector HdPatinaRenderDelegate::renderSettingsNamespaces() {
     return {TfToken("patina")};
 }
 
-TfTokenVector HdPatinaRenderDelegate::GetShaderSourceTypes() const {
+TfTokenVector HdPatinaRenderDelegate::shaderSourceTypes() {
     return {TfToken("patina"), TfToken("mtlx")};
 }
 

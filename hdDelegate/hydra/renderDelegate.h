@@ -56,10 +56,17 @@ public:
     void DestroyBprim(HdBprim* prim) override;
     void CommitResources(HdChangeTracker* tracker) override;
 
-    TfToken GetMaterialBindingPurpose() const override;
-    TfTokenVector GetMaterialRenderContexts() const override;
-    TfTokenVector GetRenderSettingsNamespaces() const override;
-    TfTokenVector GetShaderSourceTypes() const override;
+    /// What plugins of newer releases tell before there is a delegate.
+    static TfToken materialBindingPurpose();
+    static TfTokenVector materialRenderContexts();
+    static TfTokenVector renderSettingsNamespaces();
+    static TfTokenVector shaderSourceTypes();
+    TfToken GetMaterialBindingPurpose() const override { return materialBindingPurpose(); }
+    TfTokenVector GetMaterialRenderContexts() const override { return materialRenderContexts(); }
+    TfTokenVector GetRenderSettingsNamespaces() const override {
+        return renderSettingsNamespaces();
+    }
+    TfTokenVector GetShaderSourceTypes() const override { return shaderSourceTypes(); }
 #if PATINA_HAS_PARALLEL_SPRIM_SYNC
     bool IsParallelSyncEnabled(const TfToken& primType) const override;
 #endif

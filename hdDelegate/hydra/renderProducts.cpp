@@ -146,8 +146,8 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
                    "holds no pixel; the whole image is rendered");
     else if (!place(s, *window, *param.scene(), output.camera))
         param.warn(product.productPath, "dataWindowNDC",
-                   "reaches beyond what the camera's film can hold; no pixels are rendered outside of "
-                   "the image");
+                   "reaches beyond the image, and the camera has no such film; no pixels are "
+                   "rendered outside of it");
     s.enableMotionBlur = s.enableMotionBlur && !product.disableMotionBlur;
 #if PATINA_HAS_PRODUCT_DEPTH_OF_FIELD
     s.enableDepthOfField = s.enableDepthOfField && !product.disableDepthOfField;

@@ -6,6 +6,11 @@
 
 #include <pxr/base/tf/diagnostic.h>
 #include <pxr/imaging/hd/rendererPluginRegistry.h>
+#if PATINA_HAS_SCENE_INDEX_CREATE_ARGS
+#include <pxr/imaging/hd/renderDelegateInfo.h>
+#include <pxr/imaging/hd/retainedDataSource.h>
+#include <pxr/imaging/hd/sceneIndexCreateArgsSchema.h>
+#endif
 
 #include <exception>
 
@@ -51,6 +56,26 @@ bool HdPatinaRendererPlugin::IsSupported(bool) const {
 #else
 bool HdPatinaRendererPlugin::IsSupported(bool) const {
     return patina::isSupported(nullptr);
+}
+#endif
+
+#if PATINA_HAS_SCENE_INDEX_CREATE_ARGS
+HdContainerDataSourceHandle HdPatinaRendererPlugin::GetSceneIndexCreateArgs() const {
+    using patina::HdPatinaRenderDelegate;
+    HdRenderDelegateInfo info;
+    info.materialBindingPurpose = HdPatinaRenderDelegate::materialBindingPurpose();
+    info.materialRenderContexts = HdPatinaRenderDelegate::materialRenderContexts();
+    info.renderSettingsNamespaces = HdPatinaRenderDelegate::renderSettingsNamespaces();
+    info.isPrimvarFilteringNeeded = false;
+    info.shaderSourceTypes = HdPatinaRenderDelegate::shaderSourceTypes();
+    info.isCoordSysSupported = true;
+    const auto yes = HdRetainedTypedSampledDataSource<bool>::New(true);
+    return HdSceneIndexCreateArgsSchema::Builder()
+        .SetMotionBlurSupport(yes)
+        .SetCameraMotionBlurSupport(yes)
+        .SetLegacyRenderDelegateInfo(
+            HdRetainedTypedSampledDataSource<HdRenderDelegateInfo>::New(info))
+        .Build();
 }
 #endif
 

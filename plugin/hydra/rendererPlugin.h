@@ -30,6 +30,9 @@ public:
 #else
     bool IsSupported(bool gpuEnabled) const override;
 #endif
+#if PATINA_HAS_SCENE_INDEX_CREATE_ARGS
+    HdContainerDataSourceHandle GetSceneIndexCreateArgs() const override;
+#endif
 
 protected:
     /// @param backend default of the render setting `backend`

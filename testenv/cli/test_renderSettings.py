@@ -368,14 +368,14 @@ def test_settings_that_are_not_allowed_are_told(folder, line, said):
 @pytest.mark.parametrize("backend", ["embree", "raster"])
 def test_overscan_shows_what_lies_beside_the_frame(folder, backend):
     """The file's frame is the image without overscan, of the same camera."""
-    _odd(folder, "alone", "float4 dataWindowNDC = (-0.25, -0.5, 1.25, 1.25)")
+    _odd(folder, "alone", "float4 dataWindowNDC = (-0.25, -0.5, 1.25, 1.5)")
     common = ("--samples", 64, "--backend", backend)
     assert record("over.exr", "--settings", "/Render/alone", *common) == 0
     _odd(folder, "alone", "float4 dataWindowNDC = (0, 0, 1, 1)")
     assert record("plain.exr", "--settings", "/Render/alone", *common) == 0
     over, plain = image("over.exr"), image("plain.exr")
     width, height = plain.width, plain.height
-    assert (over.x, over.y, over.width, over.height) == (-width // 4, -height // 4, width * 3 // 2, height * 7 // 4)
+    assert (over.x, over.y, over.width, over.height) == (-width // 4, -height // 2, width * 3 // 2, height * 2)
     assert (over.display_width, over.display_height) == (width, height)
     own = np.array(over.pixels)[-over.y:-over.y + height, -over.x:-over.x + width]
     assert np.abs(own - np.array(plain.pixels)).mean() < 0.1 * np.abs(np.array(plain.pixels)).mean()

@@ -84,7 +84,7 @@ _ROWS = (
      "compare the number of values with the interpolation, and the indices with the values"),
     (r"sample times|time samples in the shutter|number of points changes|sample is left out",
      "write samples with the same topology; Patina blurs these alone"),
-    (r"displayed|not drawn; a cross|cards", "correct `model:cardGeometry`, or set `model:drawMode` to default"),
+    (r"displayed|not drawn; a cross|card is left out", "correct `model:cardGeometry`, or set `model:drawMode` to default"),
     (r"prims of type", "convert the prim to a shape of UsdGeom that [features](../features.md) lists"),
     (r"has no interpolation", "write constant, uniform, varying, vertex or faceVarying as the primvar's interpolation"),
     (r"drawn without them", "compare the lengths of the BlendShape's `offsets` and `pointIndices` with the mesh's points"),

@@ -3,17 +3,21 @@
 
   patina hydra
   patina hydra --usd /opt/usd-24.11 --usd blender-5.0/ --headers OpenUSD/
+  patina hydra --blender blender-5.0/ --headers OpenUSD/ --output patina.zip
   eval "$(patina hydra --environment)"; usdview stage.usda --renderer Patina
 
-The plugin is built for the OpenUSD that CMake found (PXR_USD_LOCATION, pxr_DIR or /usr/local/USD). The check
-loads it as a host does, and says why a host would refuse it. --usd, which is for a checkout, builds plugins side by side. `cmake --install` puts it into PREFIX/plugin/usd; set
-PXR_PLUGINPATH_NAME to that folder then.
+The plugin is built for the OpenUSD that CMake found (PXR_USD_LOCATION, pxr_DIR or /usr/local/USD). The check loads it as a host
+does, and says why a host would refuse it. `cmake --install` puts it into PREFIX/plugin/usd; set PXR_PLUGINPATH_NAME to that
+folder then.
+
+--usd builds plugins side by side, from a checkout. --blender packs one as an extension, which Blender's preferences install
+("Install from Disk").
 """
 import os
 import shlex
 import subprocess
 
-from patina.cli import hydraHosts
+from patina.cli import blenderAddOn, hydraHosts
 from patina.cli.errors import CommandError, UsageError
 
 
@@ -23,18 +27,25 @@ def add_arguments(parser):
 
 
     parser.add_argument("--usd", action="append", default=[], metavar="FOLDER",
-                        help="build the plugin for this OpenUSD, each in a folder of its own (repeatable): an installed one, or a "
-                             "program with an OpenUSD inside, such as Blender's")
+                        help="build the plugin for this OpenUSD, each in a folder of its own (repeatable): an installed one, "
+                             "or a program with an OpenUSD inside, such as Blender's")
+    parser.add_argument("--blender", metavar="FOLDER",
+                        help="build the plugin for this Blender, or module bpy, and pack it as an extension")
+    parser.add_argument("--output", metavar="FILE.zip", help="of --blender (default: patina-blender-VERSION.zip)")
     parser.add_argument("--headers", action="append", default=[], metavar="FOLDER",
-                        help="of a program: OpenUSD's source of the very version, which programs do not bring (repeatable, in the "
-                             "order of --usd)")
+                        help="of a program: OpenUSD's source of the very version, which programs do not bring (repeatable, in "
+                             "the order of --usd)")
 
 
 def run(arguments):
-    if arguments.usd:
+    if arguments.blender and arguments.usd:
+        raise UsageError("patina hydra: --blender and --usd are two commands")
+    if arguments.output and not arguments.blender:
+        raise UsageError("patina hydra: --output belongs to --blender")
+    if arguments.usd or arguments.blender:
         return _build(arguments)
     if arguments.headers:
-        raise UsageError("patina hydra: --headers belongs to --usd")
+        raise UsageError("patina hydra: --headers belongs to --usd or --blender")
     folder, program = _places()
     if arguments.environment:
         print(f"export PXR_PLUGINPATH_NAME={shlex.quote(folder)}${{PXR_PLUGINPATH_NAME:+:$PXR_PLUGINPATH_NAME}}")
@@ -54,10 +65,17 @@ def _build(arguments):
     command, build = os.environ.get("PATINA_COMMAND"), os.environ.get("PATINA_BUILD_DIR")
     if not command or not build:
         raise CommandError("--usd needs a checkout: ./patina hydra --usd FOLDER")
-    made = hydraHosts.build(arguments.usd, arguments.headers, os.path.join(build, "hosts"), command)
+    hosts = arguments.usd or [arguments.blender]
+    if arguments.blender:
+        file = arguments.output or f"patina-blender-{blenderAddOn.blender_version(arguments.blender)}.zip"
+    made = hydraHosts.build(hosts, arguments.headers, os.path.join(build, "hosts"), command)
+    if arguments.blender:
+        blenderAddOn.pack(arguments.blender, made[0].plugin, made[0].version, file)
+        print(f"\n{file}: for Blender {blenderAddOn.blender_version(arguments.blender)}")
+        return 0
     print("\nPXR_PLUGINPATH_NAME for each of them:")
-    for host, folder in zip(arguments.usd, made):
-        print(f"  {host}  {folder}")
+    for host, one in zip(hosts, made):
+        print(f"  {host}  {one.plugin}")
     return 0
 
 

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sysconfig
+from typing import NamedTuple
 
 from patina.cli.errors import CommandError
 
@@ -17,9 +18,9 @@ add_library(usd_ms SHARED IMPORTED)
 set_target_properties(usd_ms PROPERTIES
     IMPORTED_LOCATION "{prefix}/lib/{library}"
     INTERFACE_INCLUDE_DIRECTORIES "{prefix}/include;{headers};{pythonInclude}"
-    # The host's Python is in its executable; our test programs bring one.
-    INTERFACE_LINK_OPTIONS "-Wl,--allow-shlib-undefined;$<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:{pythonLibrary}>"
-    INTERFACE_LINK_LIBRARIES "{tbb}")
+    INTERFACE_LINK_OPTIONS "-Wl,--allow-shlib-undefined"
+    # The host's Python is in its executable; our own programs bring one.
+    INTERFACE_LINK_LIBRARIES "{tbb};$<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:{pythonLibrary}>")
 """
 
 
@@ -30,9 +31,9 @@ def prefix_of(host, headers, folder):
     :returns: (name, folder that holds pxrConfig.cmake)
     :raises CommandError: where the two do not fit, or something is missing"""
     host = os.path.abspath(host)
-    for place in ("", "lib/cmake/pxr", "cmake"):
-        if os.path.exists(os.path.join(host, place, "pxrConfig.cmake")):
-            return os.path.basename(host), os.path.join(host, place)
+    installed = _installed(host)
+    if installed:
+        return os.path.basename(host), installed
     library = _library(host)
     if not headers:
         raise CommandError(f"{host} has no pxrConfig.cmake; --headers FOLDER names OpenUSD's source of its version")
@@ -42,7 +43,9 @@ def prefix_of(host, headers, folder):
     name = namespace.replace("__pxrReserved__", "")
     prefix = os.path.join(folder, name, "openUSD")
     _write_headers(headers, os.path.join(prefix, "include"), version, namespace)
-    _link(host, library, os.path.join(prefix, "lib"))
+    _link(_libraries(host, library), os.path.join(prefix, "lib"))
+    usdrecord = os.path.join(headers, "pxr", "usdImaging", "bin", "usdrecord", "usdrecord.py")
+    _link({"usdrecord": usdrecord} if os.path.exists(usdrecord) else {}, os.path.join(prefix, "bin"))
     tbb = sorted(glob.glob(os.path.join(prefix, "lib", "libtbb.so*")))
     values = sysconfig.get_config_var
     _write(os.path.join(prefix, "pxrConfig.cmake"), _CONFIG.format(
@@ -50,6 +53,12 @@ def prefix_of(host, headers, folder):
         headers=headers, pythonInclude=sysconfig.get_path("include"), tbb=tbb[0] if tbb else "tbb",
         pythonLibrary=os.path.join(values("LIBDIR") or "", values("LDLIBRARY") or "")))
     return name, prefix
+
+
+def _installed(host):
+    """:returns: the folder of an OpenUSD that holds pxrConfig.cmake, or None"""
+    places = (os.path.join(host, place) for place in ("", "lib/cmake/pxr", "cmake"))
+    return next((place for place in places if os.path.exists(os.path.join(place, "pxrConfig.cmake"))), None)
 
 
 def _library(host):
@@ -115,16 +124,20 @@ def _write(path, text):
         file.write(text)
 
 
-def _link(host, library, folder):
-    """The libraries, the plugins' resources and the Python modules, where an installed OpenUSD has them."""
+def _libraries(host, library):
+    """:returns: dict from name to file or folder: libraries, resources and Python modules, as in an installed OpenUSD"""
     beside = os.path.dirname(library)
-    wanted = {name: os.path.join(beside, name) for name in os.listdir(beside) if ".so" in name}
-    wanted["usd"] = os.path.join(beside, "usd")
+    found = {name: os.path.join(beside, name) for name in os.listdir(beside) if ".so" in name}
+    found["usd"] = os.path.join(beside, "usd")
     module = glob.glob(os.path.join(glob.escape(host), "**", "site-packages", "pxr", "__init__.py"), recursive=True)
-    wanted.update({os.path.join("python", "pxr"): os.path.dirname(path) for path in module[:1]})
-    os.makedirs(os.path.join(folder, "python"), exist_ok=True)
-    for name, target in wanted.items():
+    found.update({os.path.join("python", "pxr"): os.path.dirname(path) for path in module[:1]})
+    return found
+
+
+def _link(targets, folder):
+    for name, target in targets.items():
         link = os.path.join(folder, name)
+        os.makedirs(os.path.dirname(link), exist_ok=True)
         if os.path.islink(link):
             os.remove(link)
         os.symlink(target, link)
@@ -141,6 +154,11 @@ def _python(host):
     return own[0] if own else ""
 
 
+class Built(NamedTuple):
+    plugin: str  # the folder for PXR_PLUGINPATH_NAME
+    version: tuple  # of its OpenUSD: minor and patch
+
+
 def build(hosts, headers, folder, command):
     """Builds a plugin for each OpenUSD in a folder of its own.
 
@@ -148,12 +166,11 @@ def build(hosts, headers, folder, command):
     :param headers: of those that need them, in this order
     :param folder: of all
     :param command: the path of `patina`
-    :returns: list of folders for PXR_PLUGINPATH_NAME
+    :returns: list of Built
     :raises CommandError: where one cannot be built"""
     left, made = list(headers), []
     for host in hosts:
-        installed = any(os.path.exists(os.path.join(host, place, "pxrConfig.cmake")) for place in ("", "lib/cmake/pxr", "cmake"))
-        name, prefix = prefix_of(host, None if installed or not left else left.pop(0), folder)
+        name, prefix = prefix_of(host, None if _installed(host) or not left else left.pop(0), folder)
         own = os.path.join(folder, name, "build")
         environment = {**os.environ, "PATINA_BUILD_DIR": own, "PXR_USD_LOCATION": prefix}
         for variable in ("PYTHONPATH", "PYTHONSAFEPATH", "pxr_DIR"):
@@ -161,5 +178,7 @@ def build(hosts, headers, folder, command):
         print(f"\n{host}:", flush=True)
         if subprocess.run([command, "hydra"], env=environment, check=False).returncode:
             raise CommandError(f"no plugin for {host}; the reason is above")
-        made.append(os.path.join(own, "usdPlugin"))
+        with open(os.path.join(prefix, "pxrConfig.cmake"), encoding="utf-8") as file:
+            number = int(re.search(r'set\(PXR_VERSION "?(\d+)', file.read()).group(1))
+        made.append(Built(os.path.join(own, "usdPlugin"), divmod(number, 100)))
     return made

@@ -66,9 +66,7 @@ def place(settings, size, camera, warn):
         settings.update(width=film[0], height=film[1], frameWindow=[-x, -y, width - 1 - x, height - 1 - y])
         del settings["dataWindow"]
         return
-    warn("dataWindowNDC", "reaches beyond the image " + (
-        "by too many pixels" if camera["has_overscan"] else "of a camera whose lens has no overscan") +
-        "; no pixels are rendered outside of it")
+    warn("dataWindowNDC", "reaches beyond the image, and the camera has no such film; no pixels are rendered outside of it")
     window = [max(window[0], 0), max(window[1], 0), min(window[2], width - 1), min(window[3], height - 1)]
     settings["dataWindow"] = window
     if window[2] < window[0] or window[3] < window[1]:

@@ -52,16 +52,18 @@ def quad(face, low, high, cross):
 
 
 def quad_of_picture(metadata):
-    """The image's own `worldtoscreen`, 16 numbers by rows, takes the model to [-1,1]; y of the screen points down, as UsdImaging
-    has it. Older files call it worldToNDC.
+    """The image's own `worldtoscreen`, 16 numbers by rows, takes the model to [-1,1]; y of the screen points down, as
+    UsdImaging has it. Older files call it worldToNDC.
 
     :param metadata: dict of an image
     :returns: four corners of a card
     :raises RuntimeError: where the image has no such matrix, or none that can be turned back"""
-    text = metadata.get("worldtoscreen") or metadata.get("worldToNDC") or ""
+    named = {name.lower(): value for name, value in metadata.items()}
+    text = named.get("worldtoscreen") or named.get("worldtondc") or ""
     try:
         matrix = np.array([float(word) for word in str(text).replace(",", " ").split()]).reshape(4, 4)
-        corners = np.column_stack([_ST[:, 0] * 2 - 1, 1 - _ST[:, 1] * 2, np.zeros(4), np.ones(4)]) @ np.linalg.inv(matrix)
+        screen = np.column_stack([_ST[:, 0] * 2 - 1, 1 - _ST[:, 1] * 2, np.zeros(4), np.ones(4)])
+        corners = screen @ np.linalg.inv(matrix)
     except (ValueError, np.linalg.LinAlgError):
         raise RuntimeError("the picture has no worldtoscreen matrix of 16 numbers that can be turned back") from None
     with np.errstate(all="ignore"):

@@ -88,11 +88,11 @@ def test_cards_stand_where_their_pictures_were_taken(read, numbers, tmp_path):
     # Takes the model's square of 4 by 2 units around (10, 0, 3) to the screen.
     matrix = "0.5, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, -5, 0, -3, 1"
     for name, metadata in (("x", {"worldtoscreen": matrix}), ("old", {"worldToNDC": matrix}), ("none", {})):
-        _patina.write_image(str(tmp_path / (name + ".exr")), np.ones((2, 2, 4), np.float32), metadata=metadata)
+        _patina.write_image(str(tmp_path / (name + ".png")), np.ones((2, 2, 4), np.float32), metadata=metadata)
     cards = read("""def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"]) {
         uniform token model:drawMode = "cards"  uniform token model:cardGeometry = "fromTexture"
-        asset model:cardTextureXPos = @./x.exr@  asset model:cardTextureZNeg = @./old.exr@
-        asset model:cardTextureYPos = @./none.exr@
+        asset model:cardTextureXPos = @./x.png@  asset model:cardTextureZNeg = @./old.png@
+        asset model:cardTextureYPos = @./none.png@
         def Cube "c" { double size = 2 } }""")
     for name in ("XPos", "ZNeg"):
         assert numbers(cards.prim("/model/card" + name)["points"]) == [8, -1, 3, 12, -1, 3, 12, 1, 3, 8, 1, 3]

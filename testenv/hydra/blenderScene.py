@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs in a Blender: installs the extension, makes a scene of its own, exports it and renders it with several engines.
+
+  python blenderScene.py EXTENSION.zip FOLDER [ENGINE...]
+
+FOLDER gets scene.usda and ENGINE.exr of each engine (PATINA, CYCLES)."""
+import math
+import os
+import sys
+
+import bpy
+
+SIZE, SAMPLES = (160, 120), 64
+
+
+def material(name, **inputs):
+    made = bpy.data.materials.new(name)
+    made.use_nodes = True
+    principled = made.node_tree.nodes["Principled BSDF"]
+    for key, value in inputs.items():
+        principled.inputs[key.replace("_", " ")].default_value = value
+    return made
+
+
+def textured(folder):
+    """A checker that an image file holds."""
+    image = bpy.data.images.new("checker", 64, 64)
+    image.pixels[:] = [c for y in range(64) for x in range(64)
+                       for c in ((0.8, 0.7, 0.2, 1.0) if (x // 8 + y // 8) % 2 else (0.1, 0.2, 0.5, 1.0))]
+    image.filepath_raw, image.file_format = os.path.join(folder, "checker.png"), "PNG"
+    image.save()
+    made = material("textured", Roughness=0.6)
+    node = made.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image = image
+    made.node_tree.links.new(node.outputs["Color"], made.node_tree.nodes["Principled BSDF"].inputs["Base Color"])
+    return made
+
+
+def materials(folder):
+    return [
+        material("matte", Base_Color=(0.6, 0.3, 0.2, 1), Roughness=1.0, Specular_IOR_Level=0.0),
+        material("plastic", Base_Color=(0.1, 0.4, 0.7, 1), Roughness=0.3),
+        material("gloss", Base_Color=(0.5, 0.05, 0.05, 1), Roughness=0.1),
+        material("gold", Base_Color=(1.0, 0.77, 0.34, 1), Metallic=1.0, Roughness=0.25),
+        material("steel", Base_Color=(0.6, 0.6, 0.62, 1), Metallic=1.0, Roughness=0.5),
+        material("coated", Base_Color=(0.2, 0.5, 0.1, 1), Roughness=0.6, Coat_Weight=1.0, Coat_Roughness=0.05),
+        material("glow", Base_Color=(0, 0, 0, 1), Emission_Color=(1, 0.6, 0.2, 1), Emission_Strength=0.8),
+        material("half", Base_Color=(0.7, 0.7, 0.2, 1), Roughness=0.8, Alpha=0.5),
+        material("grey", Base_Color=(0.18, 0.18, 0.18, 1), Roughness=0.8),
+        material("white", Base_Color=(0.8, 0.8, 0.8, 1), Roughness=0.9),
+        material("dark", Base_Color=(0.02, 0.02, 0.02, 1), Roughness=0.4),
+        textured(folder),
+    ]
+
+
+def link(name, data, place=(0, 0, 0), turn=(0, 0, 0)):
+    thing = bpy.data.objects.new(name, data)
+    thing.location, thing.rotation_euler = place, turn
+    bpy.context.scene.collection.objects.link(thing)
+    return thing
+
+
+def light(name, kind, energy, place, turn=(0, 0, 0), **values):
+    data = bpy.data.lights.new(name, kind)
+    data.energy = energy
+    for key, value in values.items():
+        setattr(data, key, value)
+    return link(name, data, place, turn)
+
+
+def make(folder):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    scene.render.resolution_x, scene.render.resolution_y = SIZE
+    scene.view_settings.view_transform = "Standard"
+    looks = materials(folder)
+    bpy.ops.mesh.primitive_plane_add(size=14, location=(0, 0, 0))
+    bpy.context.object.data.materials.append(looks[9])
+    for i, look in enumerate(looks):
+        place = (-2.5 + (i % 6), -0.8 + 1.2 * (i // 6), 0.4)
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=0.4, location=place, segments=48, ring_count=24)
+        bpy.ops.object.shade_smooth()
+        bpy.context.object.data.materials.append(look)
+    bpy.ops.mesh.primitive_cube_add(size=0.3, location=(0, 0, -20))  # out of sight, its instances are not
+    seed = bpy.context.object
+    seed.data.materials.append(looks[4])
+    for i in range(5):
+        link(f"copy{i}", seed.data, (-2 + i, 2.0, 0.15 + 0.1 * i), (0, 0, 0.3 * i))
+    bpy.data.curves.new("bow", "CURVE")
+    curve = bpy.data.curves["bow"]
+    curve.dimensions, curve.bevel_depth = "3D", 0.05
+    spline = curve.splines.new("BEZIER")
+    spline.bezier_points.add(2)
+    for point, place in zip(spline.bezier_points, ((-3, 2.6, 0.1), (0, 2.6, 1.6), (3, 2.6, 0.1))):
+        point.co = place
+        point.handle_left_type = point.handle_right_type = "AUTO"
+    curve.materials.append(looks[3])
+    link("bow", curve)
+    light("sun", "SUN", 1.0, (0, 0, 5), (0.6, 0.2, 0))
+    light("point", "POINT", 60, (-3, -3, 3), shadow_soft_size=0.3)
+    light("spot", "SPOT", 200, (3, -3, 4), (0.75, 0, 0.75), spot_size=0.9, spot_blend=0.3, shadow_soft_size=0.2)
+    light("square", "AREA", 60, (0, 3, 4), (-0.6, 0, 0), shape="SQUARE", size=1.0)
+    light("disk", "AREA", 40, (-4, 0, 3), (0, -0.9, 0), shape="DISK", size=0.8)
+    world = bpy.data.worlds.new("sky")
+    scene.world = world
+    world.use_nodes = True
+    world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.2, 0.25, 0.3, 1)
+    camera = bpy.data.cameras.new("camera")
+    camera.lens = 35
+    scene.camera = link("camera", camera, (0, -7.5, 4.2), (math.radians(62), 0, 0))
+    return scene
+
+
+def install(file):
+    bpy.ops.extensions.package_install_files(filepath=file, repo="user_default", enable_on_install=True)
+
+
+def main(extension, folder, engines):
+    install(extension)
+    scene = make(folder)
+    install(extension)  # factory settings forget it
+    bpy.ops.wm.usd_export(filepath=os.path.join(folder, "scene.usda"), export_materials=True,
+                          generate_preview_surface=True, export_textures_mode="KEEP", convert_world_material=True)
+    for engine in engines:
+        scene.render.engine = engine
+        if engine == "PATINA":
+            scene.patina.samples = SAMPLES
+        else:
+            scene.cycles.samples, scene.cycles.use_denoising = 4 * SAMPLES, False
+        scene.render.image_settings.file_format = "OPEN_EXR"
+        scene.render.image_settings.color_depth = "32"
+        scene.render.filepath = os.path.join(folder, engine + ".exr")
+        bpy.ops.render.render(write_still=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2], sys.argv[3:] or ["PATINA"])

@@ -68,7 +68,7 @@ def _build(arguments):
     hosts = arguments.usd or [arguments.blender]
     if arguments.blender:
         file = arguments.output or f"patina-blender-{blenderAddOn.blender_version(arguments.blender)}.zip"
-    made = hydraHosts.build(hosts, arguments.headers, os.path.join(build, "hosts"), command)
+    made = hydraHosts.build_all(hosts, arguments.headers, build, command)
     if arguments.blender:
         blenderAddOn.pack(arguments.blender, made[0].plugin, made[0].version, file)
         print(f"\n{file}: for Blender {blenderAddOn.blender_version(arguments.blender)}")

@@ -159,19 +159,19 @@ class Built(NamedTuple):
     version: tuple  # of its OpenUSD: minor and patch
 
 
-def build(hosts, headers, folder, command):
+def build_all(hosts, headers, build, command):
     """Builds a plugin for each OpenUSD in a folder of its own.
 
     :param hosts: paths; see prefix_of()
     :param headers: of those that need them, in this order
-    :param folder: of all
+    :param build: the build folder of the checkout
     :param command: the path of `patina`
     :returns: list of Built
     :raises CommandError: where one cannot be built"""
     left, made = list(headers), []
     for host in hosts:
-        name, prefix = prefix_of(host, None if _installed(host) or not left else left.pop(0), folder)
-        own = os.path.join(folder, name, "build")
+        name, prefix = prefix_of(host, None if _installed(host) or not left else left.pop(0), os.path.join(build, "hosts"))
+        own = f"{build}-{name}"  # beside it, where ccache finds what both compile
         environment = {**os.environ, "PATINA_BUILD_DIR": own, "PXR_USD_LOCATION": prefix}
         for variable in ("PYTHONPATH", "PYTHONSAFEPATH", "pxr_DIR"):
             environment.pop(variable, None)

@@ -38,6 +38,7 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
         addRadiance(path, radiance);
         return;
     }
+    if (!path.specular && _lights.info(light).ownShadows) return; // light samples have it all
     const float lightPdf =
         path.specular ? 0.0f
                       : _lights.set().pdfTriangle(light - _lights.set().lightCount(), path.vertex,
@@ -71,7 +72,8 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
         if (radiance == vec3(0.0f)) return vec3(0.0f);
     }
     const float lightPdf = path.lightSamples * light.pdf;
-    const float weight = light.delta ? 1.0f : misWeight(lightPdf, f.pdf, info.dome);
+    const bool sampledAlone = light.delta || (info.triangles && info.ownShadows);
+    const float weight = sampledAlone ? 1.0f : misWeight(lightPdf, f.pdf, info.dome);
     const float away = glm::dot(light.direction, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
     const vec3 origin = point.departure(light.direction);
     const MaterialProgram& program = *point.slot->program;
@@ -122,6 +124,7 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit,
     if (path.lightPaths) announceScatter(path, next, bsdf);
     path.origin = point.departure(next.wi);
     path.direction = next.wi;
+    path.departs = true;
     path.near = 0.0f;
     path.far = INFINITY;
     path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f * next.roughness);
@@ -136,6 +139,8 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
     float travelled = 0.0f; // since the last vertex, over surfaces that were passed through
     const bool hasFiniteLights = _lights.set().hasIntersectable();
     while (true) {
+        if (std::exchange(path.departs, false) && _lights.hasOwnShadows())
+            addOwnShadows(path, counters);
         Hit hit;
         ++counters.rays;
         const bool found = _scene.intersect(path.origin, path.direction, path.near, path.far,

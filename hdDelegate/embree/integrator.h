@@ -73,6 +73,10 @@ private:
     void addFeatures(const Path& path, const AovTarget& target) const;
     void trace(Path& path, const AovTarget& target, TraceCounters& counters) const;
     float addLightsAlong(Path& path, float distance) const;
+    void addOwnShadows(Path& path, TraceCounters& counters) const;
+    void addInfinite(Path& path, int light, const vec3& seen) const;
+    /// Density with which light samples find what a ray from a vertex has met.
+    float densityOf(const Path& path, const LightHit& hit) const;
     vec3 filteredTo(const Path& path, int light, float distance) const;
     void addLight(Path& path, int light, const vec3& radiance, float lightPdf) const;
     void addRadiance(Path& path, const vec3& radiance) const;

@@ -40,15 +40,51 @@ float Integrator::addLightsAlong(Path& path, float distance) const {
         path.alpha = 1.0f;
         return nearest->distance;
     }
-    for (int i = 0; i < count; ++i) {
-        const float lightPdf =
-            path.specular ? 0.0f
-                          : _lights.set().pdf(hits[i].light, path.vertex, path.vertexNormal,
-                                              path.vertexTwoSided, path.time, hits[i]);
-        addLight(path, hits[i].light, transmittanceTo(path, hits[i].distance) * hits[i].radiance,
-                 lightPdf);
-    }
+    for (int i = 0; i < count; ++i)
+        if (path.specular || !_lights.info(hits[i].light).ownShadows)
+            addLight(path, hits[i].light,
+                     transmittanceTo(path, hits[i].distance) * hits[i].radiance,
+                     densityOf(path, hits[i]));
     return distance;
+}
+
+float Integrator::densityOf(const Path& path, const LightHit& hit) const {
+    return path.specular ? 0.0f
+                         : _lights.set().pdf(hit.light, path.vertex, path.vertexNormal,
+                                             path.vertexTwoSided, path.time, hit);
+}
+
+/// Lights with shadows of their own, which a ray from a vertex finds past the shapes that stop it,
+/// as light samples do. Triangles that glow are left to light samples. A mirror shows lights where
+/// its ray meets them.
+void Integrator::addOwnShadows(Path& path, TraceCounters& counters) const {
+    if (path.specular || path.throughCasters) return;
+    const auto seen = [&](int light, float distance) {
+        const LightInfo& info = _lights.info(light);
+        return filteredTo(path, light, distance) *
+               visibility(path, path.media, path.origin, path.direction, distance, info, counters);
+    };
+    LightHit hits[8];
+    const int count = _lights.set().intersect(path.origin, path.direction, 0.0f, INFINITY,
+                                              path.time, hits, 8);
+    for (int i = 0; i < count; ++i)
+        if (_lights.info(hits[i].light).ownShadows)
+            addLight(path, hits[i].light, hits[i].radiance * seen(hits[i].light, hits[i].distance),
+                     densityOf(path, hits[i]));
+    for (int light : _lights.set().infiniteLights())
+        if (_lights.info(light).ownShadows) addInfinite(path, light, seen(light, INFINITY));
+}
+
+/// @param seen what is left of the light on its way
+void Integrator::addInfinite(Path& path, int light, const vec3& seen) const {
+    const EnvironmentMap::Place place = _lights.set().place(light, path.direction, path.time);
+    const vec3 radiance = _lights.set().environment(light, place, path.time) * seen;
+    if (radiance == vec3(0.0f)) return;
+    const float lightPdf =
+        path.specular ? 0.0f
+                      : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
+                                                  path.vertexTwoSided, place, path.time);
+    addLight(path, light, radiance, lightPdf);
 }
 
 /// Light found by following the BSDF, weighted against what light samples would have found.
@@ -70,21 +106,17 @@ void Integrator::addEscaped(Path& path) const {
     for (int light : _lights.set().infiniteLights()) {
         const LightInfo& info = _lights.info(light);
         if (path.fromCamera() && (!info.cameraVisible || !info.dome)) continue;
+        if (!path.fromCamera()) {
+            if (path.specular || !info.ownShadows)
+                addInfinite(path, light, filteredTo(path, light, INFINITY));
+            continue;
+        }
         const EnvironmentMap::Place place = _lights.set().place(light, path.direction, path.time);
         const vec3 radiance =
             _lights.set().environment(light, place, path.time) * filteredTo(path, light, INFINITY);
-        if (path.fromCamera()) {
-            path.radiance += path.throughput * radiance;
-            if (path.lightPaths) path.lightPaths->see(emitterOf(light), path.throughput * radiance);
-            path.alpha = 1.0f;
-            continue;
-        }
-        if (radiance == vec3(0.0f)) continue;
-        const float lightPdf =
-            path.specular ? 0.0f
-                          : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
-                                                      path.vertexTwoSided, place, path.time);
-        addLight(path, light, radiance, lightPdf);
+        path.radiance += path.throughput * radiance;
+        if (path.lightPaths) path.lightPaths->see(emitterOf(light), path.throughput * radiance);
+        path.alpha = 1.0f;
     }
 }
 

@@ -25,7 +25,8 @@ vec3 Integrator::mediumLight(const Path& path, const vec3& position, const sh::P
     vec3 radiance = light.radiance;
     if (info.triangles) radiance = _lights.triangleRadiance(light, position, path.time);
     if (radiance == vec3(0.0f)) return vec3(0.0f);
-    const float weight = light.delta ? 1.0f : misWeight(light.pdf, scattered.pdf, info.dome);
+    const bool sampledAlone = light.delta || (info.triangles && info.ownShadows);
+    const float weight = sampledAlone ? 1.0f : misWeight(light.pdf, scattered.pdf, info.dome);
     value *= radiance * (weight / light.pdf);
     value *=
         visibility(path, path.media, position, light.direction, light.distance, info, counters);
@@ -120,6 +121,7 @@ Integrator::Flight Integrator::scatter(Path& path, const Medium& medium, float d
     path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f);
     path.origin = position;
     path.direction = next.wi;
+    path.departs = true;
     path.near = 0.0f;
     path.far = INFINITY;
     return Flight::Scatters;

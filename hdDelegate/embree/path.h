@@ -36,6 +36,7 @@ struct Path {
     vec3 diffuseShare{1.0f}, specularShare{0.0f}; ///< of the throughput's last factor, sum 1
     const Surface* vertexSurface = nullptr;       ///< for light linking
     const std::vector<int>* vertexInstanceCategories = nullptr;
+    bool departs = false; ///< the ray comes from it directly, and was not traced yet
 
     MediumStack media;
     HeroWavelengths waves;

@@ -42,6 +42,8 @@ LightInfo SceneLights::describe(const std::shared_ptr<const Light>& light, const
                                 const RenderSettings& settings) {
     LightInfo info;
     info.lightCategory = info.shadowCategory = everything;
+    info.ownShadows = !settings.enableShadows;
+    _hasOwnShadows |= info.ownShadows;
     if (!light) return info;
     info.prim = light;
     info.dome = light->type == LightType::Dome;
@@ -55,6 +57,9 @@ LightInfo SceneLights::describe(const std::shared_ptr<const Light>& light, const
     info.shadowDistance = light->shadowDistance;
     info.shadowFalloff = light->shadowFalloff;
     info.shadowFalloffGamma = light->shadowFalloffGamma;
+    info.ownShadows |= !info.castsShadows || info.shadowColor != vec3(0.0f) ||
+                       info.shadowDistance > 0.0f || info.shadowCategory != everything;
+    _hasOwnShadows |= info.ownShadows;
     _splitsLobes |= info.diffuse != 1.0f || info.specular != 1.0f;
     return info;
 }

@@ -17,6 +17,8 @@ struct LightInfo {
     int lightCategory, shadowCategory;
     float diffuse = 1.0f, specular = 1.0f;
     bool castsShadows = true;
+    /// What hides it from a point is not what a ray meets: no shadows, coloured ones, others.
+    bool ownShadows = false;
     vec3 shadowColor{0.0f};
     float shadowDistance = -1.0f, shadowFalloff = -1.0f, shadowFalloffGamma = 1.0f;
 };
@@ -36,6 +38,8 @@ public:
     }
     /// Some light treats diffuse and other lobes differently.
     bool splitsLobes() const { return _splitsLobes; }
+    /// Some light has LightInfo::ownShadows.
+    bool hasOwnShadows() const { return _hasOwnShadows; }
 
     /// Light samples that pay where the camera sees a surface: further ones cost shadow rays and
     /// save noise that is there, between the lights of many and in a sky.
@@ -109,7 +113,7 @@ private:
     std::map<const Surface*, EmittingSurface> _emitting;
     std::map<const Surface*, MeshLight> _meshLights;
     int _glowInfo = 0;
-    bool _splitsLobes = false;
+    bool _splitsLobes = false, _hasOwnShadows = false;
 };
 
 } // namespace patina

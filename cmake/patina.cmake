@@ -29,7 +29,7 @@ function(_patina_flags target)
 endfunction()
 
 # Headers of other projects that most files include are compiled once for the libraries, and once for the tests, which are
-# programs and include googletest.
+# programs and include googletest. They are named by no path, so that checkouts share them in ccache's cache.
 if(PATINA_PRECOMPILED)
     if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache$" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         # Else ccache keeps nothing that a precompiled header is part of.
@@ -37,11 +37,11 @@ if(PATINA_PRECOMPILED)
         add_compile_options(-fpch-preprocess)
     endif()
     add_library(patinaPrecompiled OBJECT ${CMAKE_SOURCE_DIR}/cmake/precompiled/library.cpp)
-    target_precompile_headers(patinaPrecompiled PRIVATE ${CMAKE_SOURCE_DIR}/cmake/precompiled/precompiled.h)
+    target_precompile_headers(patinaPrecompiled PRIVATE <cmake/precompiled/precompiled.h>)
     _patina_flags(patinaPrecompiled)
     if(PATINA_BUILD_TESTS)
         add_executable(patinaTestsPrecompiled ${CMAKE_SOURCE_DIR}/cmake/precompiled/program.cpp)
-        target_precompile_headers(patinaTestsPrecompiled PRIVATE ${CMAKE_SOURCE_DIR}/cmake/precompiled/forTests.h)
+        target_precompile_headers(patinaTestsPrecompiled PRIVATE <cmake/precompiled/forTests.h>)
         target_link_libraries(patinaTestsPrecompiled PRIVATE GTest::gtest)
         _patina_flags(patinaTestsPrecompiled)
     endif()

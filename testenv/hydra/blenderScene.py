@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs in a Blender: installs the extension, makes a scene of its own, exports it and renders it with several engines.
 
-  python blenderScene.py EXTENSION.zip FOLDER [ENGINE...]
+  python blenderScene.py EXTENSION.zip FOLDER [ENGINE...] [SETTING=NUMBER...]
 
-FOLDER gets scene.usda and ENGINE.exr of each engine (PATINA, CYCLES)."""
+FOLDER gets scene.usda and ENGINE.exr of each engine (PATINA, CYCLES). Settings are Patina's."""
 import math
 import os
 import sys
 
 import bpy
 
-SIZE, SAMPLES = (160, 120), 64
+SIZE = (160, 120)
 
 
 def material(name, **inputs):
@@ -115,18 +115,19 @@ def install(file):
     bpy.ops.extensions.package_install_files(filepath=file, repo="user_default", enable_on_install=True)
 
 
-def main(extension, folder, engines):
-    install(extension)
+def main(extension, folder, words):
+    engines = [word for word in words if "=" not in word]
+    settings = dict(word.split("=") for word in words if "=" in word)
     scene = make(folder)
-    install(extension)  # factory settings forget it
-    bpy.ops.wm.usd_export(filepath=os.path.join(folder, "scene.usda"), export_materials=True,
-                          generate_preview_surface=True, export_textures_mode="KEEP", convert_world_material=True)
+    install(extension)  # now, for factory settings forget it
+    bpy.ops.wm.usd_export(filepath=os.path.join(folder, "scene.usda"), export_materials=True, generate_preview_surface=False,
+                          generate_materialx_network=True, export_textures_mode="KEEP", convert_world_material=True)
+    for name, value in settings.items():
+        setattr(scene.patina, name, type(getattr(scene.patina, name))(value))
     for engine in engines:
         scene.render.engine = engine
-        if engine == "PATINA":
-            scene.patina.samples = SAMPLES
-        else:
-            scene.cycles.samples, scene.cycles.use_denoising = 4 * SAMPLES, False
+        if engine == "CYCLES":
+            scene.cycles.samples, scene.cycles.use_denoising = 256, False
         scene.render.image_settings.file_format = "OPEN_EXR"
         scene.render.image_settings.color_depth = "32"
         scene.render.filepath = os.path.join(folder, engine + ".exr")
@@ -134,4 +135,4 @@ def main(extension, folder, engines):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2], sys.argv[3:] or ["PATINA"])
+    main(sys.argv[1], sys.argv[2], sys.argv[3:])

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The extension in a real Blender, which exports the scene as USD as well: both hosts show the same."""
+import functools
+import glob
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+import hydraBuild
+import inProcess
+from patina.cli import blenderAddOn
+
+SIZE, DEPTH, SAMPLES = (160, 120), 1, 64
+CAMERA = "/root/camera/camera"
+
+
+@functools.lru_cache(maxsize=None)
+def blender():
+    """:returns: (Python that imports bpy, Blender's folder), or why there is none"""
+    python = hydraBuild.folder("python")
+    if not os.path.exists(python):
+        return "this OpenUSD has no Python"
+    found = subprocess.run([python, "-c", "import bpy; print(bpy.__path__[0])"], capture_output=True, text=True, check=False)
+    return (python, found.stdout.split("\n")[-2]) if found.returncode == 0 else "the OpenUSD of this build is not that of a bpy"
+
+
+@pytest.fixture(scope="module")
+def rendered(tmp_path_factory):
+    """:returns: folder with what blenderScene.py leaves"""
+    if isinstance(blender(), str):
+        pytest.skip(blender())
+    python, folder = blender()
+    made = tmp_path_factory.mktemp("blender")
+    extension = made / "patina.zip"
+    version = divmod(int(hydraBuild.folder("version")), 100)
+    blenderAddOn.pack(folder, hydraBuild.folder("plugin"), version, str(extension))
+    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "blenderScene.py")
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    done = subprocess.run([python, script, str(extension), str(made), "PATINA", f"maxDepth={DEPTH}", f"samples={SAMPLES}"],
+                          env={**environment, "BLENDER_USER_RESOURCES": str(made / "home")}, capture_output=True, text=True,
+                          timeout=hydraBuild.TIMEOUT, check=False)
+    assert done.returncode == 0 and os.path.exists(made / "PATINA.exr"), done.stdout[-2000:] + done.stderr[-4000:]
+    return made
+
+
+def tiles(image):
+    """:returns: means of tiles of 8 x 8 pixels"""
+    height, width = (n // 8 for n in image.shape[:2])
+    return image[:height * 8, :width * 8].reshape(height, 8, width, 8, 3).mean(axis=(1, 3))
+
+
+def test_blender_shows_what_the_exported_stage_is(rendered):
+    import _patina
+
+    image = _patina.read_image(str(rendered / "PATINA.exr"))
+    own = np.array(image.pixels)[..., :3]
+    stage = inProcess.Stage(str(rendered / "scene.usda"), "--camera", CAMERA, "-w", str(SIZE[0]), "--samples", str(SAMPLES),
+                            "--maxDepth", str(DEPTH), image_height=SIZE[1])
+    seeds = [tiles(stage.image(seed)) for seed in (11, 12, 13, 14)]
+    assert own.shape == (SIZE[1], SIZE[0], 3) and own.mean() > 0.1
+    mean, error = np.mean(seeds, axis=0), np.std(seeds, axis=0, ddof=1)
+    # A tile's own error is known from four seeds alone: that of all tiles stands beside it. Six of them, which one tile in
+    # 1e9 exceeds.
+    bound = 6.0 * np.sqrt(1.25) * np.sqrt(error**2 + np.median(error) ** 2) + 0.002 * mean
+    off = np.abs(tiles(own) - mean) > bound
+    assert off.mean() < 0.01, np.argwhere(off.any(axis=2))[:20].tolist()
+
+
+def test_the_extension_needs_its_blender(rendered):
+    """Another Blender's says so, in place of a crash."""
+    python, _ = blender()
+    home = glob.glob(str(rendered / "home/extensions/*/patina/host.json"))
+    assert len(home) == 1
+    with open(home[0], "w", encoding="utf-8") as file:
+        file.write('{"version": [23, 11]}')
+    program = ("import addon_utils, bpy; addon_utils.enable('bl_ext.user_default.patina'); "
+               "bpy.context.scene.render.engine = 'PATINA'\n"
+               "try:\n    bpy.ops.render.render()\nexcept RuntimeError as error:\n    print(error)")
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    done = subprocess.run([python, "-c", program], env={**environment, "BLENDER_USER_RESOURCES": str(rendered / "home")},
+                          capture_output=True, text=True, timeout=hydraBuild.TIMEOUT, check=False)
+    assert "the plugin is built for OpenUSD 23.11" in done.stdout + done.stderr, done.stdout + done.stderr

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "testenv/fuzz/targets/scratchFiles.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace patina {
+
+ScratchFiles::ScratchFiles() {
+    const std::string bases[] = {"/dev/shm", std::filesystem::temp_directory_path().string()};
+    for (const std::string& base : bases) {
+        std::string name = base + "/patinaFuzzXXXXXX";
+        if (!::mkdtemp(&name[0])) continue;
+        _folder = name;
+        return;
+    }
+    std::abort();
+}
+
+ScratchFiles::~ScratchFiles() {
+    std::error_code ignored;
+    std::filesystem::remove_all(_folder, ignored);
+}
+
+std::string ScratchFiles::write(const std::string& name, const void* bytes, size_t size) const {
+    const std::string path = _folder + "/" + name;
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    if (file < 0 || ::write(file, bytes, size) != ssize_t(size)) std::abort();
+    ::close(file);
+    return path;
+}
+
+} // namespace patina

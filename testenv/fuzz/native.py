@@ -20,6 +20,9 @@ _REASONS = ((r"promise broken: (.*)", "promise"), (r"ERROR: AddressSanitizer: ([
             (r"runtime error: (.*)", "crash"),
             (r"ERROR: libFuzzer: timeout", "hang"), (r"ERROR: libFuzzer: out-of-memory", "memory"),
             (r"ERROR: LeakSanitizer: (.*)", "memory"), (r"ERROR: libFuzzer: (.*)", "crash"))
+# The first frame of a crash that is no sanitizer's is in the reader of a format: Patina could not have known.
+_LIBRARY = re.compile(r"ERROR: AddressSanitizer: .*\n(?:(?! +#0 ).*\n){0,4}(?: +#\d+ 0x\w+ in (?:__|mem|operator).*\n)*"
+                      r" +#\d+ 0x\w+ in ([^\s(]+).*\(/\S*/(lib(?:OpenImageIO|OpenEXR|tiff|png|jpeg|z)\b)")
 
 
 class Missing(Exception):
@@ -49,6 +52,9 @@ def _environment(fuzzer, profile=None):
 
 def _why(text):
     """:returns: (kind, reason) of a program's last words"""
+    died = _LIBRARY.search(text)
+    if died:
+        return "library", f"{died.group(1)[:80]} in {died.group(2)}"
     for pattern, kind in _REASONS:
         match = re.search(pattern, text)
         if match:
@@ -68,7 +74,7 @@ def run(name, fuzzer, folder, corpus, seconds, plateau, seed, say):
     work = os.path.join(corpus, name)
     os.makedirs(work, exist_ok=True)
     seeds.write(name, work)
-    start, inputs, findings, part, edges = time.monotonic(), 0, {}, 0, following.Plateau()
+    start, inputs, findings, part, libraries, edges = time.monotonic(), 0, {}, 0, 0, following.Plateau()
     with tempfile.TemporaryDirectory() as scratch:
         while (left := seconds - (time.monotonic() - start)) > 1 and edges.seconds() < plateau:
             artifacts = os.path.join(scratch, f"found{part}-")
@@ -87,13 +93,16 @@ def run(name, fuzzer, folder, corpus, seconds, plateau, seed, say):
             if not found:
                 raise Missing(f"{name} ended with {status}: {said.strip().splitlines()[-1:]}")
             kind, reason = _why(said)
-            if reason in findings:
+            if kind == "library":
+                libraries += 1
+                say(f"{kind}: {reason}")
+            if kind == "library" or reason in findings:
                 continue
             say(f"{kind}: {reason}")
             findings[reason] = (kind, reason, _minimise(program, found[0], kind, scratch, fuzzer), said[-4000:])
         lines = _coverage(program, work, fuzzer, scratch)
         _keep_small(program, work, scratch, fuzzer)
-    counts = {"fine": inputs}
+    counts = {"fine": inputs - libraries, **({"library": libraries} if libraries else {})}
     for kind, *_ in findings.values():
         counts[kind] = counts.get(kind, 0) + 1
     return {"inputs": inputs, "seconds": time.monotonic() - start, "counts": counts, "findings": list(findings.values()),

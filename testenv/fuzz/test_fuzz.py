@@ -219,6 +219,16 @@ def test_a_plateau_ends_a_program(most, status):
     assert (found, inputs, edges.edges) == (status, 40, 7) and "INITED" in said
 
 
+def test_crashes_of_libraries_are_theirs():
+    text = ("==7==ERROR: AddressSanitizer: SEGV on unknown address 0x61 (pc 0x7f bp 0x7f sp 0x7f T0)\n"
+            "==7==The signal is caused by a READ memory access.\n    #0 0x55 in __asan_memcpy (/b/texture+0x1)\n"
+            "    #1 0x7f in OpenImageIO_v2_4::decode(int) (/lib/libOpenImageIO.so.2.4+0x4c) (BuildId: b9)\n"
+            "    #2 0x55 in patina::read(int) /b/read.cpp:71:13\n")
+    assert native._why(text) == ("library", "OpenImageIO_v2_4::decode in libOpenImageIO")
+    ours = text.replace("    #1 0x7f in OpenImageIO_v2_4::decode(int) (/lib/libOpenImageIO.so.2.4+0x4c) (BuildId: b9)\n", "")
+    assert native._why(ours)[0] == "crash"
+
+
 @pytest.fixture
 def runs(monkeypatch):
     """`patina fuzz` without fuzzers: each call notes its names, and finds nothing."""

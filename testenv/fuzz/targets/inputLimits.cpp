@@ -8,7 +8,7 @@
 namespace patina {
 
 void limitInputs() {
-    static const std::string refused = setLimits({{"textureBytes", uint64_t(1) << 20},
+    static const std::string refused = setLimits({{"textureBytes", uint64_t(1) << 16},
                                                   {"documentBytes", uint64_t(1) << 16},
                                                   {"includes", 40},
                                                   {"includeDepth", 8}});

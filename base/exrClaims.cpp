@@ -73,6 +73,9 @@ public:
             if (entry.empty() || (!entry[0] && wasEnd)) break;
             wasEnd = !entry[0] || !manyParts;
             if (!entry[0]) {
+                if (isMore()) return true;
+                _channels = _width = 1;
+                _tileTexels = 0;
                 ++at;
                 continue;
             }
@@ -86,12 +89,16 @@ public:
             if (!add(entry.c_str(), entry.c_str() + middle + 1, at, size)) return true;
             at += size;
         }
-        const uint64_t all = _size > UINT64_MAX / packing ? UINT64_MAX : _size * packing;
-        return _width > std::max(fewValues, all) / _channels ||
-               _tileTexels > std::max(fewInATile, all) / _channels;
+        return isMore();
     }
 
 private:
+    bool isMore() const {
+        const uint64_t all = _size > UINT64_MAX / packing ? UINT64_MAX : _size * packing;
+        if (_tileTexels > 0) return _tileTexels > std::max(fewInATile, all) / _channels;
+        return _width > std::max(fewValues, all) / _channels;
+    }
+
     std::string read(uint64_t at, size_t size) const {
         std::string bytes(size, '\0');
         const ssize_t got = ::pread(_file, &bytes[0], size, off_t(at));
@@ -119,7 +126,7 @@ private:
 
     const int _file;
     const uint64_t _size;
-    uint64_t _channels = 1, _width = 1, _tileTexels = 1; ///< the most of all parts
+    uint64_t _channels = 1, _width = 1, _tileTexels = 0; ///< of a part; no tile: it has rows
 };
 
 } // namespace

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs libFuzzer's programs, which follow coverage, until they reach nothing new."""
+import os
 import re
 import signal
 import subprocess
@@ -8,6 +9,7 @@ import time
 
 _COVERED = re.compile(r"\bcov: (\d+)")
 _UNITS = re.compile(r"stat::number_of_executed_units: (\d+)|^Done (\d+) runs|^#(\d+)\t", re.MULTILINE)  # of the last line
+IN_MEMORY = "/dev/shm" if os.path.isdir("/dev/shm") else None  # for files of inputs, and what a program leaves when it dies
 ENDING_SECONDS = 30  # of a program that was asked to end
 TOLD = 1 << 20  # characters that are kept of what a program says, of its end
 

@@ -44,8 +44,8 @@ def build(folder, names, jobs=1):
                 raise Missing(f"the instrumented build failed, see {log.name}")
 
 
-def _environment(fuzzer, profile=None):
-    return dict(os.environ,
+def _environment(fuzzer, scratch, profile=None):
+    return dict(os.environ, TMPDIR=scratch,
                 ASAN_OPTIONS=f"detect_leaks={int(fuzzer.leaks)}:allocator_may_return_null=1:handle_abort=1",
                 UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1", LLVM_PROFILE_FILE=profile or os.devnull)
 
@@ -75,7 +75,7 @@ def run(name, fuzzer, folder, corpus, seconds, plateau, seed, say):
     os.makedirs(work, exist_ok=True)
     seeds.write(name, work)
     start, inputs, findings, part, libraries, edges = time.monotonic(), 0, {}, 0, 0, following.Plateau()
-    with tempfile.TemporaryDirectory() as scratch:
+    with tempfile.TemporaryDirectory(dir=following.IN_MEMORY) as scratch:
         while (left := seconds - (time.monotonic() - start)) > 1 and edges.seconds() < plateau:
             artifacts = os.path.join(scratch, f"found{part}-")
             status, said, tried = following.run(
@@ -83,7 +83,7 @@ def run(name, fuzzer, folder, corpus, seconds, plateau, seed, say):
                  f"-seed={seed + part + 1}",
                  f"-max_len={LONGEST_INPUT}", f"-timeout={HANG_SECONDS}", f"-rss_limit_mb={MEGABYTES}",
                  f"-artifact_prefix={artifacts}", "-print_final_stats=1", "-use_value_profile=0"],
-                edges, plateau, cwd=scratch, env=_environment(fuzzer))
+                edges, plateau, cwd=scratch, env=_environment(fuzzer, scratch))
             inputs += tried
             part += 1
             found = [name for name in glob.glob(glob.escape(artifacts) + "*")
@@ -114,7 +114,7 @@ def _minimise(program, file, kind, scratch, fuzzer):
     smaller = os.path.join(scratch, "smaller")
     if kind == "crash" or kind == "promise":
         subprocess.run([program, "-minimize_crash=1", "-max_total_time=30", f"-exact_artifact_path={smaller}", file],
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch, env=_environment(fuzzer))
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch, env=_environment(fuzzer, scratch))
     with open(smaller if os.path.exists(smaller) else file, "rb") as stream:
         data = stream.read()
     if os.path.exists(smaller):
@@ -127,7 +127,7 @@ def _keep_small(program, work, scratch, fuzzer):
     merged = os.path.join(scratch, "merged")
     os.makedirs(merged)
     done = subprocess.run([program, "-merge=1", merged, work], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                          cwd=scratch, env=_environment(fuzzer))
+                          cwd=scratch, env=_environment(fuzzer, scratch))
     kept = set(os.listdir(merged))
     if done.returncode or not kept:
         return
@@ -147,7 +147,7 @@ def _coverage(program, work, fuzzer, scratch):
         return None
     raw, indexed = os.path.join(scratch, "raw"), os.path.join(scratch, "indexed")
     subprocess.run([program, work, "-runs=0"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch,
-                   env=_environment(fuzzer, raw))
+                   env=_environment(fuzzer, scratch, raw))
     if not os.path.exists(raw) or subprocess.call([profdata, "merge", "-sparse", raw, "-o", indexed],
                                                   stderr=subprocess.DEVNULL):
         return None

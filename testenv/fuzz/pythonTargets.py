@@ -102,7 +102,7 @@ def package():
     from patina import inputs
     from patina.stage import assets, compat
 
-    folder = tempfile.mkdtemp(prefix="patinaFuzz", dir="/dev/shm" if os.path.isdir("/dev/shm") else None)
+    folder = tempfile.mkdtemp(prefix="patinaFuzz")
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     names = [".", "..", "a/..", "../a.usda", "../../../../etc/passwd", "/etc/passwd", "x" * 300, "a.usda/b", "a[b]", "a.usda"]
     older = types.SimpleNamespace(**{name: getattr(Ar, name) for name in dir(Ar) if name != "GetResolver"}, GetResolver=object)

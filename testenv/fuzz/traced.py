@@ -46,13 +46,14 @@ def run(name, fuzzer, corpus, seconds, plateau, seed, say):
     work = os.path.join(corpus, name)
     os.makedirs(work, exist_ok=True)
     start, inputs, findings, part, edges = time.monotonic(), 0, {}, 0, following.Plateau()
-    with tempfile.TemporaryDirectory() as scratch:
+    with tempfile.TemporaryDirectory(dir=following.IN_MEMORY) as scratch:
         while (left := seconds - (time.monotonic() - start)) > 1 and edges.seconds() < plateau:
             prefix = os.path.join(scratch, f"found{part}-")
             status, said, tried = following.run(
                 command(name, work, os.path.join(keptFindings.CORPUS, name), f"-max_total_time={int(left)}",
                         f"-seed={seed + part + 1}", f"-max_len={LONGEST_INPUT}", f"-timeout={HANG_SECONDS}",
-                        "-print_final_stats=1", f"-artifact_prefix={prefix}"), edges, plateau)
+                        "-print_final_stats=1", f"-artifact_prefix={prefix}"), edges, plateau,
+                env=dict(os.environ, TMPDIR=scratch))
             inputs += tried
             part += 1
             found = [path for path in glob.glob(glob.escape(prefix) + "*") if "-slow-unit-" not in path]

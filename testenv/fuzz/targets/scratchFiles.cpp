@@ -11,14 +11,8 @@
 namespace patina {
 
 ScratchFiles::ScratchFiles() {
-    const std::string bases[] = {"/dev/shm", std::filesystem::temp_directory_path().string()};
-    for (const std::string& base : bases) {
-        std::string name = base + "/patinaFuzzXXXXXX";
-        if (!::mkdtemp(&name[0])) continue;
-        _folder = name;
-        return;
-    }
-    std::abort();
+    _folder = (std::filesystem::temp_directory_path() / "patinaFuzzXXXXXX").string();
+    if (!::mkdtemp(&_folder[0])) std::abort();
 }
 
 ScratchFiles::~ScratchFiles() {

@@ -5,8 +5,7 @@
 
 namespace patina {
 
-/// Files for readers that go by the names of files. They lie in a folder in memory, which goes with
-/// the object.
+/// Files for readers that go by the names of files. They lie in a folder that goes with the object.
 class ScratchFiles {
 public:
     ScratchFiles();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/regularFile.h"
 
+#include "base/exrClaims.h"
 #include "base/trialRead.h"
 
 #include <algorithm>
@@ -60,7 +61,9 @@ std::string whyNoImage(const std::string& path) {
     const ssize_t got = file.number < 0 ? -1 : ::read(file.number, start, sizeof start);
     const bool zeros = got == ssize_t(sizeof start) &&
                        std::all_of(start, start + got, [](char c) { return c == 0; });
-    return zeros ? "is no image: it begins with zeros" : whyTrialFails(path);
+    if (zeros) return "is no image: it begins with zeros";
+    if (exrClaimsMore(file.number)) return "is no image: its header claims more than it holds";
+    return whyTrialFails(path);
 }
 
 bool readRegularFile(const std::string& path, const MostBytes& most, std::string& bytes,

@@ -11,6 +11,7 @@ namespace patina {
 namespace {
 
 constexpr uint32_t longestText = 4096, longestName = 1 << 20, maxAovs = 1024;
+constexpr uint32_t maxSamples = 1 << 29; ///< before a span and in it: both together are an int
 
 } // namespace
 
@@ -42,6 +43,7 @@ FilmStream::Header FilmStream::readHeader(FilmFileReader& file) {
     header.height = file.value<int32_t>();
     header.dropped = file.value<uint64_t>();
     header.firstSample = file.value<uint32_t>();
+    if (header.firstSample > maxSamples) file.fail("it is damaged");
     header.token = file.text(longestText);
     const uint32_t count = file.value<uint32_t>();
     if (count > maxAovs) file.fail("it is damaged");
@@ -124,6 +126,9 @@ void FilmStream::writePixels(FilmFileWriter& file, const Film& film, const Tile&
 
 void FilmStream::readPixels(FilmFileReader& file, Film& film, const Tile& tile) {
     eachRow(film, tile, [&](void* data, size_t size) { file.bytes(data, size); });
+    for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x)
+            if (film.pixel(x, y).count > maxSamples) file.fail("it is damaged");
     eachCell(film, tile, [&](auto& plane, CoverageCell& cell) {
         for (uint32_t left = file.value<uint32_t>(); left > 0; --left) {
             const auto count = file.value<CoverageCount>();

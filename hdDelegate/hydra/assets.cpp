@@ -6,6 +6,7 @@
 #include <pxr/usd/ar/resolvedPath.h>
 #include <pxr/usd/ar/resolver.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -47,14 +48,19 @@ private:
         if (_folder.empty()) _folder = makeFolder();
         if (_folder.empty()) return {};
         const auto [package, inner] = ArSplitPackageRelativePathInner(path);
-        const fs::path name(inner.empty() ? package : inner);
+        const std::string all = inner.empty() ? package : inner;
+        // File systems take 255 bytes.
+        constexpr size_t longest = 240;
+        std::string name = fs::path(all).filename().string();
+        name.erase(0, name.size() - std::min(name.size(), longest));
         // One folder per folder of a package: tiles stay together, equal names of others apart.
-        const std::string from =
-            (inner.empty() ? std::string() : package) + "\n" + name.parent_path().string();
+        const std::string from = (inner.empty() ? std::string() : package) + "\n" +
+                                 all.substr(0, all.size() - name.size());
+        if (name.empty() || name == "." || name == "..") name = "file";
         const fs::path folder = _folder / std::to_string(std::hash<std::string>{}(from));
         std::error_code error;
         fs::create_directories(folder, error);
-        const fs::path file = folder / (name.has_filename() ? name.filename() : fs::path("file"));
+        const fs::path file = folder / name;
         std::ofstream out(file, std::ios::binary);
         out.write(data.get(), std::streamsize(asset->GetSize()));
         out.close();

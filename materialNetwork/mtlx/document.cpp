@@ -68,4 +68,15 @@ std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics,
     return std::move(document.materials);
 }
 
+std::vector<std::string> documentFiles(const std::string& path) {
+    std::vector<std::string> files = {path};
+    std::string text, problem;
+    pugi::xml_document xml;
+    Diagnostics told; // by readMtlx()
+    if (readRegularFile(path, Limit::documentBytes, text, problem) &&
+        loadXml(text, xml, problem, limitOf(Limit::markup)))
+        includeDocuments(xml.child("materialx"), path, markupOf(text), told, &files);
+    return files;
+}
+
 } // namespace patina

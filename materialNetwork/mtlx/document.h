@@ -29,4 +29,7 @@ bool parseMtlx(const std::string& text, const std::string& path, bool wantMateri
 std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics,
                               double metersPerUnit = 1.0);
 
+/// The files that readMtlx() looks at: a document and all that it includes, readable or not.
+std::vector<std::string> documentFiles(const std::string& path);
+
 } // namespace patina

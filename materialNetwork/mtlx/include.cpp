@@ -26,8 +26,8 @@ std::string canonical(const fs::path& path) {
 class Includer {
 public:
     /// @param markup of the document that includes, as markupOf()
-    Includer(Diagnostics& diagnostics, size_t markup)
-        : _diagnostics(diagnostics), _markup(markup) {}
+    Includer(Diagnostics& diagnostics, size_t markup, std::vector<std::string>* files)
+        : _diagnostics(diagnostics), _files(files), _markup(markup) {}
 
     void run(pugi::xml_node root, const std::string& path) {
         _open.insert(canonical(path));
@@ -65,6 +65,7 @@ private:
                                   limitText(Limit::includeDepth) + "; " + name + " is left out");
             return;
         }
+        if (_files) _files->push_back(target);
         // Of all included documents together.
         const uint64_t maxBytes = limitOf(Limit::documentBytes), most = limitOf(Limit::markup);
         std::string text, problem;
@@ -108,6 +109,7 @@ private:
     }
 
     Diagnostics& _diagnostics;
+    std::vector<std::string>* _files;
     std::set<std::string> _open;
     size_t _documents = 0, _markup = 0;
     uint64_t _bytes = 0;
@@ -116,8 +118,8 @@ private:
 } // namespace
 
 void includeDocuments(pugi::xml_node root, const std::string& path, size_t markup,
-                      Diagnostics& diagnostics) {
-    Includer(diagnostics, markup).run(root, path);
+                      Diagnostics& diagnostics, std::vector<std::string>* files) {
+    Includer(diagnostics, markup, files).run(root, path);
 }
 
 } // namespace patina

@@ -6,6 +6,7 @@
 #include <pugixml.hpp>
 
 #include <string>
+#include <vector>
 
 namespace patina {
 
@@ -21,7 +22,8 @@ inline constexpr const char* versionAttribute = "patina-version";
 /// version; those of a namespace are named "namespace:name" from then on. Files that cannot be read
 /// and documents that include themselves are reported and left out.
 /// @param markup of the document, as markupOf(): all of them together hold maxMarkup at most
+/// @param files gets the paths of the documents that are looked at, where it is given
 void includeDocuments(pugi::xml_node root, const std::string& path, size_t markup,
-                      Diagnostics& diagnostics);
+                      Diagnostics& diagnostics, std::vector<std::string>* files = nullptr);
 
 } // namespace patina

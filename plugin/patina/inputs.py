@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The files that a command has read: so that it reads nothing but regular files of a bounded size, and
 writes over none of them."""
-import html
 import os
 import re
 import stat
@@ -9,11 +8,6 @@ import stat
 from patina import limits
 
 _TILES = {"<UDIM>": r"\d{4}", "<UVTILE>": r"u\d+_v\d+"}
-# An element ends before the next one begins, so that each place of a hostile file is looked at once.
-_INCLUDE = re.compile(rb"""<xi:include\b[^<]*?\bhref\s*=\s*(?:"([^"]+)"|'([^']+)')""")
-_ENCODINGS = ((b"\xff\xfe\0\0", "utf-32-le"), (b"\0\0\xfe\xff", "utf-32-be"), (b"<\0\0\0", "utf-32-le"),
-              (b"\0\0\0<", "utf-32-be"), (b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"), (b"<\0", "utf-16-le"),
-              (b"\0<", "utf-16-be"))
 _noted = set()
 
 
@@ -40,26 +34,10 @@ def file_of(path):
 
 def note_document(path):
     """The same for a MaterialX document, with what it includes."""
-    waiting, most = [os.path.abspath(path)], limits.value("includes")
-    for file in waiting:  # grows as it goes
-        note(file)
-        try:
-            data = read(file)
-        except OSError:
-            continue
-        for match in _INCLUDE.finditer(_as_utf8(data)):
-            name = html.unescape((match[1] or match[2]).decode(errors="surrogateescape"))
-            more = os.path.normpath(os.path.join(os.path.dirname(file), name))
-            if more not in waiting and len(waiting) < most:
-                waiting.append(more)
+    from patina.cli import compiled
 
-
-def _as_utf8(data):
-    """:returns: the bytes of an XML document in UTF-8; others are told by their first character, as pugixml does"""
-    for begin, encoding in _ENCODINGS:
-        if data.startswith(begin):
-            return data.decode(encoding, errors="replace").encode(errors="replace")
-    return data
+    for file in compiled.load().mtlx_files(os.fsencode(os.path.abspath(path))):
+        note(os.fsdecode(file))
 
 
 def note_network(network):

@@ -140,6 +140,16 @@ void bindMaterial(py::module_& m) {
         "The materials of a MaterialX document. Warnings are appended to the list. Distances that "
         "have a unit become units of a scene with so many metres in each.");
     m.def(
+        "mtlx_files",
+        [](const std::string& path) {
+            std::vector<py::bytes> files;
+            for (const std::string& file : documentFiles(path))
+                files.emplace_back(file);
+            return files;
+        },
+        py::arg("path"),
+        "The files that read_mtlx looks at, as bytes: a document and all that it includes.");
+    m.def(
         "unit_factor",
         [](const std::string& unit, const std::string& id, const std::string& input,
            double metersPerUnit) -> py::object {

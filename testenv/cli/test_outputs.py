@@ -190,7 +190,9 @@ def test_an_output_is_no_input(arguments, kept, folder, capsys):
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-32-be"])
 @pytest.mark.parametrize("include", ['<xi:include href="lib.xml"/>', '<xi:include href="lib&#46;xml"/>',
-                                     "<xi:include note='a > b' href = 'lib.xml'/>"])
+                                     "<xi:include note='a > b' href = 'lib.xml'/>",
+                                     '<xi:include x-href="no" title=" href=\'no\'" a="<" href="lib.xml"/>',
+                                     '<xi:include href="lib.xml&#0;no"/>'])
 def test_documents_that_are_included_are_inputs(tmp_path, include, encoding):
     (tmp_path / "a.mtlx").write_bytes(f"<materialx>{include}</materialx>".encode(encoding))
     inputs.forget()

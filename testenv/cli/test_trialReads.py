@@ -17,6 +17,7 @@ from test_limits import HEAD, PREVIEW, QUAD, bound
 
 FLAGS = ("-w", 8, "--samples", 1, "--camera", "/camera")
 UNTRIED = ("--limit", "untriedBytes=0")
+KILLERS = sorted(glob.glob(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "fuzz", "corpus", "libraries", "*")))
 
 
 @pytest.fixture(name="stage")
@@ -59,6 +60,14 @@ def test_an_image_that_kills_its_reader_is_left_out(stage, dying, tmp_path):
     assert done.returncode == 0, done.stderr
     assert "makes OpenImageIO fail (Segmentation fault)" in done.stderr and "/m/t" in done.stderr
     assert inProcess.pixels(tmp_path / "a.exr").max() > 0
+
+
+@pytest.mark.parametrize("file", KILLERS, ids=os.path.basename)
+def test_images_that_kill_some_libraries_harm_nobody(stage, file, tmp_path):
+    """Readers of formats die of them, depending on their versions."""
+    shutil.copy(file, tmp_path / "t.png")
+    done = inProcess.record(stage, tmp_path / "a.exr", *FLAGS, *UNTRIED, check=False)
+    assert done.returncode == 0 and os.path.exists(tmp_path / "a.exr"), done.stderr
 
 
 def test_a_stage_that_kills_its_reader_is_refused(stage, tmp_path, monkeypatch):

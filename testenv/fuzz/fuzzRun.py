@@ -3,6 +3,7 @@
 import importlib
 import os
 import tempfile
+import time
 
 import generated
 import keptFindings
@@ -32,15 +33,21 @@ def _line(name, found):
             f"   {kinds}")
 
 
-def run(names, seconds, seed, corpus, findings, build, say=print):
+def _in_turn(names):
+    """:returns: names, first those that end where they reach nothing new: the others get the time that these leave"""
+    return sorted(names, key=lambda name: FUZZERS[name].kind == "generated")
+
+
+def run(names, seconds, plateau, seed, corpus, findings, build, say=print):
     """:param names: of fuzzers; none: all
     :param seconds: of all together
+    :param plateau: seconds without a new edge after which a fuzzer that follows them ends; None: a third of its share, at most
+        an hour
     :param corpus: folder of inputs that grows, or None: nothing is kept between runs
     :param findings: folder that findings are written to
     :param build: folder of the instrumented build
     :returns: dict of each fuzzer's numbers, see generated.run()"""
-    names = names or list(FUZZERS)
-    total = sum(FUZZERS[name].share for name in names)
+    names = _in_turn(names or list(FUZZERS))
     natives = [name for name in names if FUZZERS[name].kind == "native"]
     left_out = ""
     if natives:
@@ -49,25 +56,31 @@ def run(names, seconds, seed, corpus, findings, build, say=print):
         except native.Missing as error:
             left_out = str(error)
             say(f"left out: {', '.join(natives)}: {left_out}")
-    results = {}
+    if left_out:
+        names = [name for name in names if name not in natives]
+    if traced.missing():
+        for name in [name for name in names if FUZZERS[name].kind == "python"]:
+            say(f"left out: {name}: {traced.missing()}")
+            names.remove(name)
+    results, start = {}, time.monotonic()
     say(f"{'fuzzer':<18}{'inputs':>9}{'seconds':>8}{'inputs/s':>10}{'lines':>8}{'findings':>10}")
     with tempfile.TemporaryDirectory() as scratch:
-        for name in names:
-            fuzzer, share = FUZZERS[name], seconds * FUZZERS[name].share / total
+        for place, name in enumerate(names):
+            fuzzer, left = FUZZERS[name], seconds - (time.monotonic() - start)
+            share = left * fuzzer.share / sum(FUZZERS[other].share for other in names[place:])
+            if share <= 0.0:
+                say(f"left out: {name}: no time is left")
+                continue
+            quiet = plateau or min(share / 3.0, 3600.0)
 
             def report(line, name=name):
                 say(f"  {name}: {line}")
             if fuzzer.kind == "generated":
                 results[name] = generated.run(importlib.import_module(name), share, seed, report)
             elif fuzzer.kind == "python":
-                if traced.missing():
-                    say(f"left out: {name}: {traced.missing()}")
-                    continue
-                results[name] = traced.run(name, fuzzer, corpus or scratch, share, seed, report)
-            elif not left_out:
-                results[name] = native.run(name, fuzzer, build, corpus or scratch, share, seed, report)
+                results[name] = traced.run(name, fuzzer, corpus or scratch, share, quiet, seed, report)
             else:
-                continue
+                results[name] = native.run(name, fuzzer, build, corpus or scratch, share, quiet, seed, report)
             say(_line(name, results[name]))
             for finding in results[name]["findings"]:
                 say(f"  saved {keptFindings.save(findings, name, _extension(name), finding)}")
@@ -76,6 +89,6 @@ def run(names, seconds, seed, corpus, findings, build, say=print):
 
 def figures(results):
     """:returns: the numbers of a run without its inputs, for a file of JSON"""
-    return {name: {key: found[key] for key in ("inputs", "seconds", "counts", "lines")} |
+    return {name: {key: found[key] for key in ("inputs", "seconds", "counts", "lines", "plateau") if key in found} |
             {"findings": [{"kind": kind, "reason": reason} for kind, reason, *_ in found["findings"]]}
             for name, found in results.items()}

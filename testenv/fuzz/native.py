@@ -9,17 +9,20 @@ import subprocess
 import tempfile
 import time
 
+import following
 import seeds
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 LONGEST_INPUT = 4096  # bytes
 HANG_SECONDS = 120  # of the clock: an empty image took 20 where sixteen processes shared two cores
 MEGABYTES = 2048
-_DONE = re.compile(r"^Done (\d+) runs in (\d+) second", re.MULTILINE)
 _REASONS = ((r"promise broken: (.*)", "promise"), (r"ERROR: AddressSanitizer: ([\w-]+)", "crash"),
             (r"runtime error: (.*)", "crash"),
             (r"ERROR: libFuzzer: timeout", "hang"), (r"ERROR: libFuzzer: out-of-memory", "memory"),
             (r"ERROR: LeakSanitizer: (.*)", "memory"), (r"ERROR: libFuzzer: (.*)", "crash"))
+# The first frame of a crash that is no sanitizer's is in the reader of a format: Patina could not have known.
+_LIBRARY = re.compile(r"ERROR: AddressSanitizer: .*\n(?:(?! +#0 ).*\n){0,4}(?: +#\d+ 0x\w+ in (?:__|mem|operator).*\n)*"
+                      r" +#\d+ 0x\w+ in ([^\s(]+).*\(/\S*/(lib(?:OpenImageIO|OpenEXR|tiff|png|jpeg|z)\b)")
 
 
 class Missing(Exception):
@@ -41,18 +44,17 @@ def build(folder, names, jobs=1):
                 raise Missing(f"the instrumented build failed, see {log.name}")
 
 
-def _environment(profile=None, slow=False):
-    found = dict(os.environ,
-                 ASAN_OPTIONS="detect_leaks=1:allocator_may_return_null=1:handle_abort=1:"
-                 f"fast_unwind_on_malloc={int(not slow)}",
-                 UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1", LSAN_OPTIONS="suppressions=" + os.path.join(
-                     ROOT, "testenv", "fuzz", "libraries.supp") + ":print_suppressions=0")
-    found["LLVM_PROFILE_FILE"] = profile or os.devnull
-    return found
+def _environment(fuzzer, scratch, profile=None):
+    return dict(os.environ, TMPDIR=scratch,
+                ASAN_OPTIONS=f"detect_leaks={int(fuzzer.leaks)}:allocator_may_return_null=1:handle_abort=1",
+                UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1", LLVM_PROFILE_FILE=profile or os.devnull)
 
 
 def _why(text):
     """:returns: (kind, reason) of a program's last words"""
+    died = _LIBRARY.search(text)
+    if died:
+        return "library", f"{died.group(1)[:80]} in {died.group(2)}"
     for pattern, kind in _REASONS:
         match = re.search(pattern, text)
         if match:
@@ -62,55 +64,57 @@ def _why(text):
     return "crash", (text.strip().splitlines() or ["no words"])[-1][:160]
 
 
-def run(name, fuzzer, folder, corpus, seconds, seed, say):
+def run(name, fuzzer, folder, corpus, seconds, plateau, seed, say):
     """Runs a program for a time; after a finding it goes on.
 
+    :param plateau: seconds without a new edge after which it ends
     :param corpus: folder of inputs; new ones that reach new code are added, and it is minimised
-    :returns: as generated.run(), with lines as (covered, all)"""
+    :returns: as generated.run(), with lines as (covered, all), and how long no edge was new at the end"""
     program = os.path.join(folder, "fuzzers", name)
     work = os.path.join(corpus, name)
     os.makedirs(work, exist_ok=True)
     seeds.write(name, work)
-    start, inputs, findings, part = time.monotonic(), 0, {}, 0
-    with tempfile.TemporaryDirectory() as scratch:
-        while (left := seconds - (time.monotonic() - start)) > 1:
+    start, inputs, findings, part, libraries, edges = time.monotonic(), 0, {}, 0, 0, following.Plateau()
+    with tempfile.TemporaryDirectory(dir=following.IN_MEMORY) as scratch:
+        while (left := seconds - (time.monotonic() - start)) > 1 and edges.seconds() < plateau:
             artifacts = os.path.join(scratch, f"found{part}-")
-            result = subprocess.run(
+            status, said, tried = following.run(
                 [program, work, os.path.join(ROOT, "testenv", "fuzz", "corpus", name), f"-max_total_time={int(left)}",
                  f"-seed={seed + part + 1}",
                  f"-max_len={LONGEST_INPUT}", f"-timeout={HANG_SECONDS}", f"-rss_limit_mb={MEGABYTES}",
                  f"-artifact_prefix={artifacts}", "-print_final_stats=1", "-use_value_profile=0"],
-                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace", cwd=scratch,
-                env=_environment(slow=name == "image"))  # whole stacks, by which the leaks of libraries are told
-            done = re.search(r"stat::number_of_executed_units: (\d+)", result.stderr) or _DONE.search(result.stderr)
-            inputs += int(done.group(1)) if done else 0
+                edges, plateau, cwd=scratch, env=_environment(fuzzer, scratch))
+            inputs += tried
             part += 1
             found = [name for name in glob.glob(glob.escape(artifacts) + "*")
                      if "-slow-unit-" not in name]  # short of HANG_SECONDS
-            if result.returncode == 0 and not found:
+            if status == 0 and not found:
                 break
             if not found:
-                raise Missing(f"{name} ended with {result.returncode}: {result.stderr.strip().splitlines()[-1:]}")
-            kind, reason = _why(result.stderr)
-            if reason in findings:
+                raise Missing(f"{name} ended with {status}: {said.strip().splitlines()[-1:]}")
+            kind, reason = _why(said)
+            if kind == "library":
+                libraries += 1
+                say(f"{kind}: {reason}")
+            if kind == "library" or reason in findings:
                 continue
             say(f"{kind}: {reason}")
-            findings[reason] = (kind, reason, _minimise(program, found[0], kind, scratch), result.stderr[-4000:])
-        lines = _coverage(program, work, fuzzer.sources, scratch, slow=name == "image")
-        _keep_small(program, work, scratch)
-    counts = {"fine": inputs}
+            findings[reason] = (kind, reason, _minimise(program, found[0], kind, scratch, fuzzer), said[-4000:])
+        lines = _coverage(program, work, fuzzer, scratch)
+        _keep_small(program, work, scratch, fuzzer)
+    counts = {"fine": inputs - libraries, **({"library": libraries} if libraries else {})}
     for kind, *_ in findings.values():
         counts[kind] = counts.get(kind, 0) + 1
     return {"inputs": inputs, "seconds": time.monotonic() - start, "counts": counts, "findings": list(findings.values()),
-            "lines": lines}
+            "lines": lines, "plateau": edges.seconds()}
 
 
-def _minimise(program, file, kind, scratch):
+def _minimise(program, file, kind, scratch, fuzzer):
     """:returns: the bytes of the smallest input that still fails, found within half a minute"""
     smaller = os.path.join(scratch, "smaller")
     if kind == "crash" or kind == "promise":
         subprocess.run([program, "-minimize_crash=1", "-max_total_time=30", f"-exact_artifact_path={smaller}", file],
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch, env=_environment())
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch, env=_environment(fuzzer, scratch))
     with open(smaller if os.path.exists(smaller) else file, "rb") as stream:
         data = stream.read()
     if os.path.exists(smaller):
@@ -118,12 +122,12 @@ def _minimise(program, file, kind, scratch):
     return data
 
 
-def _keep_small(program, work, scratch):
+def _keep_small(program, work, scratch, fuzzer):
     """Leaves only inputs that reach code that no other of them reaches. All that are kept lie there before one is removed."""
     merged = os.path.join(scratch, "merged")
     os.makedirs(merged)
     done = subprocess.run([program, "-merge=1", merged, work], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                          cwd=scratch, env=_environment())
+                          cwd=scratch, env=_environment(fuzzer, scratch))
     kept = set(os.listdir(merged))
     if done.returncode or not kept:
         return
@@ -136,15 +140,14 @@ def _keep_small(program, work, scratch):
             os.remove(file.path)
 
 
-def _coverage(program, work, sources, scratch, slow):
-    """:param slow: whether leaks of libraries are told by whole stacks: one that is not told ends the program
-    :returns: (lines that the corpus reaches, lines that there are) of the sources that a fuzzer is for; None without llvm"""
+def _coverage(program, work, fuzzer, scratch):
+    """:returns: (lines that the corpus reaches, lines that there are) of the sources that a fuzzer is for; None without llvm"""
     profdata, cov = (shutil.which(name) or shutil.which(name + "-14") for name in ("llvm-profdata", "llvm-cov"))
     if not profdata or not cov:
         return None
     raw, indexed = os.path.join(scratch, "raw"), os.path.join(scratch, "indexed")
     subprocess.run([program, work, "-runs=0"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch,
-                   env=_environment(raw, slow))
+                   env=_environment(fuzzer, scratch, raw))
     if not os.path.exists(raw) or subprocess.call([profdata, "merge", "-sparse", raw, "-o", indexed],
                                                   stderr=subprocess.DEVNULL):
         return None
@@ -155,7 +158,7 @@ def _coverage(program, work, sources, scratch, slow):
     covered = total = 0
     for file in json.loads(told.stdout)["data"][0]["files"]:
         name = os.path.relpath(file["filename"], ROOT)
-        if any(name.startswith(source) for source in sources):
+        if any(name.startswith(source) for source in fuzzer.sources):
             covered += file["summary"]["lines"]["covered"]
             total += file["summary"]["lines"]["count"]
     return (covered, total) if covered else None  # a program that ended before its profile was written

@@ -2,18 +2,23 @@
 """Fuzzers of the Python parts that follow the coverage of their lines, by atheris: bytes stand for the random numbers of a
 generator, so that every input is a legal stage, or a command line.
 
-Usage: pythonTargets.py stageReader|commandParser [libFuzzer's arguments]
-       pythonTargets.py stageReader|commandParser --run FILE...    runs inputs without atheris
-       pythonTargets.py stageReader|commandParser --lines SOURCES FOLDER    runs a folder's inputs and prints how many lines of
-                                                                  functions they reach, and how many there are; sources:
-                                                                  beginnings of paths below plugin/patina, with commas"""
+Usage: pythonTargets.py NAME [libFuzzer's arguments]    NAME is one of TARGETS
+       pythonTargets.py NAME --run FILE...    runs inputs without atheris
+       pythonTargets.py NAME --lines SOURCES FOLDER    runs a folder's inputs and prints how many lines of functions they reach,
+                                                       and how many there are; sources: beginnings of paths below
+                                                       plugin/patina, with commas"""
+import atexit
 import contextlib
 import glob
 import io
+import itertools
 import json
 import os
 import random as randoms
+import shutil
 import sys
+import tempfile
+import types
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
@@ -89,7 +94,52 @@ def command_parser():
     return one
 
 
-TARGETS = {"stageReader": stage_reader, "commandParser": command_parser}
+def package():
+    """:returns: a function of bytes that resolves files of the package that they are, as textures of a stage: by OpenUSD's
+    reader, and by the one that stands for it. They become copies in one folder, none of them larger than the package"""
+    from pxr import Ar, Sdf, Tf, Usd
+
+    from patina import inputs
+    from patina.stage import assets, compat
+
+    folder = tempfile.mkdtemp(prefix="patinaFuzz")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    names = [".", "..", "a/..", "../a.usda", "../../../../etc/passwd", "/etc/passwd", "x" * 300, "a.usda/b", "a[b]", "a.usda"]
+    older = types.SimpleNamespace(**{name: getattr(Ar, name) for name in dir(Ar) if name != "GetResolver"}, GetResolver=object)
+    opener = getattr(Sdf, "ZipFile", None) or Usd.ZipFile  # by its version
+    stage = Usd.Stage.CreateInMemory()
+    attribute = stage.DefinePrim("/texture").CreateAttribute("file", Sdf.ValueTypeNames.Asset)
+    context = types.SimpleNamespace(time=Usd.TimeCode.Default(), stage=stage)
+    numbers = itertools.count()
+
+    def one(data):
+        path = os.path.join(folder, f"{next(numbers)}.usdz")  # OpenUSD keeps packages open, by their names
+        with open(path, "wb") as file:
+            file.write(data)
+        inside = []
+        with contextlib.suppress(UnicodeDecodeError, Tf.ErrorException):  # names that Python cannot tell, and damage
+            opened = opener.Open(path)
+            inside = opened.GetFileNames()[:8] if opened else []
+        for compat.Ar in (Ar, older):
+            for name in [names[len(data) % len(names)], *inside]:
+                try:
+                    attribute.Set(Sdf.AssetPath(Ar.JoinPackageRelativePath([path, name.replace("1001", "<UDIM>")])))
+                    copy = assets.resolve(context, attribute).replace("<UDIM>", "1001")
+                except Tf.ErrorException:  # of OpenUSD, which becomes a warning of the prim
+                    continue
+                if "\0" not in copy and copy != path and os.path.exists(copy) and not (
+                        os.path.realpath(copy).startswith(str(assets._folder) + os.sep) and os.path.isfile(copy)
+                        and os.path.getsize(copy) <= len(data)):
+                    raise AssertionError(f"{name!r} becomes {copy}")
+            assets._extracted.clear()
+        inputs.forget()
+        os.remove(path)
+        for copies in os.scandir(assets._folder) if assets._folder else ():
+            shutil.rmtree(copies.path)
+    return one
+
+
+TARGETS = {"stageReader": stage_reader, "commandParser": command_parser, "package": package}
 
 
 def _lines_of(path):

@@ -72,6 +72,7 @@ def row(machine, seed, found):
             "counts": found["counts"], **({"sums": found["sums"]} if found.get("sums") else {}),
             **({"memory": found["memory"]} if found.get("memory") else {}),
             "lines": list(found["lines"]) if found.get("lines") else None,
+            **({"plateau": round(found["plateau"], 1)} if "plateau" in found else {}),
             "findings": [signature.replace(ROOT, "") for _, signature, *_ in found["findings"]]}
 
 
@@ -97,16 +98,17 @@ def append(rows, path=FILE):
 
 
 def sums(table):
-    """:returns: dict of machine -> inputs, seconds, counts by kind, lines and memory of the last run that has them, and
-    findings"""
+    """:returns: dict of machine -> inputs, seconds, counts by kind, lines and memory of the last run that has them, the longest
+    plateau, and findings"""
     found = {}
     for run in table["runs"]:
         of = found.setdefault(run["machine"], {"inputs": 0, "seconds": 0.0, "counts": {}, "sums": {}, "lines": None,
-                                               "memory": None, "findings": []})
+                                               "plateau": None, "memory": None, "findings": []})
         of["inputs"] += run["inputs"]
         of["seconds"] += run["seconds"]
         of["lines"] = run["lines"] or of["lines"]
         of["memory"] = run.get("memory") or of["memory"]
+        of["plateau"] = max(run["plateau"], of["plateau"] or 0.0) if "plateau" in run else of["plateau"]
         for key in ("counts", "sums"):
             for kind, number in run.get(key, {}).items():
                 of[key][kind] = of[key].get(kind, 0) + number
@@ -125,9 +127,11 @@ def page():
     for name in [*FUZZERS, *OTHERS]:
         of = by_machine.get(name)
         what = FUZZERS[name].reads if name in FUZZERS else OTHERS[name][0]
-        command = f"./patina fuzz {name} --seconds 3600 --results" if name in FUZZERS else OTHERS[name][1]
+        followed = name in FUZZERS and FUZZERS[name].kind != "generated"
+        time = "7200 --plateau 3600" if followed else "3600"
+        command = f"./patina fuzz {name} --seconds {time} --results" if name in FUZZERS else OTHERS[name][1]
         if of is None:
-            rows.append((f"`{name}`", what, "no run is noted", "", "", "", *[""] * len(kinds), f"`{command}`"))
+            rows.append((f"`{name}`", what, "no run is noted", "", "", "", "", *[""] * len(kinds), f"`{command}`"))
             continue
         total, seconds = total + of["inputs"], seconds + of["seconds"]
         what += "".join(f": {number:,} {name}" for name, number in sorted(of["sums"].items()))
@@ -135,12 +139,13 @@ def page():
                      f"{of['inputs'] / max(of['seconds'], 1e-3):.2g}" if of["inputs"] < 100 * of["seconds"] else
                      f"{of['inputs'] / max(of['seconds'], 1e-3):,.0f}",
                      "{:.0f} %".format(100 * of["lines"][0] / of["lines"][1]) if of["lines"] else "",
+                     f"{of['plateau'] / 60:.0f}" if of["plateau"] is not None else "not noted" if followed else "",
                      *(str(of["counts"].get(kind, 0)) for kind in kinds), f"`{command}`"))
         if name in FUZZERS and FUZZERS[name].sources:
             covered = "not measured" if not of["lines"] else f"{of['lines'][0]:,} of {of['lines'][1]:,} lines, " \
                 f"{100 * of['lines'][0] / of['lines'][1]:.0f} %"
             parsers.append((", ".join(f"`{source}`" for source in FUZZERS[name].sources), f"`{name}`", covered))
-    head = ("fuzzer", "tries", "inputs", "hours", "inputs per second", "lines reached", *kinds, "command")
+    head = ("fuzzer", "tries", "inputs", "hours", "inputs per second", "lines reached", "plateau", *kinds, "command")
     most = max(by_machine, key=lambda name: by_machine[name]["inputs"])
     share = 100 * by_machine[most]["inputs"] / max(total, 1)
     mended = [(item["what"], item["by"], f"`{item['test']}`") for item in table["mended"]]
@@ -155,9 +160,10 @@ def page():
             "## Runs", "",
             f"Inputs do not weigh the same: {share:.0f} % are those of `{most}`, which",
             "take the least time. *Lines reached* is the share of [a parser's sources](#coverage-of-the-parsers) that the",
-            "kept inputs run. Where an hour reaches no new line, more inputs of the kind say little: such an hour is the aim,",
-            "and no number of inputs.", "",
-            "The columns after *lines reached* count inputs, not causes. All other inputs gave a result, or ended with a",
+            "kept inputs run. *Plateau* is for how many minutes of the longest such run no new edge of the program was",
+            "reached. Where an hour reaches none, more inputs of the kind say little: such an hour is the aim, and no number",
+            "of inputs. A fuzzer that has had it ends, and leaves the rest of its time to the others.", "",
+            "The columns after *plateau* count inputs, not causes. All other inputs gave a result, or ended with a",
             "message.", "",
             *(f"- {KINDS[kind]}" for kind in kinds), "",
             *_table(head, rows), "",

@@ -7,6 +7,7 @@ import importlib
 import json
 import os
 import subprocess
+import sys
 import types
 
 import pytest
@@ -14,6 +15,7 @@ import pytest
 pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
+import following  # noqa: E402
 import fuzzRun  # noqa: E402
 import generated  # noqa: E402
 import keptFindings  # noqa: E402
@@ -186,6 +188,47 @@ def test_rows_hold_no_path_of_a_machine():
     assert results.row("edits", 1, found)["findings"] == ['File "testenv/fuzz/generated.py", line 7']
 
 
+def test_time_goes_where_something_new_is_reached(monkeypatch):
+    """Fuzzers that follow coverage are first, and what they leave at their plateau is shared among the others."""
+    now, given = [0.0], {}
+
+    def run(taken):
+        def one(name, share):
+            given[name] = share
+            now[0] += min(share, taken)
+            return {"inputs": 1, "seconds": min(share, taken), "counts": {}, "lines": None, "findings": []}
+        return one
+
+    follows, makes = run(1.0), run(1e9)
+    monkeypatch.setattr(fuzzRun.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(native, "build", lambda *_: None)
+    monkeypatch.setattr(native, "run", lambda name, fuzzer, build, corpus, share, quiet, *_: follows(name, share))
+    monkeypatch.setattr(generated, "run", lambda module, share, *_: makes(module.__name__, share))
+    fuzzRun.run(["edits", "ies", "faults", "film"], 120.0, None, 1, None, "found", "build", lambda _: None)
+    assert list(given) == ["ies", "film", "edits", "faults"]
+    assert given == pytest.approx({"ies": 20.0, "film": 119.0 / 5.0, "edits": 59.0, "faults": 59.0})
+
+
+@pytest.mark.parametrize("most, status", [(0.3, 0), (HANGS, 3)])
+def test_a_plateau_ends_a_program(most, status):
+    """It is asked to end where it reaches nothing new, and may go on where it does."""
+    program = "import signal\nprint('#2\\tINITED cov: 7 ft: 8', flush=True)\nprint('#40\\tpulse cov: 7', flush=True)\n"
+    program += "signal.pause()\n" if not status else "raise SystemExit(3)\n"
+    edges = following.Plateau()
+    found, said, inputs = following.run([sys.executable, "-c", program], edges, most)
+    assert (found, inputs, edges.edges) == (status, 40, 7) and "INITED" in said
+
+
+def test_crashes_of_libraries_are_theirs():
+    text = ("==7==ERROR: AddressSanitizer: SEGV on unknown address 0x61 (pc 0x7f bp 0x7f sp 0x7f T0)\n"
+            "==7==The signal is caused by a READ memory access.\n    #0 0x55 in __asan_memcpy (/b/texture+0x1)\n"
+            "    #1 0x7f in OpenImageIO_v2_4::decode(int) (/lib/libOpenImageIO.so.2.4+0x4c) (BuildId: b9)\n"
+            "    #2 0x55 in patina::read(int) /b/read.cpp:71:13\n")
+    assert native._why(text) == ("library", "OpenImageIO_v2_4::decode in libOpenImageIO")
+    ours = text.replace("    #1 0x7f in OpenImageIO_v2_4::decode(int) (/lib/libOpenImageIO.so.2.4+0x4c) (BuildId: b9)\n", "")
+    assert native._why(ours)[0] == "crash"
+
+
 @pytest.fixture
 def runs(monkeypatch):
     """`patina fuzz` without fuzzers: each call notes its names, and finds nothing."""
@@ -268,7 +311,7 @@ def test_a_corpus_outlives_a_copy_that_fails(tmp_path, monkeypatch):
 
     def keep(name):
         (tmp_path / name).mkdir()
-        native._keep_small(str(program), str(work), str(tmp_path / name))
+        native._keep_small(str(program), str(work), str(tmp_path / name), FUZZERS["ies"])
 
     monkeypatch.setattr(native.shutil, "copy", full)
     with pytest.raises(OSError):

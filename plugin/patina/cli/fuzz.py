@@ -3,6 +3,7 @@
 with a message. It must not crash, hang, take memory without end, lose an image or make values that are no numbers.
 
   patina fuzz --seconds 600
+  patina fuzz texture parts --seconds 14400 --plateau 3600
   patina fuzz randomStages edits --seconds 3600 --seed 1000 --json=figures.json
   patina fuzz --keep patinaFindings/ies-crash-heap-1234abcd hugeTable
 
@@ -24,6 +25,9 @@ def add_arguments(parser):
     parser.add_argument("names", nargs="*", metavar="NAME", help="fuzzers (default: all); with --keep, the name of the test")
     parser.add_argument("--list", action="store_true", help="print the fuzzers and end")
     parser.add_argument("--seconds", type=float, default=60.0, metavar="S", help="time of all fuzzers together (default: 60)")
+    parser.add_argument("--plateau", type=float, metavar="S",
+                        help="a fuzzer that follows coverage ends after so long without a new edge, and leaves its time to the "
+                             "others (default: a third of its share, at most 3600)")
     parser.add_argument("--seed", type=int, default=1, metavar="N",
                         help="seed of the first input; the others count up (default: 1)")
     parser.add_argument("--corpus", metavar="FOLDER", help="inputs of the native fuzzers, kept small, that the next run goes "
@@ -44,8 +48,8 @@ def run(arguments):
     folder = os.path.join(root, "testenv", "fuzz")
     if not os.path.isfile(os.path.join(folder, "fuzzRun.py")):
         raise CommandError("the fuzzers are in a checkout only: run ./patina fuzz there")
-    if arguments.seed < 0 or not 0.0 < arguments.seconds < 1e9:
-        raise UsageError("patina fuzz: --seed is 0 or more, and --seconds above 0")
+    if arguments.seed < 0 or not all(0.0 < s < 1e9 for s in (arguments.seconds, arguments.plateau or 1.0)):
+        raise UsageError("patina fuzz: --seed is 0 or more, and --seconds and --plateau above 0")
     sys.path.insert(0, folder)
     import fuzzRun
     import keptFindings
@@ -72,8 +76,8 @@ def run(arguments):
     if file:
         _of_table(table.read, file)
     say = functools.partial(print, file=sys.stderr) if arguments.json == "-" else print
-    results = fuzzRun.run(arguments.names, arguments.seconds, arguments.seed, arguments.corpus, arguments.findings,
-                          os.path.abspath(arguments.build or os.path.join(root, "build-fuzz")), say)
+    results = fuzzRun.run(arguments.names, arguments.seconds, arguments.plateau, arguments.seed, arguments.corpus,
+                          arguments.findings, os.path.abspath(arguments.build or os.path.join(root, "build-fuzz")), say)
     try:
         outputs.write_json(arguments.json, {"seed": arguments.seed, "fuzzers": fuzzRun.figures(results)})
     finally:  # one that can no longer be written does not lose the other

@@ -85,16 +85,17 @@ def extract(path):
     global _folder
     if path in _extracted:
         return _extracted[path]
-    data = compat.read_asset(path)
+    data = None if "\0" in path else compat.read_asset(path)
     if data is None:
         return None
     if _folder is None:
         _folder = tempfile.mkdtemp(prefix="patina-")
         atexit.register(shutil.rmtree, _folder, ignore_errors=True)
     package, inner = Ar.SplitPackageRelativePathInner(path)
-    # One folder per folder of a package: tiles stay together, equal names of others apart.
-    key = hashlib.sha1((package + "\0" + os.path.dirname(inner)).encode()).hexdigest()[:16]
-    file = os.path.join(_folder, key, os.path.basename(inner) or "file")
+    # One folder per folder of a package: tiles stay together, equal names of others apart. File systems take 255 bytes.
+    name = os.path.basename(inner)[-60:]
+    key = hashlib.sha1((package + "\0" + inner[:len(inner) - len(name)]).encode(errors="surrogateescape")).hexdigest()[:16]
+    file = os.path.join(_folder, key, "file" if name in ("", ".", "..") else name)
     os.makedirs(os.path.dirname(file), exist_ok=True)
     with open(file, "wb") as out:
         out.write(data)

@@ -3,7 +3,7 @@
 import io
 import zipfile
 
-from pxr import Ar, Usd, UsdShade, UsdUtils
+from pxr import Ar, Tf, Usd, UsdShade, UsdUtils
 
 
 def exposure_scale(camera, time):
@@ -40,11 +40,15 @@ def read_asset(path):
     :returns: its bytes, None when it cannot be read"""
     resolver = Ar.GetResolver()
     if hasattr(resolver, "OpenAsset"):
-        asset = resolver.OpenAsset(Ar.ResolvedPath(path))
+        try:
+            asset = resolver.OpenAsset(Ar.ResolvedPath(path))
+        except Tf.ErrorException:  # of a package that is damaged, or packs its files
+            return None
         if not asset:
             return None
         with asset:
-            return bytes(asset.GetBuffer())
+            data = asset.GetBuffer()
+            return None if data is None else bytes(data)  # none of an empty file
     package, inner = Ar.SplitPackageRelativePathOuter(path)
     try:
         with open(package, "rb") as file:
@@ -53,14 +57,17 @@ def read_asset(path):
             inner = Ar.SplitPackageRelativePathOuter(inner)[1]
             data = _from_zip(io.BytesIO(data), inner)
         return data
-    except (OSError, KeyError, zipfile.BadZipFile):
+    except (OSError, KeyError, EOFError, ValueError, RuntimeError, zipfile.BadZipFile):  # all that damage makes zipfile raise
         return None
 
 
 def _from_zip(file, inner):
     """:returns: bytes of the outermost file that a path inside of a package names"""
     with zipfile.ZipFile(file) as package:
-        return package.read(Ar.SplitPackageRelativePathOuter(inner)[0] if Ar.IsPackageRelativePath(inner) else inner)
+        found = package.getinfo(Ar.SplitPackageRelativePathOuter(inner)[0] if Ar.IsPackageRelativePath(inner) else inner)
+        if found.compress_type != zipfile.ZIP_STORED:
+            raise KeyError(inner)  # no usdz, and it may hold a thousand times its bytes
+        return package.read(found)
 
 
 def bound_materials(prims, purpose="full"):

@@ -60,9 +60,12 @@ FilmStream::Header headerOf(Walk& walk) {
         AovSpec spec;
         spec.name = walk.text();
         spec.components = std::clamp(walk.value<int32_t>(), 1, 16);
-        spec.kind = AovKind(walk.value<int32_t>() & 1);
+        spec.kind = AovKind(std::clamp(walk.value<int32_t>(), 0, int(AovKind::Coverage)));
         walk.value<float>();
         walk.value<uint32_t>();
+        if (spec.kind == AovKind::Coverage)
+            for (uint32_t left = walk.value<uint32_t>(); left > 0 && walk.good(); --left)
+                walk.text();
         header.aovs.push_back(spec);
     }
     walk.seal(true);
@@ -74,15 +77,21 @@ void pixels(Walk& walk, const std::vector<AovSpec>& aovs, int64_t width, int64_t
     for (int64_t y = 0; width > 0 && y < height && walk.good(); ++y) {
         walk.skip(bare * uint64_t(width));
         for (const AovSpec& spec : aovs)
-            if (const uint64_t more = FilmStream::bytesOfPixel({spec}) - bare)
+            if (const uint64_t more = FilmStream::bytesOfPixel({spec}) - bare;
+                more && spec.kind != AovKind::Coverage)
                 walk.skip(more * uint64_t(width));
     }
+    for (const AovSpec& spec : aovs)
+        for (int64_t cell = spec.kind == AovKind::Coverage ? width * height : 0;
+             cell > 0 && walk.good(); --cell)
+            for (uint32_t left = walk.value<uint32_t>(); left > 0 && walk.good(); --left)
+                walk.value<CoverageCount>();
 }
 
 } // namespace
 
 void forgeChecksums(std::string& bytes, bool part) {
-    const uint32_t version = part ? 1 : 3, order = 0x01020304;
+    const uint32_t version = part ? 2 : 3, order = 0x01020304;
     std::memcpy(&bytes[0], part ? "PatinaPT" : "PatinaCP", 8);
     std::memcpy(&bytes[8], &version, sizeof version);
     std::memcpy(&bytes[12], &order, sizeof order);
@@ -104,10 +113,16 @@ void forgeChecksums(std::string& bytes, bool part) {
     walk.seal(true);
     while (walk.good() && walk.value<uint32_t>() != 0) {
         const FilmStream::Header header = headerOf(walk);
-        for (const Tile& tile : tiles)
+        std::vector<uint32_t> written;
+        for (uint32_t left = walk.value<uint32_t>(); left > 0 && walk.good(); --left)
+            written.push_back(walk.value<uint32_t>());
+        for (const uint32_t index : written) {
+            if (index >= tiles.size()) return; // its reader ends here
+            const Tile& tile = tiles[index];
             pixels(walk, header.aovs,
                    std::clamp(int64_t(tile.x1) - tile.x0, int64_t(0), int64_t(tileSize)),
                    std::clamp(int64_t(tile.y1) - tile.y0, int64_t(0), int64_t(tileSize)));
+        }
     }
     walk.text();
     walk.seal(false);

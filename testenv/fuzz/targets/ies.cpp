@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstdlib>
 
-int fuzzIes(const uint8_t* data, size_t size) {
+bool fuzzIes(const uint8_t* data, size_t size) {
     patina::IesProfile profile;
     std::string error;
     if (!profile.parse(std::string(reinterpret_cast<const char*>(data), size), error)) {
         if (error.empty() || error.find('\n') != std::string::npos)
             std::abort(); // one line, always
-        return 0;
+        return false;
     }
     if (!std::isfinite(profile.mean()) || !std::isfinite(profile.peak())) std::abort();
     for (float theta : {0.0f, 0.7f, 1.5707964f, 3.1415927f, -1.0f, 1e30f})
@@ -20,5 +20,5 @@ int fuzzIes(const uint8_t* data, size_t size) {
             const float value = profile.candela(theta, phi), factor = profile.factor(theta, phi);
             if (!(value >= 0.0f) || !std::isfinite(value) || !(factor >= 0.0f)) std::abort();
         }
-    return 0;
+    return true;
 }

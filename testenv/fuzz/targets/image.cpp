@@ -3,17 +3,18 @@
 // readers are OpenImageIO's.
 #include "hdDelegate/film/imageFile.h"
 #include "base/utf8.h"
-#include "testenv/fuzz/targets/memoryFile.h"
+#include "testenv/fuzz/targets/imageInput.h"
 #include "testenv/fuzz/targets/targets.h"
 
 #include <cstdlib>
 #include <stdexcept>
 
-int fuzzImage(const uint8_t* data, size_t size) {
+bool fuzzImage(const uint8_t* data, size_t size) {
     using namespace patina;
-    static MemoryFile file;
+    const std::string path = imageInput(data, size);
+    if (path.empty()) return false;
     try {
-        const ImageData image = readImage(file.with(data, size));
+        const ImageData image = readImage(path);
         if (image.pixels.size() !=
             size_t(image.width) * size_t(image.height) * image.channels.size())
             std::abort();
@@ -25,6 +26,7 @@ int fuzzImage(const uint8_t* data, size_t size) {
     } catch (const std::runtime_error& error) {
         if (std::string(error.what()).find('\n') != std::string::npos)
             std::abort(); // one line, always
+        return false;
     }
-    return 0;
+    return true;
 }

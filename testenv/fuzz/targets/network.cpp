@@ -105,7 +105,7 @@ Network networkOf(Choices& bytes) {
 
 } // namespace patina
 
-int fuzzNetwork(const uint8_t* data, size_t size) {
+bool fuzzNetwork(const uint8_t* data, size_t size) {
     patina::Choices bytes(data, size);
     const patina::Network network = patina::networkOf(bytes);
     std::string source;
@@ -113,5 +113,5 @@ int fuzzNetwork(const uint8_t* data, size_t size) {
         for (const auto& input : node.inputs)
             source += input.second.text + "\n" + input.second.colorSpace + "\n";
     patina::useMaterial(network, source);
-    return 0;
+    return true;
 }

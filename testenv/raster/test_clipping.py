@@ -100,8 +100,7 @@ def test_clipping_planes_cut_surfaces_and_lights(tmp_path, projection, planes):
     raster, traced = images(tmp_path, SURFACES, LIGHTS, projection, planes=planes)
     whole = images(tmp_path, SURFACES, LIGHTS, projection, backends=["embree"])[0]
     assert np.abs(whole - traced).mean() > 0.05 * whole.mean()
-    # The inside of the ball that three planes open is up to 1.7 times as bright in the rasterizer. The cause is not known.
-    assert_alike(raster, traced, 0.02)
+    assert_alike(raster, traced)
 
 
 def test_more_planes_than_are_taken_are_told(tmp_path):

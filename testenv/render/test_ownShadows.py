@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lights whose shadows are not the shapes in their way: a card that hides nothing changes nothing, whichever way light is found."""
+"""Lights whose shadows are not the shapes in their way: a card that hides nothing changes nothing, however light is found."""
 import numpy as np
 import pytest
 
@@ -55,8 +55,10 @@ LIGHTS = {"dome": ('DomeLight', "    float inputs:intensity = 1\n"),
                    "    double3 xformOp:translate = (0, 5, 0)\n    float xformOp:rotateX = -90\n"
                    '    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]\n'),
           "sphere": ('SphereLight', "    float inputs:intensity = 5\n    float inputs:radius = 1\n"
-                     '    double3 xformOp:translate = (0, 5, 0)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n'),
-          "sun": ('DistantLight', "    float inputs:intensity = 1\n    float inputs:angle = 40\n    float xformOp:rotateX = -90\n"
+                     "    double3 xformOp:translate = (0, 5, 0)\n"
+                     '    uniform token[] xformOpOrder = ["xformOp:translate"]\n'),
+          "sun": ('DistantLight', "    float inputs:intensity = 5\n    float inputs:angle = 40\n"
+                  "    float xformOp:rotateX = -90\n"
                   '    uniform token[] xformOpOrder = ["xformOp:rotateX"]\n')}
 # Ways to have no shadow of the card, beside the last, whose shadow is as bright as the light.
 SHADOWS = {"off": "    bool inputs:shadow:enable = 0\n", "short": "    float inputs:shadow:distance = 0.5\n",
@@ -69,7 +71,8 @@ def image(folder, light, shadow, card, look, *flags):
     schemas = 'prepend apiSchemas = ["ShadowAPI", "CollectionAPI:shadowLink"]'
     stage = STAGE.replace("METALLIC", str(look[0])).replace("ROUGHNESS", str(look[1]))
     file = folder / f"{light}{int(card)}.usda"
-    file.write_text(stage + (CARD if card else "") + f'def {kind} "light" ({schemas})\n{{\n{text}{shadow}}}\n', encoding="utf-8")
+    light = f'def {kind} "light" ({schemas})\n{{\n{text}{shadow}}}\n'
+    file.write_text(stage + (CARD if card else "") + light, encoding="utf-8")
     found = inProcess.Stage(str(file), "--camera", "/camera", "-w", "24", "--samples", "64", "--maxDepth", "1", *flags)
     return found.image(1 + card)[..., :3].astype(np.float64)
 

@@ -46,6 +46,7 @@ void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& sche
     _rays += counters.rays;
     _shadowRays += counters.shadowRays;
     _paths += counters.paths;
+    schedule.look(tile);
     if (!_settings.timeMaterials) return;
     const std::lock_guard<std::mutex> lock(_spentMutex);
     for (const auto& item : counters.clock.stop())

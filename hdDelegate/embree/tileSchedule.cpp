@@ -61,7 +61,16 @@ bool TileSchedule::isDone() const {
 
 int TileSchedule::target(int tile) const {
     const int done = count(tile);
-    return done >= _samples || isEnough(tile, done) ? 0 : nextStep(done, _samples);
+    if (done >= _samples || isEnough(tile, done)) return 0;
+    int next = nextStep(done, _samples);
+    // Where nobody looks, long steps wait for each other less often.
+    while (!(_tolerance > 0.0) && next > 16 && next % 16 != 0 && next < _samples)
+        next = nextStep(next, _samples);
+    return next;
+}
+
+void TileSchedule::look(int tile) const {
+    if (_tolerance > 0.0 && count(tile) > 1) errorOf(tile, count(tile));
 }
 
 std::vector<int> TileSchedule::pending() const {

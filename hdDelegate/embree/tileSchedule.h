@@ -27,6 +27,9 @@ public:
     /// The sample count that a tile should reach next; 0 when it has enough. One thread may ask for
     /// one tile at a time.
     int target(int tile) const;
+    /// Sums up the error of a tile that has reached a step, so that tiles do so at once. One thread
+    /// may ask for one tile at a time.
+    void look(int tile) const;
     /// Tiles that have not reached the next step of the slowest tile; none when the image is done.
     std::vector<int> pending() const;
     int samplesDone() const; ///< of the tile with the fewest, since RenderSettings::sampleBegin

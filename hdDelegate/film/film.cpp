@@ -180,6 +180,7 @@ Film::Sums Film::Sums::operator+(const Sums& other) const {
 /// Before a pixel's next sample: keeps the mean after each power of two.
 void Film::recordMean(Pixel& p) {
     if (!p.count || (p.count & (p.count - 1))) return;
+    p.deviationEarlier = p.deviationBefore;
     p.deviationBefore = deviationOfMean(p);
     p.meanBefore = float(luminanceOf(p.total().color) / p.count);
 }
@@ -315,10 +316,12 @@ float Film::deviationOfMean(const Pixel& p) {
         first *= 2;
     const double n = p.count, part = first;
     const double change = luminanceOf(p.total().color) / n - double(p.meanBefore);
-    const double latest = change * change * part / (n - part);
-    if (first == 1) return float(std::sqrt(latest));
-    const double earlier = double(p.deviationBefore) * double(p.deviationBefore) * part / n;
-    return float(std::sqrt(0.5 * (latest + earlier)));
+    const double latest = std::abs(change) * std::sqrt(part / (n - part));
+    if (first == 1) return float(latest);
+    // Few samples behind the power of two tell little.
+    const double weight = 0.5 * (n - part) / part;
+    const double earlier = double(p.deviationBefore) * std::sqrt(part / n);
+    return float(weight * latest + (1.0 - weight) * earlier);
 }
 
 glm::ivec2 Film::shownAt(int x, int y) const {

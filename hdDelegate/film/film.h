@@ -131,14 +131,16 @@ public:
     float alpha(int x, int y) const;
     /// Variance of the mean of the luminance: s^2 / n. 0 with fewer than two samples.
     float varianceOfMean(int x, int y) const;
-    /// Standard deviation of the mean of the luminance, as the well spread sequence of the samples
-    /// leaves it, which varianceOfMean() does not know of: from the differences between the mean
-    /// after each power of two samples and the one before, half of it from the latest. Few numbers,
-    /// so that it is right in the mean over some pixels only. 0 with fewer than two samples.
+    /// Expected size of the error of the mean of the luminance, as the well spread sequence of the
+    /// samples leaves it, which varianceOfMean() does not know of: from how far means have moved.
+    /// Where m is the mean of the first half, |M - m| has the distribution of the error of M if
+    /// samples err up and down alike: both are sums of two independent halves. The halves of all
+    /// powers of two count, each half as much as the next. One number per pixel, so that it is
+    /// right in the mean over some pixels only. 0 with fewer than two samples.
     float deviationOfMean(int x, int y) const { return deviationOfMean(pixel(x, y)); }
-    /// As deviationOfMean() was after the largest power of two samples below those of now; 0 of
-    /// one.
-    float deviationBefore(int x, int y) const { return pixel(x, y).deviationBefore; }
+    /// As deviationOfMean() was at half of the largest power of two samples below those of now; 0
+    /// where that is one sample.
+    float deviationBefore(int x, int y) const { return pixel(x, y).deviationEarlier; }
     float luminance(int x, int y) const; ///< Rec.709
 
     /// Resolved pixels of any AOV (also color, alpha, sampleCount, variance, and color.noisy where
@@ -182,8 +184,8 @@ private:
         Sums total() const { return closed + open; }
         // Of the luminance's mean at the largest power of two below count:
         float meanBefore = 0;
-        float deviationBefore = 0; ///< as deviationOfMean() was there; 0 of one sample
-        uint32_t reserved = 0;     ///< no padding: checkpoints hold the bytes
+        float deviationBefore = 0;  ///< as deviationOfMean() was there; 0 of one sample
+        float deviationEarlier = 0; ///< likewise, at half of that power
     };
     /// Means keep components sums of closed spans, as many of the open one, and their count; the
     /// First ones components values and the distance of the sample, and Coverage a cell. Only the

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double meanOfHalfNormal = 0.79788456080286536; // sqrt(2 / pi)
 constexpr double minLuminance = 0.01;                    // black pixels do not decide
+constexpr double significant = 3.0; // standard errors by which the light of a pixel is known
+constexpr double manyAround = 0.2;  // of nine pixels: two or more
 
 /// A rectangle of numbers.
 struct Grid {
@@ -38,7 +40,7 @@ struct Grid {
 
 ErrorSums& ErrorSums::operator+=(const ErrorSums& other) {
     pixels += other.pixels;
-    around += other.around;
+    error += other.error;
     own += other.own;
     ownSquares += other.ownSquares;
     before += other.before;
@@ -50,34 +52,44 @@ ErrorSums& ErrorSums::operator+=(const ErrorSums& other) {
 ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
     ErrorSums sums;
     if (x1 <= x0 || y1 <= y0) return sums;
-    Grid luminance(x1 - x0, y1 - y0), squares(x1 - x0, y1 - y0);
-    for (int y = y0; y < y1; ++y)
-        for (int x = x0; x < x1; ++x)
-            luminance.at(x - x0, y - y0) = std::abs(film.luminance(x, y));
-    for (int y = y0; y < y1; ++y)
-        for (int x = x0; x < x1; ++x) {
-            if (!film.sampleCount(x, y)) continue;
-            // A pixel that has found too much light must not count less for that.
-            const double l = luminance.at(x - x0, y - y0);
-            const double scale = std::min(l, luminance.meanAround(x - x0, y - y0)) + minLuminance;
-            const double deviation = double(film.deviationOfMean(x, y)) / scale;
-            squares.at(x - x0, y - y0) = float(std::min(deviation * deviation, 1e30));
-            const int n = int(film.sampleCount(x, y));
-            int part = 1;
+    const int width = x1 - x0, height = y1 - y0;
+    Grid luminance(width, height), scale(width, height), squares(width, height),
+        rare(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            luminance.at(x, y) = std::abs(film.luminance(x0 + x, y0 + y));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double l = luminance.at(x, y), variance = film.varianceOfMean(x0 + x, y0 + y);
+            // A pixel that has found too much light must not count less for that: within its noise
+            // the luminance is that of the pixels around.
+            const double chance = 2.0 * double(film.deviationOfMean(x0 + x, y0 + y));
+            const double known =
+                std::clamp(luminance.meanAround(x, y), std::max(l - chance, 0.0), l + chance);
+            scale.at(x, y) = float(known + minLuminance);
+            squares.at(x, y) =
+                float(std::min(variance / ((known + minLuminance) * (known + minLuminance)), 1e30));
+            rare.at(x, y) = l * l <= significant * significant * variance ? 1.0f : 0.0f;
+        }
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const uint32_t n = film.sampleCount(x0 + x, y0 + y);
+            if (!n) continue;
+            uint32_t part = 1;
             while (part < n - part)
                 part *= 2;
-            sums.before += double(film.deviationBefore(x, y)) / scale;
-            sums.growth += double(n) / part;
-            sums.plain += std::sqrt(double(film.varianceOfMean(x, y))) / scale;
-        }
-    // Light that few samples find is noise of the pixels around, too, that have found none of it.
-    for (int y = 0; y < squares.height; ++y)
-        for (int x = 0; x < squares.width; ++x) {
-            if (!film.sampleCount(x0 + x, y0 + y)) continue;
+            const double s = scale.at(x, y), own = double(film.deviationOfMean(x0 + x, y0 + y)) / s;
+            // Light that few samples find is noise of the pixels around, too, that have found none
+            // of it. It errs up and down unlike, which halves do not show.
+            sums.error += rare.meanAround(x, y) > manyAround
+                              ? meanOfHalfNormal * std::sqrt(squares.meanAround(x, y))
+                              : own;
             sums.pixels += 1.0;
-            sums.around += std::sqrt(squares.meanAround(x, y));
-            sums.own += std::sqrt(double(squares.at(x, y)));
-            sums.ownSquares += double(squares.at(x, y));
+            sums.own += own;
+            sums.ownSquares += own * own;
+            sums.before += double(film.deviationBefore(x0 + x, y0 + y)) / s;
+            sums.growth += double(n) / part;
+            sums.plain += meanOfHalfNormal * std::sqrt(double(squares.at(x, y)));
         }
     return sums;
 }
@@ -85,22 +97,22 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
 /// The true error over the estimate by changes between means, where errors fall faster than with
 /// the root of the number of samples. With the error e(n) ~ n^-a a mean changes from p samples to n
 /// by e(p)^2 - e(n)^2 = e(n)^2 ((n/p)^2a - 1). Film::deviationOfMean() has 2a = 1, in the change
-/// and in what remains of the estimates before, e(p)^2 p / n.
+/// and in what remains of the estimates before. At powers of two it so is C e(n), with
+/// C = k / (2 - 2^(a - 1/2)) of k = (2^2a - 1)^1/2.
 static double spreadCorrection(const ErrorSums& sums) {
     constexpr double steepest = 1.3; // of 2a that is believed
     const double growth = sums.growth / sums.pixels;
     if (!(sums.before > 0.0) || !(sums.own > 0.0) || !(growth > 1.0)) return 1.0;
     const double ratio = (sums.own * sums.own) / (sums.before * sums.before);
     // Less what chance may have made of it, at two standard errors of each mean.
-    const double slope = (-std::log(ratio) - 2.0 / std::sqrt(sums.pixels)) / std::log(growth);
+    const double slope = (-std::log(ratio) - 2.0 / std::sqrt(sums.pixels)) / std::log(2.0 * growth);
     const double power = std::clamp(slope, 1.0, steepest);
-    const double octave = std::pow(2.0, -power); // of e^2
-    const double before = (2.0 * octave - 0.5) / (1.0 - octave);
-    const double remains = sums.before * sums.before / growth;
-    const double change = std::max(2.0 * sums.own * sums.own - remains, 0.0);
-    const double corrected = change * (growth - 1.0) / (std::pow(growth, power) - 1.0) +
-                             remains * std::pow(growth, 1.0 - power) * before;
-    return std::sqrt(std::min(corrected / (2.0 * sums.own * sums.own), 1.0));
+    const double atPower =
+        std::sqrt(std::pow(2.0, power) - 1.0) / (2.0 - std::pow(2.0, 0.5 * (power - 1.0)));
+    const double latest = std::sqrt((std::pow(growth, power) - 1.0) / (growth - 1.0));
+    const double weight = 0.5 * (growth - 1.0); // as in the deviation
+    return 1.0 /
+           (weight * latest + (1.0 - weight) * atPower * std::pow(growth, 0.5 * (power - 1.0)));
 }
 
 double relativeError(const ErrorSums& sums, PixelNoise noise) {
@@ -111,11 +123,10 @@ double relativeError(const ErrorSums& sums, PixelNoise noise) {
     const double spread =
         pixels > 1.0 ? std::max(sums.ownSquares / pixels - ownMean * ownMean, 0.0) / (pixels - 1.0)
                      : sums.ownSquares;
-    double error = spreadCorrection(sums) * (sums.around / pixels) + std::sqrt(spread);
+    const double error = spreadCorrection(sums) * (sums.error / pixels) + std::sqrt(spread);
     // Pixels that are wrong together may agree by chance: then half of the plain error is the
     // least.
-    if (noise == PixelNoise::Shared) error = std::max(error, 0.5 * sums.plain / pixels);
-    return meanOfHalfNormal * error;
+    return noise == PixelNoise::Shared ? std::max(error, 0.5 * sums.plain / pixels) : error;
 }
 
 double relativeError(const Film& film, int x0, int y0, int x1, int y1, PixelNoise noise) {
@@ -123,8 +134,8 @@ double relativeError(const Film& film, int x0, int y0, int x1, int y1, PixelNois
 }
 
 int nextStep(int samples, int maximum) {
-    int step = 16;
-    while (step < 256 && samples / step >= 32)
+    int step = 2;
+    while (step < 256 && samples / step >= (step < 16 ? 16 : 32))
         step *= 2;
     const int next = samples == 0 ? 1 : samples < 16 ? samples * 2 : (samples / step + 1) * step;
     return std::min(next, maximum);

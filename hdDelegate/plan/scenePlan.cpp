@@ -65,6 +65,7 @@ void ScenePlan::add(const std::string& path, const MethodPlan& material) {
 void ScenePlan::add(const PlannedMethod& choice) {
     if (choice.point.empty()) return;
     if (choice.point == "subdivision") _subdivision = choice.error;
+    if (choice.point == "pathDepth") _depth = choice.error;
     _choices.push_back(choice);
 }
 
@@ -131,10 +132,12 @@ int ScenePlan::rouletteDepth(const RenderSettings& settings) const {
 }
 
 double ScenePlan::noise(double tolerance) const {
-    return tolerance > 0.0
-               ? tolerance * (1.0 - depthShare) - std::min(_error, methodShare * tolerance) -
-                     std::min(_subdivision, subdivisionShare * tolerance)
-               : tolerance;
+    if (!(tolerance > 0.0)) return tolerance;
+    // Biases may all have one sign.
+    const double bias = std::min(_error, methodShare * tolerance) +
+                        std::min(_subdivision, subdivisionShare * tolerance) +
+                        std::min(_depth, depthShare * tolerance);
+    return noiseBeside(bias, tolerance);
 }
 
 void ScenePlan::addStatistics(double tolerance, std::map<std::string, double>& statistics) const {

@@ -35,9 +35,9 @@ public:
 
     static constexpr int depthStandard = 16, maxPlannedDepth = 1024;
 
-    /// The part of a tolerance that noise may take: all that methods, subdivision and depth leave,
-    /// and never less than their own shares leave (methods that are forced may spoil more). 0 and
-    /// below: all samples.
+    /// The part of a tolerance that noise may take: what the predicted errors of methods, edges and
+    /// paths leave (noiseBeside), and never less than their shares leave (methods that are forced
+    /// may spoil more). 0 and below: all samples.
     double noise(double tolerance) const;
 
     /// For RenderProgress::statistics; nothing without a tolerance.
@@ -52,7 +52,7 @@ private:
     PlannedMethod pathDepth(const RenderSettings& settings) const;
     PlannedMethod roulette(const RenderSettings& settings) const;
 
-    double _error = 0.0, _albedo = 0.0, _subdivision = 0.0;
+    double _error = 0.0, _albedo = 0.0, _subdivision = 0.0, _depth = 0.0;
     std::map<std::string, MethodPlan> _materials;
     std::vector<PlannedMethod> _choices;
 };

@@ -4,6 +4,7 @@
 #include "materialNetwork/planner/predictError.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -163,7 +164,7 @@ private:
     double effort(double ns, double error) const {
         if (!(_planning.tolerance > 0.0)) return ns;
         const double used = std::min(error / _planning.tolerance, methodShare);
-        const double noise = 1.0 - depthShare - used;
+        const double noise = noiseBeside(used + depthShare, 1.0);
         return (nsPerSample + ns) / (noise * noise);
     }
 
@@ -216,6 +217,10 @@ private:
 };
 
 } // namespace
+
+double noiseBeside(double bias, double tolerance) {
+    return std::sqrt(std::max(tolerance * tolerance - bias * bias, 0.0));
+}
 
 double bounceFactor(double albedo) {
     return 1.0 / (1.0 - 0.75 * std::clamp(albedo, 0.0, 1.0));

@@ -18,8 +18,12 @@ struct Planning {
 /// Share of the tolerance that methods may take; noise gets what they leave.
 constexpr double methodShare = 0.4;
 
-/// Share of the tolerance that is kept for paths being cut off.
+/// Share of the tolerance that paths may take by being cut off.
 constexpr double depthShare = 0.1;
+
+/// What a bias leaves of a tolerance to noise, both as mean sizes: sqrt(tolerance^2 - bias^2).
+/// Noise does not depend on the bias, and where it is normal E|b + n| <= sqrt(b^2 + E|n|^2).
+double noiseBeside(double bias, double tolerance);
 
 /// Chooses a method at every choice point that has a truth and matters to a plan. The predicted
 /// errors of the chosen methods sum up to at most methodShare of the tolerance. Among those the

@@ -71,7 +71,8 @@ def test_renders_tell_the_predicted_error(tmp_path, backend):
     plan = planned["plan"]
     drawn = plan["scene"]["subdivision"]["error"]
     assert 0.0 <= drawn <= 0.1 * 0.2
-    assert planned["noiseTolerance"] == pytest.approx(0.9 * 0.2 - min(planned["predictedError"], 0.4 * 0.2) - drawn)
+    bias = min(planned["predictedError"], 0.4 * 0.2) + drawn + plan["scene"].get("pathDepth", {"error": 0.0})["error"]
+    assert planned["noiseTolerance"] == pytest.approx((0.2**2 - bias**2) ** 0.5)
     assert "plan" not in plain
     # Of the diffuse floor nothing is chosen but how the rasterizer lights it.
     assert set(plan["materials"]) == {"/World/materials/red", "/World/materials/blue"} | (

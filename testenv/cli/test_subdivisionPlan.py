@@ -136,6 +136,7 @@ def test_files_say_what_was_chosen(tmp_path):
     assert set(scene) == {"subdivision", "pathDepth", "roulette"}
     drawn = scene["subdivision"]["error"]
     assert 0.0 < drawn <= 0.1 * 0.2
-    assert frame["noiseTolerance"] == pytest.approx(0.9 * 0.2 - min(frame["predictedError"], 0.4 * 0.2) - drawn)
+    bias = min(frame["predictedError"], 0.4 * 0.2) + drawn + scene["pathDepth"]["error"]
+    assert frame["noiseTolerance"] == pytest.approx((0.2**2 - bias**2) ** 0.5)
     reported = _patina.read_image(str(image)).metadata["patina:methods"]
     assert all(f"{point}={choice['method']}" in reported for point, choice in scene.items())

@@ -65,16 +65,17 @@ TEST(Film, DeviationComparesPartsOfTheSequence) {
     add(3.0f); // means 1, 2
     EXPECT_NEAR(film.deviationOfMean(0, 0), 1.0f, 1e-6f);
     add(5.0f); // means 2, 3 of two and three: two parts to one
-    EXPECT_NEAR(film.deviationOfMean(0, 0), std::sqrt(0.5 * (2.0 + 1.0 * 2 / 3)), 1e-6);
+    EXPECT_NEAR(film.deviationOfMean(0, 0), 0.25 * std::sqrt(2.0) + 0.75 * std::sqrt(2.0 / 3),
+                1e-6);
     add(7.0f); // means 2, 4
-    const double four = 0.5 * (4.0 + 1.0 / 2);
-    EXPECT_NEAR(film.deviationOfMean(0, 0), std::sqrt(four), 1e-6);
+    const double four = 0.5 * (2.0 + std::sqrt(0.5));
+    EXPECT_NEAR(film.deviationOfMean(0, 0), four, 1e-6);
     for (int i = 0; i < 4; ++i)
         add(4.0f); // the second half as the first
-    EXPECT_NEAR(film.deviationOfMean(0, 0), std::sqrt(0.5 * four / 2), 1e-6);
+    EXPECT_NEAR(film.deviationOfMean(0, 0), 0.5 * four * std::sqrt(0.5), 1e-6);
     // A mean that is replaced is no noise.
     film.setMean(0, 0, glm::vec3(9.0f), 1.0f);
-    EXPECT_NEAR(film.deviationOfMean(0, 0), std::sqrt(0.5 * four / 2), 1e-5);
+    EXPECT_NEAR(film.deviationOfMean(0, 0), 0.5 * four * std::sqrt(0.5), 1e-5);
 }
 
 TEST(Film, BadSamplesAreDroppedCountedAndBlack) {

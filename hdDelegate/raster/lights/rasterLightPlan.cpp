@@ -168,8 +168,8 @@ RasterLightPlan::Option RasterLightPlan::domes(const MethodPlan& material,
         option.ns = soft.ns;
     }
     if (method == "sampled") {
-        const double noise = settings.tolerance * (1.0 - depthShare) -
-                             std::min(material.error, methodShare * settings.tolerance);
+        const double noise = noiseBeside(std::min(material.error, methodShare * settings.tolerance),
+                                         settings.tolerance);
         option.ns *= passesFor(option.error, noise, settings) / rowPasses;
         option.error = 0.0; // they converge
     } else {
@@ -227,8 +227,8 @@ std::vector<PlannedMethod> RasterLightPlan::choose(const MethodPlan& material,
     if (!_areas.empty()) {
         bool measured = true;
         Option sampled = areas(material, "sampled", measured);
-        const double noise = settings.tolerance * (1.0 - depthShare) -
-                             std::min(material.error, methodShare * settings.tolerance);
+        const double noise = noiseBeside(std::min(material.error, methodShare * settings.tolerance),
+                                         settings.tolerance);
         sampled.ns *= passesFor(sampled.error, noise, settings) / rowPasses;
         sampled.error = 0.0;
         Option outlines = areas(material, "linearlyTransformedCosines", measured);

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A plan of methods as text: what was chosen at every choice point, and what that is expected to do."""
+import math
+
 from patina.cli import causes
 
 
@@ -72,7 +74,7 @@ def scene_lines(plans, tolerance):
               f"scene: lobes take {_ratio(spent['ns'], spent['nsTruth'])} the time of the truths and "
               f"{_ratio(spent['ns'], spent['nsDefault'])} that of the defaults"]
     if tolerance > 0.0:
-        result.append(f"scene: noise may take {max(tolerance - worst, 0.0):.2g} of the tolerance {tolerance:g}")
+        result.append(f"scene: noise may take {math.sqrt(max(tolerance**2 - worst**2, 0.0)):.2g} of the tolerance {tolerance:g}")
     elif tolerance == 0.0:
         result.append("scene: all samples are taken")
     return result

@@ -62,10 +62,11 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
         for (int x = 0; x < width; ++x) {
             const double l = luminance.at(x, y), variance = film.varianceOfMean(x0 + x, y0 + y);
             // A pixel that has found too much light must not count less for that: within its noise
-            // the luminance is that of the pixels around.
-            const double chance = 2.0 * double(film.deviationOfMean(x0 + x, y0 + y));
+            // the luminance is that of the pixels around. Bright ones beside it hide no noise.
+            const double below = 2.0 * std::sqrt(variance);
+            const double above = 2.0 * double(film.deviationOfMean(x0 + x, y0 + y));
             const double known =
-                std::clamp(luminance.meanAround(x, y), std::max(l - chance, 0.0), l + chance);
+                std::clamp(luminance.meanAround(x, y), std::max(l - below, 0.0), l + above);
             scale.at(x, y) = float(known + minLuminance);
             squares.at(x, y) =
                 float(std::min(variance / ((known + minLuminance) * (known + minLuminance)), 1e30));
@@ -78,7 +79,11 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
             uint32_t part = 1;
             while (part < n - part)
                 part *= 2;
-            const double s = scale.at(x, y), own = double(film.deviationOfMean(x0 + x, y0 + y)) / s;
+            const double s = scale.at(x, y);
+            const double plain = meanOfHalfNormal * std::sqrt(double(squares.at(x, y)));
+            double own = double(film.deviationOfMean(x0 + x, y0 + y)) / s;
+            // Two halves with as much of it agree by chance.
+            if (rare.at(x, y) > 0.0f) own = std::max(own, plain);
             // Light that few samples find is noise of the pixels around, too, that have found none
             // of it. It errs up and down unlike, which halves do not show.
             sums.error += rare.meanAround(x, y) > manyAround
@@ -89,7 +94,7 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
             sums.ownSquares += own * own;
             sums.before += double(film.deviationBefore(x0 + x, y0 + y)) / s;
             sums.growth += double(n) / part;
-            sums.plain += meanOfHalfNormal * std::sqrt(double(squares.at(x, y)));
+            sums.plain += plain;
         }
     return sums;
 }
@@ -117,16 +122,16 @@ static double spreadCorrection(const ErrorSums& sums) {
 
 double relativeError(const ErrorSums& sums, PixelNoise noise) {
     if (!(sums.pixels > 0.0)) return 0.0;
-    // One standard error more, since a few pixels may have most of the noise, and each knows its
-    // own badly: of the pixels themselves, for means around are no more numbers than these.
-    const double pixels = sums.pixels, ownMean = sums.own / pixels;
-    const double spread =
-        pixels > 1.0 ? std::max(sums.ownSquares / pixels - ownMean * ownMean, 0.0) / (pixels - 1.0)
-                     : sums.ownSquares;
-    const double error = spreadCorrection(sums) * (sums.error / pixels) + std::sqrt(spread);
+    // One standard error more of what chance makes of the difference between estimate and error.
+    // How much of a pixel's square that is follows for normal noise: of |n| it is 1 - 2 / pi, and a
+    // third of that of a mean of halves that count 1/2, 1/4, 1/8...
+    constexpr double ofError = 1.0 - meanOfHalfNormal * meanOfHalfNormal, ofHalves = ofError / 3.0;
+    constexpr double chance = (ofError + ofHalves) / (1.0 - ofError + ofHalves);
+    const double error =
+        (spreadCorrection(sums) * sums.error + std::sqrt(chance * sums.ownSquares)) / sums.pixels;
     // Pixels that are wrong together may agree by chance: then half of the plain error is the
     // least.
-    return noise == PixelNoise::Shared ? std::max(error, 0.5 * sums.plain / pixels) : error;
+    return noise == PixelNoise::Shared ? std::max(error, 0.5 * sums.plain / sums.pixels) : error;
 }
 
 double relativeError(const Film& film, int x0, int y0, int x1, int y1, PixelNoise noise) {

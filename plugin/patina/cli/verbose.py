@@ -28,8 +28,10 @@ def line(frame, file=None):
     text = f"{file or ', '.join(frame['images'])}: {samples} in {sum(frame['seconds'].values()):.3g} s"
     if "estimatedError" in frame:
         text += f", noise {100.0 * frame['estimatedError']:.2g} %"
-        if frame.get("predictedError"):
-            text += f", methods {100.0 * frame['predictedError']:.2g} % by their measured errors"
+        scene = frame.get("plan", {}).get("scene", {}).values()
+        bias = frame.get("predictedError", 0.0) + sum(choice["error"] for choice in scene)
+        if bias:
+            text += f", methods, edges and paths up to {100.0 * bias:.2g} % more by their measured errors"
     return text
 
 

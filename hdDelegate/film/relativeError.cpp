@@ -122,13 +122,14 @@ static double spreadCorrection(const ErrorSums& sums) {
 
 double relativeError(const ErrorSums& sums, PixelNoise noise) {
     if (!(sums.pixels > 0.0)) return 0.0;
-    // One standard error more of what chance makes of the difference between estimate and error.
+    // Two standard errors more of what chance makes of the difference between estimate and error.
     // How much of a pixel's square that is follows for normal noise: of |n| it is 1 - 2 / pi, and a
     // third of that of a mean of halves that count 1/2, 1/4, 1/8...
     constexpr double ofError = 1.0 - meanOfHalfNormal * meanOfHalfNormal, ofHalves = ofError / 3.0;
     constexpr double chance = (ofError + ofHalves) / (1.0 - ofError + ofHalves);
     const double error =
-        (spreadCorrection(sums) * sums.error + std::sqrt(chance * sums.ownSquares)) / sums.pixels;
+        (spreadCorrection(sums) * sums.error + 2.0 * std::sqrt(chance * sums.ownSquares)) /
+        sums.pixels;
     // Pixels that are wrong together may agree by chance: then half of the plain error is the
     // least.
     return noise == PixelNoise::Shared ? std::max(error, 0.5 * sums.plain / sums.pixels) : error;

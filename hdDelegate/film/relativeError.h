@@ -31,9 +31,9 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1);
 /// estimated from their samples. RenderSettings::tolerance is compared with it. 0 without pixels.
 ///
 /// Well spread samples err less than their changes tell: by how fast the changes get smaller the
-/// estimate is corrected, as far as there are pixels enough to know. One standard error of
-/// what chance makes of the pixels is added: next to nothing for many pixels, and for few so much
-/// that the true error is below in five of six images.
+/// estimate is corrected, as far as there are pixels enough to know. Two standard errors of
+/// what chance makes of the pixels are added: next to nothing for many pixels, and for few so much
+/// that the true error is below in nine of ten images or more.
 double relativeError(const ErrorSums& sums, PixelNoise noise = PixelNoise::Independent);
 double relativeError(const Film& film, int x0, int y0, int x1, int y1,
                      PixelNoise noise = PixelNoise::Independent);

@@ -21,7 +21,7 @@ def scene(name):
 
 def test_predictions_hold_on_scenes(capsys, tmp_path):
     """Small renders with fixed seeds, so that the same comes every time; no limit of time is reached. Of other seeds an
-    image of so few pixels is outside one time in six.
+    image of so few pixels is outside one time in ten.
     """
     stages = [scene(name) for name in ("plastic", "roughConductor", "lightSphere")]
     assert main.main(["chart", "--predictions", *stages, "--backend", "embree", "-w", "24", "--methodSamples", "64",

@@ -35,7 +35,7 @@ def test_all_that_the_file_holds_is_the_same(folder, cut, flags):
 
 @pytest.mark.parametrize("cut", ["3", "2x2"])
 def test_tiles_stop_where_they_stop_at_once(folder, cut):
-    flags = (*SIZE, "--samples", "96", "--tolerance", "0.1", "--aov", "sampleCount", "--aov", "variance")
+    flags = (*SIZE, "--samples", "96", "--tolerance", "0.04", "--aov", "sampleCount", "--aov", "variance")
     stage, image = scene("diffuseBox"), folder / "adaptive.exr"
     expected = whole(stage, folder / "adaptiveWhole.exr", *flags)
     patina("merge", *parts(folder, stage, image, cut, *flags), image)

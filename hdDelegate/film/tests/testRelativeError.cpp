@@ -104,14 +104,14 @@ TEST(RelativeError, IsThatOfTheRectangleAlone) {
 TEST(RelativeError, OfPixelsThatShareTheirNumbersIsNeverFarBelowThatOfTheirVariance) {
     // Pairs of samples that agree by chance whenever the film compares.
     Film film;
-    film.reset(4, 4, {});
+    film.reset(8, 8, {});
     for (int i = 0; i < 64; ++i)
-        for (int p = 0; p < 16; ++p)
-            film.addColor(p % 4, p / 4, glm::vec3(i == 0 || i % 4 == 1 || i % 4 == 2), 1.0f);
+        for (int p = 0; p < 64; ++p)
+            film.addColor(p % 8, p / 8, glm::vec3(i == 0 || i % 4 == 1 || i % 4 == 2), 1.0f);
     const double plain =
         0.7979 * std::sqrt(double(film.varianceOfMean(1, 1))) / (film.luminance(1, 1) + 0.01);
-    EXPECT_LT(relativeError(film, 0, 0, 4, 4), 0.45 * plain);
-    EXPECT_NEAR(relativeError(film, 0, 0, 4, 4, PixelNoise::Shared), 0.5 * plain, 0.01 * plain);
+    EXPECT_LT(relativeError(film, 0, 0, 8, 8), 0.4 * plain);
+    EXPECT_NEAR(relativeError(film, 0, 0, 8, 8, PixelNoise::Shared), 0.5 * plain, 0.01 * plain);
 }
 
 TEST(RelativeError, StepsDoubleAndThenGrowByAShareOfWhatIsThere) {

@@ -74,7 +74,8 @@ def scene_lines(plans, tolerance):
               f"scene: lobes take {_ratio(spent['ns'], spent['nsTruth'])} the time of the truths and "
               f"{_ratio(spent['ns'], spent['nsDefault'])} that of the defaults"]
     if tolerance > 0.0:
-        result.append(f"scene: noise may take {math.sqrt(max(tolerance**2 - worst**2, 0.0)):.2g} of the tolerance {tolerance:g}")
+        noise = math.sqrt(max(tolerance**2 - worst**2, 0.0))
+        result.append(f"scene: noise may take {noise:.2g} of the tolerance {tolerance:g}")
     elif tolerance == 0.0:
         result.append("scene: all samples are taken")
     return result

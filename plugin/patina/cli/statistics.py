@@ -9,8 +9,8 @@ from patina.cli import colours, memory, outputs, planText
 from patina.cli.causes import Causes
 
 ERROR_IS = ("noise of the samples, as --tolerance means it: the mean over the pixels of |luminance - its limit| / (limit + "
-            "0.01); left out: the errors of methods (predictedError), of edges and of the length of paths (plan), and light that "
-            "no sample found")
+            "0.01); left out: the errors of methods (predictedError), of edges and of the length of paths (plan), and light "
+            "that no sample found")
 PHASES = ("open", "translate", "build", "render", "write", "total")
 
 

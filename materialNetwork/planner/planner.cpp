@@ -160,11 +160,13 @@ private:
         return best;
     }
 
-    /// Time of an image relative to others: that of a sample, over the noise allowed squared.
+    /// Time of an image relative to others: that of a sample, over the noise allowed squared. Here
+    /// errors are subtracted, which keeps them small: no samples take them away, and what is left
+    /// of their share is for methods of lights.
     double effort(double ns, double error) const {
         if (!(_planning.tolerance > 0.0)) return ns;
         const double used = std::min(error / _planning.tolerance, methodShare);
-        const double noise = noiseBeside(used + depthShare, 1.0);
+        const double noise = 1.0 - depthShare - used;
         return (nsPerSample + ns) / (noise * noise);
     }
 

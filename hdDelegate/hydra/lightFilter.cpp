@@ -3,6 +3,7 @@
 
 #include "hdDelegate/hydra/values.h"
 
+#include <pxr/base/tf/stringUtils.h>
 #include <pxr/imaging/hd/material.h>
 #include <pxr/imaging/hd/renderIndex.h>
 #include <pxr/imaging/hd/tokens.h>
@@ -104,9 +105,12 @@ public:
             const VtValue value = get(row.names);
             if (!value.IsEmpty() && !isIdle(value, row.idle)) warn(row.names);
         }
-        for (const auto& parameter : _node.parameters)
-            if (!isKnown(withoutPrefix(parameter.first.GetString())))
-                warn(parameter.first.GetString());
+        for (const auto& parameter : _node.parameters) {
+            const std::string& name = parameter.first.GetString();
+            const bool describes = TfStringStartsWith(name, "typeName:") ||
+                                   TfStringStartsWith(name, "colorSpace:"); // another input
+            if (!describes && !isKnown(withoutPrefix(name))) warn(name);
+        }
     }
     bool has(const char* names) const { return !get(names).IsEmpty(); }
 

@@ -14,8 +14,12 @@ def Camera "camera"
     double3 xformOp:translate = (0, 0, 6)
     uniform token[] xformOpOrder = ["xformOp:translate"]
 }}
-def Sphere "ball"
+def Mesh "wall"
 {{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+    uniform token subdivisionScheme = "none"
 }}
 def LIGHT "light"
 {{

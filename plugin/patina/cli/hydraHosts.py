@@ -128,7 +128,7 @@ def _libraries(host, library):
     """:returns: dict from name to file or folder: libraries, resources and Python modules, as in an installed OpenUSD"""
     beside = os.path.dirname(library)
     found = {name: os.path.join(beside, name) for name in os.listdir(beside) if ".so" in name}
-    found["usd"] = os.path.join(beside, "usd")
+    found.update({name: os.path.join(beside, name) for name in ("usd", "materialx")})
     module = glob.glob(os.path.join(glob.escape(host), "**", "site-packages", "pxr", "__init__.py"), recursive=True)
     found.update({os.path.join("python", "pxr"): os.path.dirname(path) for path in module[:1]})
     return found

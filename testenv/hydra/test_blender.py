@@ -22,7 +22,8 @@ def blender():
     python = hydraBuild.folder("python")
     if not os.path.exists(python):
         return "this OpenUSD has no Python"
-    found = subprocess.run([python, "-c", "import bpy, os; print(os.path.dirname(bpy.utils.resource_path('LOCAL')))"], capture_output=True, text=True, check=False)
+    program = "import bpy, os; print(os.path.dirname(bpy.utils.resource_path('LOCAL')))"
+    found = subprocess.run([python, "-c", program], capture_output=True, text=True, check=False)
     return (python, found.stdout.split("\n")[-2]) if found.returncode == 0 else "the OpenUSD of this build is not that of a bpy"
 
 

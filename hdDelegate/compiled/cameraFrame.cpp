@@ -64,11 +64,11 @@ CameraFrame::CameraFrame(const Camera& camera, const RenderSettings& settings)
     const vec2 offset = vec2(camera.horizontalApertureOffset, camera.verticalApertureOffset) * unit;
     eyeSize = imageSize * shareOf(camera.lens.stereo);
     const PixelWindow& frame = settings.frameWindow;
-    const bool overscan =
-        frame[2] >= frame[0] && frame[3] >= frame[1] && camera.lens.hasOverscan();
+    const bool overscan = frame[2] >= frame[0] && frame[3] >= frame[1] && camera.lens.hasOverscan();
     const vec2 frameSize =
         overscan ? vec2(float(frame[2]) - frame[0], float(frame[3]) - frame[1]) + 1.0f : eyeSize;
-    const float aspect = frameSize.x / frameSize.y * float(std::max(1e-6, settings.pixelAspectRatio));
+    const float aspect =
+        frameSize.x / frameSize.y * float(std::max(1e-6, settings.pixelAspectRatio));
     aperture = conform(aperture * unit, aspect, settings.aspectRatioConformPolicy);
     const float focal = std::max(1e-6f, camera.focalLength) * unit;
     // An orthographic camera's aperture is in scene units too, as GfCamera has it.

@@ -43,8 +43,9 @@ SampledPlaces placesOf(const Placements& placements, const std::string& group) {
 bool decideAlike(const RenderSettings& a, const RenderSettings& b) {
     const auto all = [](const RenderSettings& s) {
         return std::tie(s.width, s.height, s.frameWindow, s.pixelAspectRatio,
-                        s.aspectRatioConformPolicy, s.tolerance, s.edgeLength, s.methods, s.enableMotionBlur,
-                        s.enableSceneMaterials, s.renderTags, s.rootPaths, s.excludePaths);
+                        s.aspectRatioConformPolicy, s.tolerance, s.edgeLength, s.methods,
+                        s.enableMotionBlur, s.enableSceneMaterials, s.renderTags, s.rootPaths,
+                        s.excludePaths);
     };
     return all(a) == all(b);
 }

@@ -65,8 +65,8 @@ void Integrator::addOwnShadows(Path& path, TraceCounters& counters) const {
                visibility(path, path.media, path.origin, path.direction, distance, info, counters);
     };
     LightHit hits[8];
-    const int count = _lights.set().intersect(path.origin, path.direction, 0.0f, INFINITY,
-                                              path.time, hits, 8);
+    const int count =
+        _lights.set().intersect(path.origin, path.direction, 0.0f, INFINITY, path.time, hits, 8);
     for (int i = 0; i < count; ++i)
         if (_lights.info(hits[i].light).ownShadows)
             addLight(path, hits[i].light, hits[i].radiance * seen(hits[i].light, hits[i].distance),
@@ -80,10 +80,10 @@ void Integrator::addInfinite(Path& path, int light, const vec3& seen) const {
     const EnvironmentMap::Place place = _lights.set().place(light, path.direction, path.time);
     const vec3 radiance = _lights.set().environment(light, place, path.time) * seen;
     if (radiance == vec3(0.0f)) return;
-    const float lightPdf =
-        path.specular ? 0.0f
-                      : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
-                                                  path.vertexTwoSided, place, path.time);
+    const float lightPdf = path.specular
+                               ? 0.0f
+                               : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
+                                                           path.vertexTwoSided, place, path.time);
     addLight(path, light, radiance, lightPdf);
 }
 

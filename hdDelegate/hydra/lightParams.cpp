@@ -150,7 +150,8 @@ void readLightGroup(HdSceneDelegate& delegate, const Params& p, const SdfPath& i
     for (const char* name :
          {"inputs:ri:light:lightGroup", "ri:light:lightGroup", "lightGroup", "primvars:lightGroup"})
         if (light.lightGroup.empty()) p.text(name, light.lightGroup);
-    if (light.lightGroup.empty()) // the light of a mesh is a property of it, which hosts do not know
+    if (light.lightGroup
+            .empty()) // the light of a mesh is a property of it, which hosts do not know
         light.lightGroup = textOf(delegate.Get(id.GetPrimPath(), TfToken("lightGroup")));
 }
 

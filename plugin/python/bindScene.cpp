@@ -241,7 +241,8 @@ void bindScene(py::module_& m) {
              "Paths of all geometry, instancers, lights, cameras or materials; ValueError for "
              "another kind.")
         .def("camera", &cameraDict, py::arg("path"),
-             "A camera's values by set_camera()'s keywords, has_overscan, and image_aspect, the width over the "
+             "A camera's values by set_camera()'s keywords, has_overscan, and image_aspect, the "
+             "width over the "
              "height "
              "that its image has of itself; KeyError where there is none.")
         .def(

@@ -150,9 +150,10 @@ void readLightGroup(HdSceneDelegate& delegate, const Params& p, const SdfPath& i
     for (const char* name :
          {"inputs:ri:light:lightGroup", "ri:light:lightGroup", "lightGroup", "primvars:lightGroup"})
         if (light.lightGroup.empty()) p.text(name, light.lightGroup);
-    if (light.lightGroup
-            .empty()) // the light of a mesh is a property of it, which hosts do not know
-        light.lightGroup = textOf(delegate.Get(id.GetPrimPath(), TfToken("lightGroup")));
+    // The light of a mesh is a child that hosts do not know.
+    const SdfPath owner = light.type == LightType::Mesh ? id.GetParentPath() : id;
+    if (light.lightGroup.empty())
+        light.lightGroup = textOf(delegate.Get(owner, TfToken("lightGroup")));
 }
 
 } // namespace

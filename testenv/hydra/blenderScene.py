@@ -88,11 +88,11 @@ def make(folder):
         link(f"copy{i}", seed.data, (-2 + i, 2.0, 0.15 + 0.1 * i), (0, 0, 0.3 * i))
     bpy.data.curves.new("bow", "CURVE")
     curve = bpy.data.curves["bow"]
-    curve.dimensions, curve.bevel_depth = "3D", 0.05
+    curve.dimensions, curve.bevel_depth = "3D", 1.0
     spline = curve.splines.new("BEZIER")
     spline.bezier_points.add(2)
     for point, place in zip(spline.bezier_points, ((-3, 2.6, 0.1), (0, 2.6, 1.6), (3, 2.6, 0.1))):
-        point.co = place
+        point.co, point.radius = place, 0.05  # the exporter writes widths of these alone
         point.handle_left_type = point.handle_right_type = "AUTO"
     curve.materials.append(looks[3])
     link("bow", curve)
@@ -122,6 +122,7 @@ def main(extension, folder, words):
     install(extension)  # now, for factory settings forget it
     bpy.ops.wm.usd_export(filepath=os.path.join(folder, "scene.usda"), export_materials=True, generate_preview_surface=False,
                           generate_materialx_network=True, export_textures_mode="KEEP", convert_world_material=True)
+    scene.hydra.export_method = "USD"  # the quick one has other strengths of lights than the exporter
     for name, value in settings.items():
         setattr(scene.patina, name, type(getattr(scene.patina, name))(value))
     for engine in engines:

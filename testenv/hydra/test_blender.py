@@ -76,7 +76,7 @@ def test_the_extension_needs_its_blender(rendered):
     assert len(home) == 1
     with open(home[0], "w", encoding="utf-8") as file:
         file.write('{"version": [23, 11]}')
-    program = ("import addon_utils, bpy; addon_utils.enable('bl_ext.user_default.patina'); "
+    program = ("import bpy, addon_utils; addon_utils.enable('bl_ext.user_default.patina'); "
                "bpy.context.scene.render.engine = 'PATINA'\n"
                "try:\n    bpy.ops.render.render()\nexcept RuntimeError as error:\n    print(error)")
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}

@@ -149,7 +149,7 @@ def _checked(process, command, check):
 OF_OPENUSD = (
     "Color correction presently unsupported",  # usdrecord without a GPU, of every renderer
     "Found invalid info:implementationSource value ''",  # 24.08, scene indices, of every light: it goes on with the default
-    "doesn't support prim type 'PortalLight'",  # 25.08, UsdImagingDelegate: it has no place for portals
+    "doesn't support prim type 'PortalLight'", "doesn't support prim type 'LightAPI'",  # 25.08, UsdImagingDelegate, of portals
     "Invalid info:id Pxr",  # light filters of RenderMan, where their shaders are not installed
 )
 

@@ -13,7 +13,7 @@ import argparse
 import contextlib
 import sys
 
-from patina import inputs
+from patina import inputs, limits
 from patina.cli import causes, compiled, denoiser, frames, openStage, outputs, overrides, recordFlags, renderSettings
 from patina.cli.errors import UsageError
 from patina.farm import cut, engines, jobFiles, work
@@ -50,6 +50,7 @@ def add_arguments(parser):
 
 def run(arguments):
     record = _record_arguments(arguments)
+    limits.apply(record.limit)  # the sender opens the stage, too
     engine = engines.parse(arguments.engine, arguments.engineOption)
     counts = _counts(arguments.simulate)
     module = compiled.load()

@@ -167,6 +167,8 @@ class Cluster:
         options = {name: value for name, value in engine.options.items() if name != _PAGE}
         shared = {"security": security, "silence_logs": logging.CRITICAL}
         page = {"dashboard": _PAGE in engine.options, _PAGE: engine.options.get(_PAGE, "127.0.0.1:0")}
+        for name in ("scheduler_kwargs", "scheduler_options"):  # Dask's page must be asked for by its own name
+            page = {**(options.pop(name, None) or {}), **page}
         if engine.kind == "local":
             # Dask's own choice lies at one place for all users of a machine.
             scratch = self._folders.enter_context(certificates.private_folder(tempfile.gettempdir()))

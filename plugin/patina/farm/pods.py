@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pods of Kubernetes as workers, started by Dask's operator (dask-kubernetes)."""
 import re
+import uuid
 
 from patina.cli.errors import UsageError
 
-NAME = "patina"
+NAME = "patina-" + uuid.uuid4().hex[:8]  # Dask connects to a cluster that has the name already: somebody else's
 COMMAND = ["dask-worker", "--nthreads", "1"]  # one part at a time, which takes all of a pod's cores
 _OF_PODS = ("image", "resources", "env", "worker_command", "scheduler_service_type", "idle_timeout", "jupyter")
 _VOLUME = re.compile(r"([a-z0-9](?:[a-z0-9.-]*[a-z0-9])?):(/[^:,]*)")  # a claim's name by Kubernetes' rules, and a path

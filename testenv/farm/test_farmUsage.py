@@ -144,3 +144,19 @@ def test_what_is_not_there_is_told_in_one_line(tmp_path):
     assert result.returncode == 0 and result.stderr.count("\n") == 1
     assert "which is not there, and 1 more such files" in result.stderr
     assert told(tmp_path, stage, tmp_path / "a.exr", "--quiet").stderr == ""
+
+
+def test_limits_hold_for_the_sender_too(tmp_path, monkeypatch):
+    from patina import limits
+    from patina.cli import errors, main, openStage
+
+    held = []
+
+    def opened(*_):
+        held.append(limits.value("untriedBytes"))
+        raise errors.CommandError("seen")
+
+    monkeypatch.setattr(openStage, "open_stage", opened)
+    before = limits.value("untriedBytes")
+    assert main.main(["farm", "a.usda", str(tmp_path / "a.####.exr"), "--frames", "1:2", "--limit", "untriedBytes=0"]) == 1
+    assert held == [0] and before != 0 and limits.value("untriedBytes") == before

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/lightFilter.h"
 
+#include "hdDelegate/hydra/networkConversion.h"
 #include "hdDelegate/hydra/values.h"
 
-#include <pxr/base/tf/stringUtils.h>
 #include <pxr/imaging/hd/material.h>
 #include <pxr/imaging/hd/renderIndex.h>
 #include <pxr/imaging/hd/tokens.h>
@@ -107,9 +107,7 @@ public:
         }
         for (const auto& parameter : _node.parameters) {
             const std::string& name = parameter.first.GetString();
-            const bool describes = TfStringStartsWith(name, "typeName:") ||
-                                   TfStringStartsWith(name, "colorSpace:"); // another input
-            if (!describes && !isKnown(withoutPrefix(name))) warn(name);
+            if (!describesAnother(name) && !isKnown(withoutPrefix(name))) warn(name);
         }
     }
     bool has(const char* names) const { return !get(names).IsEmpty(); }

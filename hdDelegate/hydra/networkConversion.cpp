@@ -87,8 +87,7 @@ void addNode(const HdMaterialNode& given, const SdfPath& material, HdPatinaRende
     const NodeDef* def = findNodeDef(node.id);
     for (const auto& item : given.parameters) {
         const std::string& name = item.first.GetString();
-        if (TfStringStartsWith(name, colorSpacePrefix) || TfStringStartsWith(name, typeNamePrefix))
-            continue;
+        if (describesAnother(name)) continue;
         Value value;
         if (valueOf(item.second, parameterText(given.parameters, typeNamePrefix + name),
                     parameterText(given.parameters, colorSpacePrefix + name), value))
@@ -102,6 +101,11 @@ void addNode(const HdMaterialNode& given, const SdfPath& material, HdPatinaRende
 }
 
 } // namespace
+
+bool describesAnother(const std::string& parameter) {
+    return TfStringStartsWith(parameter, colorSpacePrefix) ||
+           TfStringStartsWith(parameter, typeNamePrefix);
+}
 
 bool valueOf(const VtValue& given, const std::string& typeName, const std::string& colorSpace,
              Value& value) {

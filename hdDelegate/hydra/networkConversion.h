@@ -15,6 +15,9 @@ namespace patina {
 /// @returns a network without terminals, after a warning, if nothing in the material can be used
 Network networkOf(const VtValue& resource, const SdfPath& material, HdPatinaRenderParam& param);
 
+/// Whether a parameter tells the colour space or the type of another.
+bool describesAnother(const std::string& parameter);
+
 /// A parameter as a typed constant. @returns false for types that no input has
 bool valueOf(const VtValue& given, const std::string& typeName, const std::string& colorSpace,
              Value& value);

@@ -1,8 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads small stages written as text and gives the scene that came of them."""
+import os
 import re
+import subprocess
+import sys
 
 import pytest
+
+# Ends as a command does: OpenUSD's own threads may outlive what they need.
+_APART = """import sys, _patina
+from pxr import Usd
+from patina.cli import ending
+from patina.stage import StageOptions, read_stage
+scene = _patina.Scene()
+with scene.edit() as edit:
+    read_stage(Usd.Stage.Open(sys.argv[1]), edit, StageOptions(frame=float(sys.argv[2])))
+print(scene.dump(64), scene.warnings())
+ending.end(0)"""
 
 
 class Reading:
@@ -60,6 +74,23 @@ def read(tmp_path):
         file = tmp_path / "stage.usda"
         file.write_text("#usda 1.0\n" + _statements(text))
         return Reading(Usd.Stage.Open(str(file)), **options)
+
+    return run
+
+
+@pytest.fixture
+def read_apart(tmp_path):
+    """A function: read_apart(text of a usda layer, frame=, **environment) -> what a process of its own prints: dump and
+    warnings. It fails where the process does."""
+    pytest.importorskip("_patina")
+
+    def run(text, frame=0.0, **environment):
+        (tmp_path / "stage.usda").write_text("#usda 1.0\n" + _statements(text))
+        done = subprocess.run([sys.executable, "-c", _APART, str(tmp_path / "stage.usda"), str(frame)], capture_output=True,
+                              text=True, check=False, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path),
+                                                           **environment})
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout
 
     return run
 

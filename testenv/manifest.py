@@ -72,6 +72,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("hdDelegate/raster/tests::testRaster*", "smoke", None),
     ("hdDelegate/raster/tests::testLightChoice::*", "unit", "raster lights"),
     ("hdDelegate/raster/tests::testProgramCache::*", "smoke", None),
+    ("testenv/render/test_besideMaterialX.py::test_materialx_own_examples*", "long", None),
     # Commands and stages: quick, but for what renders or measures.
     ("testenv/cli/*", "smoke", None),
     ("testenv/cli/test_frames.py::*", "unit", None),

@@ -22,6 +22,9 @@ const float REFRACTION_DELTA = 3e-4f;
 // Relative ior is kept within [1 / IOR_MAX, IOR_MAX]; F0 is 0.96 at the border.
 const float IOR_MAX = 100.0f;
 
+// Of n and k of metals: a white one by MaterialX's artistic_ior has n = 398, and F0 0.99.
+const float METAL_IOR_MAX = 1000.0f;
+
 // Reflectance at normal incidence above which a Schlick lobe's ior, derived from it, stops growing
 // (ior 63).
 const float F0_MAX = 0.9391f;

@@ -25,8 +25,8 @@ struct ConductorLobe {
 PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness,
                                        bool retroreflective, int compensate) {
     ConductorLobe l;
-    l.ior = min(max(ior, vec3(0.0f)), vec3(IOR_MAX));
-    l.extinction = min(max(extinction, vec3(0.0f)), vec3(IOR_MAX));
+    l.ior = min(max(ior, vec3(0.0f)), vec3(METAL_IOR_MAX));
+    l.extinction = min(max(extinction, vec3(0.0f)), vec3(METAL_IOR_MAX));
     l.favg = conductorAverage(l.ior, l.extinction);
     l.alpha = ggxAlpha(roughness);
     l.film = makeFilm(0.0f, 1.0f);

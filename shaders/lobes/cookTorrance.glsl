@@ -21,8 +21,8 @@ PATINA_FN CookTorranceLobe cookTorranceSetup(vec3 color, vec3 ior, vec3 extincti
                                              int fresnel) {
     CookTorranceLobe l;
     l.color = min(lobeColor(color), vec3(1.0f));
-    l.ior = min(max(ior, vec3(0.0f)), vec3(IOR_MAX));
-    l.extinction = min(max(extinction, vec3(0.0f)), vec3(IOR_MAX));
+    l.ior = min(max(ior, vec3(0.0f)), vec3(METAL_IOR_MAX));
+    l.extinction = min(max(extinction, vec3(0.0f)), vec3(METAL_IOR_MAX));
     l.alpha = clamp(roughness, ALPHA_MIRROR, 1.0f);
     l.fresnel = fresnel;
     return l;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """pytest plugin: `--tier` and `--room` choose tests by manifest.py, which also says what is run first."""
+import json
 import os
 import sys
 
@@ -66,3 +67,18 @@ def in_order(items, costly, processes):
 def pytest_report_header(config):
     rooms = config.getoption("--room")
     return f"tier: {config.getoption('--tier')}" + (f", rooms: {', '.join(rooms)}" if rooms else "")
+
+
+def pytest_terminal_summary(terminalreporter):
+    terminalreporter.write_line(f"OpenUSD whose Hydra was tested: {_open_usd()}")
+
+
+def _open_usd():
+    """:returns: version and place of the one that this build has a plugin for"""
+    try:
+        with open(os.path.join(os.environ.get("PATINA_BUILD_DIR", ""), "hydra.json"), encoding="utf-8") as file:
+            build = json.load(file)
+    except OSError:
+        return "none was found"
+    number = int(build["version"])
+    return f"{number // 100 % 100}.{number % 100:02d} in {build['root']}"

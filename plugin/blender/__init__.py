@@ -135,6 +135,9 @@ def _load():
         return ("the plugin is built for OpenUSD {}.{:02d}, this Blender has {}.{:02d}: another package fits".format(
             *host["version"], *version))
     folder = os.path.join(HERE, "usdPlugin")
+    for name in os.listdir(folder):
+        if name.startswith("patina"):  # programs that the plugin starts; Blender unpacks files without their modes
+            os.chmod(os.path.join(folder, name), 0o755)
     if not Plug.Registry().RegisterPlugins(folder) and not Plug.Registry().GetPluginWithName("hdPatina"):
         return f"OpenUSD finds no plugin in {folder}"
     try:

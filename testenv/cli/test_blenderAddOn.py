@@ -6,7 +6,7 @@ import zipfile
 
 import pytest
 
-from patina.cli import blenderAddOn, settingFlags
+from patina.cli import blenderAddOn, hostSettings, settingFlags
 from patina.cli.errors import CommandError
 
 
@@ -29,7 +29,7 @@ def test_the_extension_is_whole(tmp_path):
 
 
 def test_settings_have_a_default_that_they_take():
-    found = blenderAddOn.settings()
+    found = hostSettings.shown()
     assert len({s["key"] for s in found}) == len(found)
     for setting in found:
         assert not setting["choices"] or setting["default"] in setting["choices"], setting

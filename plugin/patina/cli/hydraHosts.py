@@ -156,6 +156,8 @@ def _python(host):
 
 class Built(NamedTuple):
     plugin: str  # the folder for PXR_PLUGINPATH_NAME
+    programs: str  # the folder of those that it starts
+    libraries: str  # the folder of its OpenUSD's
     version: tuple  # of its OpenUSD: minor and patch
 
 
@@ -180,5 +182,6 @@ def build_all(hosts, headers, build, command):
             raise CommandError(f"no plugin for {host}; the reason is above")
         with open(os.path.join(prefix, "pxrConfig.cmake"), encoding="utf-8") as file:
             number = int(re.search(r'set\(PXR_VERSION "?(\d+)', file.read()).group(1))
-        made.append(Built(os.path.join(own, "usdPlugin"), divmod(number, 100)))
+        made.append(Built(os.path.join(own, "usdPlugin"), os.path.join(own, "python"), os.path.join(prefix, "lib"),
+                          divmod(number, 100)))
     return made

@@ -2,6 +2,7 @@
 #include "hdDelegate/embree/sharedShapes.h"
 
 #include "hdDelegate/embree/embreeErrors.h"
+#include "hdDelegate/geometry/implicitFaces.h"
 #include "hdDelegate/geometry/tessellate.h"
 #include "hdDelegate/scene/instancerCheck.h"
 
@@ -63,7 +64,7 @@ SharedShape::~SharedShape() {
 }
 
 std::optional<ShapeKey> SharedShapes::keyOf(const Implicit& prim, float roundEdge) {
-    if (!prim.subsets.empty() || prim.axis < 0 || prim.axis > 2) return std::nullopt;
+    if (countsFaces(prim) || prim.axis < 0 || prim.axis > 2) return std::nullopt;
     for (float size : {prim.radius, prim.height, prim.size, prim.width, prim.length})
         if (!(size > 0.0f) || !std::isfinite(size)) return std::nullopt;
     if (!std::isfinite(prim.radiusTop) || !staysApart(prim)) return std::nullopt;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/geometry/drawnFaces.h"
+#include "hdDelegate/geometry/implicitFaces.h"
 
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace patina {
@@ -13,7 +15,11 @@ namespace {
 using Rate = MeshAttribute::Rate;
 
 constexpr int aroundSegments = roundSegments;
-constexpr int sphereRings = 64; // from pole to pole
+constexpr int sphereRings = 64;                      // from pole to pole
+constexpr int byFacesAround = 16 * shapeFacesAround; // as many on each of OpenUSD's faces
+constexpr int byFacesRings = 8 * sphereFaceRows;
+// Over a flat quad, since two triangles do not interpolate its corners; odd, and so never coarser.
+constexpr int byFacesAcross = 7;
 
 /// Cosine and sine of s turns, exactly the same at 0 and 1 so that the seam closes.
 vec2 turn(float s) {
@@ -21,14 +27,21 @@ vec2 turn(float s) {
     return vec2(std::cos(phi), std::sin(phi));
 }
 
+/// The part of OpenUSD's faces that a side of a shape covers.
+struct FaceGrid {
+    int first, columns, rows;
+};
+
 /// Builds a mesh in the frame whose z is the prim's axis. Vertices of different sides are never
 /// shared, so one normal and st per vertex is enough.
 class ShapeBuilder {
 public:
     /// @param coarser divides the numbers of segments: 1, 2, 4 or 8. Faces keep their numbers.
-    ShapeBuilder(TriangleMesh& out, int coarser) : _out(out), _coarser(coarser) {
+    /// @param byFaces makes segments that end where OpenUSD's faces do, and counts those
+    ShapeBuilder(TriangleMesh& out, int coarser, bool byFaces)
+        : _out(out), _coarser(coarser), _byFaces(byFaces) {
         // Outlines of inscribed polygons would be too narrow.
-        const float half = glm::pi<float>() * float(coarser) / float(aroundSegments);
+        const float half = glm::pi<float>() * float(coarser) / float(around());
         if (coarser > 1) _wider = half / std::sin(half);
         _out.positions.resize(1);
         _out.normals.resize(1);
@@ -40,8 +53,8 @@ public:
     /// A grid of (columns + 1) by (rows + 1) vertices from a function of (s, t) in 0..1 that gives
     /// position and normal. dP/ds x dP/dt points out. Each cell is a face.
     /// @param tRange part of the prim's t that the grid covers
-    template <class F>
-    void grid(int columns, int rows, const F& surface, vec2 tRange = vec2(0.0f, 1.0f)) {
+    template <class F> void grid(int columns, int rows, const FaceGrid& faces, const F& surface,
+                                 vec2 tRange = vec2(0.0f, 1.0f)) {
         const uint32_t first = uint32_t(_out.positions[0].size());
         const int across = columns % _coarser ? 1 : _coarser, up = rows % _coarser ? 1 : _coarser;
         const uint32_t step = uint32_t(columns / across + 1);
@@ -56,27 +69,46 @@ public:
             for (int i = 0; i < columns; i += across) {
                 const uint32_t a = first + uint32_t(j / up) * step + uint32_t(i / across);
                 const uint32_t c = a + step;
-                triangle(a, a + 1, c + 1, j * columns + i);
-                triangle(a, c + 1, c, j * columns + i);
+                const int u = i * faces.columns / columns, v = j * faces.rows / rows;
+                const int face =
+                    _byFaces ? faces.first + v * faces.columns + u : _faces + j * columns + i;
+                const auto at = [&](int du, int dv) {
+                    const int s = i + du * across, t = j + dv * up;
+                    return vec2(float(s * faces.columns) / float(columns) - float(u),
+                                float(t * faces.rows) / float(rows) - float(v));
+                };
+                triangle(a, a + 1, c + 1, face, {at(0, 0), at(1, 0), at(1, 1)});
+                triangle(a, c + 1, c, face, {at(0, 0), at(1, 1), at(0, 1)});
             }
         _faces += columns * rows;
     }
 
     /// A flat disk across the axis, whose rim has exactly the points of the sides that it closes.
     /// @param side +1 faces up, -1 down
-    void disk(float radius, float z, float side) {
+    /// @param first number of the first of OpenUSD's faces
+    void disk(float radius, float z, float side, int first) {
         if (!(radius > 0.0f)) return;
         const uint32_t centre = uint32_t(_out.positions[0].size());
         const vec3 normal(0, 0, side);
         vertex(vec3(0, 0, z), normal, vec2(0.5f));
-        for (int i = 0; i < aroundSegments; i += _coarser) {
-            const vec2 rim = turn(float(i) / float(aroundSegments));
+        for (int i = 0; i < around(); i += _coarser) {
+            const vec2 rim = turn(float(i) / float(around()));
             vertex(vec3(radius * _wider * rim, z), normal, 0.5f + 0.5f * vec2(side * rim.x, rim.y));
         }
-        const uint32_t segments = uint32_t(aroundSegments / _coarser);
+        const uint32_t segments = uint32_t(around() / _coarser);
         for (uint32_t i = 0; i < segments; ++i) {
             const uint32_t a = centre + 1 + i, b = centre + 1 + (i + 1) % segments;
-            triangle(centre, side > 0.0f ? a : b, side > 0.0f ? b : a, 0);
+            const int column = int(i) * shapeFacesAround / int(segments);
+            const auto at = [&](uint32_t rim) {
+                return float(rim * shapeFacesAround) / float(segments) - float(column);
+            };
+            const int face = _byFaces ? first + column : _faces;
+            const float v = side > 0.0f ? 0.0f : 1.0f; // of the rim
+            const vec2 tip(0.5f, 1.0f - v), here(at(i), v), next(at(i + 1), v);
+            if (side > 0.0f)
+                triangle(centre, a, b, face, {tip, here, next});
+            else
+                triangle(centre, b, a, face, {tip, next, here});
         }
         ++_faces;
     }
@@ -99,7 +131,11 @@ public:
         }
     }
 
-    int faces() const { return _faces; }
+    int around() const { return _byFaces ? byFacesAround : aroundSegments; }
+    int rings() const { return _byFaces ? byFacesRings : sphereRings; }
+    int across() const { return _byFaces ? byFacesAcross : 1; }
+    /// Of OpenUSD's faces; three per triangle where those are counted, else none.
+    std::vector<FacePlace>& places() { return _places; }
     /// How much further from the axis coarse shapes are, to be as wide as round ones in the mean
     /// over all directions.
     float wider() const { return _wider; }
@@ -124,22 +160,27 @@ private:
         _st.data.push_back(st.x);
         _st.data.push_back(st.y);
     }
-    void triangle(uint32_t a, uint32_t b, uint32_t c, int face) {
+    void triangle(uint32_t a, uint32_t b, uint32_t c, int face, const std::array<vec2, 3>& at) {
         const auto& p = _out.positions[0];
         if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return; // at a pole
         _out.triangles.push_back(uvec3(a, b, c));
-        _out.triangleFace.push_back(_faces + face);
+        _out.triangleFace.push_back(face);
+        if (!_byFaces) return;
+        for (const vec2& place : at)
+            _places.push_back({face, place});
     }
 
     TriangleMesh& _out;
     MeshAttribute _st;
+    std::vector<FacePlace> _places;
     int _faces = 0, _coarser;
+    bool _byFaces;
     float _wider = 1.0f;
 };
 
 /// Part of a sphere between two latitudes (radians).
 void sphereZone(ShapeBuilder& shape, float radius, float z, float from, float to, int rings,
-                vec2 tRange = vec2(0.0f, 1.0f)) {
+                const FaceGrid& faces, vec2 tRange = vec2(0.0f, 1.0f)) {
     const auto zone = [&](const vec2& st, vec3& position, vec3& normal) {
         const float theta = from + (to - from) * st.y;
         const bool pole = std::abs(std::abs(theta) - glm::half_pi<float>()) < 1e-6f;
@@ -147,7 +188,7 @@ void sphereZone(ShapeBuilder& shape, float radius, float z, float from, float to
         normal = vec3(ring * turn(st.x), pole ? std::copysign(1.0f, theta) : std::sin(theta));
         position = radius * shape.wider() * normal + vec3(0, 0, z);
     };
-    shape.grid(aroundSegments, rings, zone, tRange);
+    shape.grid(shape.around(), rings, faces, zone, tRange);
 }
 
 /// How much larger an inscribed sphere of so many segments is to be for its outline to be as large
@@ -169,7 +210,7 @@ float largerSphere(int around) {
 }
 
 /// The side of a cone, cylinder or truncated cone.
-void side(ShapeBuilder& shape, float bottom, float top, float height,
+void side(ShapeBuilder& shape, float bottom, float top, float height, int firstFace,
           vec2 tRange = vec2(0.0f, 1.0f)) {
     if (height == 0.0f && bottom == top) return;
     // A cone needs rows: near the tip its normals turn quickly.
@@ -181,20 +222,24 @@ void side(ShapeBuilder& shape, float bottom, float top, float height,
         position = vec3(radius * around, height * (st.y - 0.5f));
         normal = vec3(slope.x * around, slope.y);
     };
-    shape.grid(aroundSegments, rows, surface, tRange);
+    shape.grid(shape.around(), rows, {firstFace, shapeFacesAround, 1}, surface, tRange);
 }
 
 /// Half a sphere at each end of a side; t follows the length of the profile.
 void capsule(ShapeBuilder& shape, float bottom, float top, float height) {
+    constexpr int around = shapeFacesAround, rings = sphereRings / 2;
     const float pole = glm::half_pi<float>();
     const float sideLength = glm::length(vec2(height, bottom - top));
     const float length = pole * (bottom + top) + sideLength;
     const float t1 = pole * bottom / length, t2 = (pole * bottom + sideLength) / length;
     if (bottom > 0.0f)
-        sphereZone(shape, bottom, -0.5f * height, -pole, 0.0f, sphereRings / 2, vec2(0.0f, t1));
-    if (height > 0.0f && bottom + top > 0.0f) side(shape, bottom, top, height, vec2(t1, t2));
+        sphereZone(shape, bottom, -0.5f * height, -pole, 0.0f, rings, {0, around, capFaceRows},
+                   vec2(0.0f, t1));
+    if (height > 0.0f && bottom + top > 0.0f)
+        side(shape, bottom, top, height, capFaceRows * around, vec2(t1, t2));
     if (top > 0.0f)
-        sphereZone(shape, top, 0.5f * height, 0.0f, pole, sphereRings / 2, vec2(t2, 1.0f));
+        sphereZone(shape, top, 0.5f * height, 0.0f, pole, rings,
+                   {(capFaceRows + 1) * around, around, capFaceRows}, vec2(t2, 1.0f));
 }
 
 /// Six faces, each with its own st.
@@ -206,10 +251,12 @@ void cube(ShapeBuilder& shape, float size) {
             n[axis] = sign;
             u[(axis + 1) % 3] = sign;
             v[(axis + 2) % 3] = 1.0f;
-            shape.grid(1, 1, [&](const vec2& st, vec3& position, vec3& normal) {
+            const int face = 2 * (2 - axis) + (sign < 0.0f); // z first
+            const auto side = [&](const vec2& st, vec3& position, vec3& normal) {
                 position = 0.5f * size * (n + (2.0f * st.x - 1.0f) * u + (2.0f * st.y - 1.0f) * v);
                 normal = n;
-            });
+            };
+            shape.grid(shape.across(), shape.across(), {face, 1, 1}, side);
         }
 }
 
@@ -222,7 +269,7 @@ float checked(float value, const char* input, const Implicit& prim, Diagnostics&
 } // namespace
 
 int roundCoarseness(const Implicit& prim, float roundEdge) {
-    if (!(roundEdge > 0.0f) || !prim.subsets.empty()) return 1;
+    if (!(roundEdge > 0.0f)) return 1;
     const float radius = std::max(prim.radius, prim.radiusTop);
     const float segment = glm::two_pi<float>() * radius / float(aroundSegments);
     int coarser = 1;
@@ -238,7 +285,8 @@ float roundEdgeOf(float radius, int coarser) {
 TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& options,
                         Diagnostics& diagnostics) {
     TriangleMesh out;
-    ShapeBuilder shape(out, roundCoarseness(implicit, options.roundEdge));
+    const bool byFaces = countsFaces(implicit);
+    ShapeBuilder shape(out, roundCoarseness(implicit, options.roundEdge), byFaces);
     const auto size = [&](float value, const char* input) {
         return checked(value, input, implicit, diagnostics);
     };
@@ -253,10 +301,10 @@ TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& opt
     switch (implicit.shape) {
     case ImplicitShape::Sphere: {
         const float radius = size(implicit.radius, "radius");
-        if (shape.coarser() > 1) shape.setWider(largerSphere(aroundSegments / shape.coarser()));
+        if (shape.coarser() > 1) shape.setWider(largerSphere(shape.around() / shape.coarser()));
         if (radius > 0.0f)
             sphereZone(shape, radius, 0.0f, -glm::half_pi<float>(), glm::half_pi<float>(),
-                       sphereRings);
+                       shape.rings(), {0, shapeFacesAround, sphereFaceRows});
         axis = 2;
         break;
     }
@@ -267,16 +315,16 @@ TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& opt
     case ImplicitShape::Cone: {
         const float radius = size(implicit.radius, "radius");
         const float height = size(implicit.height, "height");
-        side(shape, radius, 0.0f, height);
-        shape.disk(radius, -0.5f * height, -1.0f);
+        side(shape, radius, 0.0f, height, shapeFacesAround);
+        shape.disk(radius, -0.5f * height, -1.0f, 0);
         break;
     }
     case ImplicitShape::Cylinder: {
         const float radius = size(implicit.radius, "radius"), top = topRadius(radius);
         const float height = size(implicit.height, "height");
-        side(shape, radius, top, height);
-        shape.disk(radius, -0.5f * height, -1.0f);
-        shape.disk(top, 0.5f * height, 1.0f);
+        side(shape, radius, top, height, shapeFacesAround);
+        shape.disk(radius, -0.5f * height, -1.0f, 0);
+        shape.disk(top, 0.5f * height, 1.0f, 2 * shapeFacesAround);
         break;
     }
     case ImplicitShape::Capsule: {
@@ -288,11 +336,12 @@ TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& opt
         const float width = size(implicit.width, "width"), length = size(implicit.length, "length");
         // UsdGeomPlane: width along x, length along y about z; y and z about x; x and z about y.
         const vec2 extent = axis == 2 ? vec2(width, length) : vec2(length, width);
+        const auto plane = [&](const vec2& st, vec3& position, vec3& normal) {
+            position = vec3(extent * (st - 0.5f), 0.0f);
+            normal = vec3(0, 0, 1);
+        };
         if (width > 0.0f && length > 0.0f)
-            shape.grid(1, 1, [&](const vec2& st, vec3& position, vec3& normal) {
-                position = vec3(extent * (st - 0.5f), 0.0f);
-                normal = vec3(0, 0, 1);
-            });
+            shape.grid(shape.across(), shape.across(), {0, 1, 1}, plane);
         break;
     }
     }
@@ -300,13 +349,19 @@ TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& opt
     if (implicit.leftHanded) {
         for (uvec3& t : out.triangles)
             std::swap(t.y, t.z);
+        for (size_t i = 0; i < shape.places().size(); i += 3)
+            std::swap(shape.places()[i + 1], shape.places()[i + 2]);
         for (vec3& n : out.normals[0])
             n = -n;
     }
+    const ShapeFaces faces = byFaces ? facesOf(implicit) : ShapeFaces();
     for (const Primvar& primvar : implicit.primvars) {
+        if (primvar.name == "normals") continue;
         MeshAttribute attribute;
-        if (primvar.name == "normals" ||
-            !expandConstant(primvar, implicit.path, diagnostics, attribute))
+        const bool one = !byFaces || primvar.interpolation == Interpolation::Constant;
+        if (!(one ? expandConstant(primvar, implicit.path, diagnostics, attribute)
+                  : expandOnFaces(primvar, faces, out, shape.places(), implicit.path, diagnostics,
+                                  attribute)))
             continue;
         if (primvar.name == "st")
             out.attributes.front() = std::move(attribute);
@@ -314,7 +369,7 @@ TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& opt
             out.attributes.push_back(std::move(attribute));
     }
     const std::vector<uint16_t> subsetOf =
-        subsetOfElements(implicit, size_t(shape.faces()), diagnostics);
+        subsetOfElements(implicit, byFaces ? faces.counts.uniform : 0, diagnostics);
     if (!subsetOf.empty())
         for (int face : out.triangleFace)
             out.triangleSubset.push_back(subsetOf[face]);

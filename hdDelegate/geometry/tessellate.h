@@ -17,7 +17,7 @@ struct TessellationOptions {
     float targetEdge =
         0.0f; ///< object units: subdivide until no edge is longer; 0: refineLevel only
     float roundEdge = 0.0f; ///< object units: implicit prims take fewer segments, while none is
-                            ///< longer; 0: all 128 around
+                            ///< longer; 0: all of them around
     size_t edgeBudget = SIZE_MAX;    ///< targetEdge alone refines to no more triangles than this
     int maxRefineLevel = 6;          ///< 0..6
     size_t triangleBudget = 1000000; ///< a prim is not refined to more triangles than this
@@ -48,6 +48,8 @@ TriangleMesh tessellate(const Mesh& mesh, const TessellationOptions& options,
 
 /// Tessellates an implicit prim with exact normals, hard edges at caps, and an attribute `st`
 /// (round sides: once around and from bottom to top; caps and faces of the cube: 0..1 across).
+/// Primvars that are not constant, and subsets, count the faces of the coarse mesh that OpenUSD's
+/// imaging makes of the prim (implicitFaces.h); the shape stays exact.
 /// Sizes that are negative or not finite become 0 with a warning; a prim of size 0 is not drawn.
 TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& options,
                         Diagnostics& diagnostics);

@@ -344,12 +344,7 @@ TEST(Implicits, FewerSegmentsKeepShapeAndFaceNumbers) {
             EXPECT_LT(before, fine.triangles.size() / 7);
         }
     }
-    Implicit parted = makeImplicit(ImplicitShape::Sphere);
-    parted.subsets.push_back({"/prim/part", "", {0, 1, 2}});
-    TessellationOptions options;
-    options.roundEdge = 1.0f;
-    EXPECT_EQ(tessellate(parted, options, diagnostics).triangles.size(),
-              draw(parted).triangles.size());
+    EXPECT_EQ(diagnostics.count(), 0u);
 }
 
 } // namespace

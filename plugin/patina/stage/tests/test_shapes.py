@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Implicit prims, curves, points and transforms."""
-
+import numpy as np
 import pytest
 
 
@@ -133,3 +133,34 @@ def test_velocities_place_points_between_samples(read, numbers):
     faster = "  vector3f[] accelerations.timeSamples = { 0: [(0,1152,0)], 4: [(0,0,0)] }"
     assert numbers(read(moving % faster, frame=1.0).prim("/p")["points"]) == [1, 1, 0]
     assert numbers(read(moving % "", frame=4.0).prim("/p")["points"]) == [100, 0, 0]
+
+
+def test_colors_of_faces_show_in_both_back_ends(read):
+    """A cube's first face is the one along +z; its points along +x are blue. A sphere's last 20 faces are around its pole."""
+    import _patina
+
+    colors = ", ".join(["(1, 0, 0)"] * 80 + ["(0, 1, 0)"] * 20)
+    reading = read(f"""def Camera "cam" {{ token projection = "orthographic"
+        float horizontalAperture = 40  float verticalAperture = 40
+        double3 xformOp:translate = (0, 0, 9)  uniform token[] xformOpOrder = ["xformOp:translate"] }}
+    def DomeLight "d" {{ }}
+    def Sphere "s" {{ double3 xformOp:translate = (-1, 1, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]
+        color3f[] primvars:displayColor = [{colors}] (interpolation = "uniform") }}
+    def Cube "faces" {{ double3 xformOp:translate = (1, 1, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]
+        color3f[] primvars:displayColor = [(0, 1, 0), (1, 0, 0)] (interpolation = "uniform")
+        int[] primvars:displayColor:indices = [0, 1, 1, 1, 1, 1] }}
+    def Cube "points" {{ double3 xformOp:translate = (1, -1, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]
+        color3f[] primvars:displayColor = [(0,0,1), (1,0,0), (1,0,0), (0,0,1), (1,0,0), (1,0,0), (0,0,1), (0,0,1)] (
+            interpolation = "vertex") }}""")
+    for backend in ("embree", "raster"):
+        film, renderer = _patina.Film(), _patina.make_renderer(backend)
+        renderer.start(reading.scene, reading.info.camera, {"width": 64, "height": 64, "samples": 4, "seed": 1}, film)
+        while not renderer.wait(1.0):
+            pass
+        image = np.array(film.resolve("color"))[..., :3]
+        # The cap ends at 36 degrees from the pole, whose sine is 0.59.
+        for (x, y), wanted in (((-1, 1.3), 1), ((-1.3, 1), 1), ((-1, 1.8), 0), ((-0.2, 1), 0), ((1, 1), 1), ((1.8, 0.3), 1),
+                               ((0.3, -1), 0), ((1.7, -1.5), 2)):
+            pixel = image[int(32 - 16 * y), int(32 + 16 * x)]
+            assert int(pixel.argmax()) == wanted, (backend, x, y, pixel)
+    assert not reading.scene.warnings()

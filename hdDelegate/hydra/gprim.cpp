@@ -67,9 +67,15 @@ void readGprim(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfP
             prim.group = param.instances().place(id, instancerId,
                                                  delegate.GetInstanceIndices(instancerId, id));
             HdRenderIndex& index = delegate.GetRenderIndex();
-            for (SdfPath path = instancerId; HdInstancer* instancer = index.GetInstancer(path);
-                 path = instancer->GetParentId())
+            SdfPath path = instancerId;
+            while (HdInstancer* instancer = index.GetInstancer(path)) {
                 static_cast<HdPatinaInstancer*>(instancer)->place(param);
+                path = instancer->GetParentId();
+            }
+            if (!path.IsEmpty())
+                param.warn(id, "instancer",
+                           "the host has no instancer " + path.GetString() +
+                               "; the prim is not drawn");
         }
     }
 }

@@ -101,6 +101,8 @@ _ROWS = (
     (r"perspective is used|shutter|clippingRange|two numbers|clip nothing|ends before it starts|axis|is none of X",
      "correct the attribute; the schema of UsdGeomCamera or of the shape lists its values"),
     # Instances.
+    (r"the host has no instancer", "move the prototypes into the asset that draws them, or set "
+     "`USDIMAGINGGL_ENGINE_ENABLE_SCENE_INDEX=0`"),
     (r"not of length 1", "write quaternions of length 1 into the PointInstancer's `orientations`"),
     (r"protoIndices|prototype|holds itself|instances|instance is",
      "correct `protoIndices` and `prototypes` of the PointInstancer"),

@@ -44,8 +44,15 @@ def _holders(stage):
             if prim.IsInstance():
                 found[str(prim.GetPath())] = [str(prim.GetPrototype().GetPath())]
             elif "PointInstancer" in kinds.schemas_of(prim):
-                found[str(prim.GetPath())] = [str(path) for path in prim.GetRelationship("prototypes").GetForwardedTargets()]
+                targets = prim.GetRelationship("prototypes").GetForwardedTargets()
+                found[str(prim.GetPath())] = [str(_composed(stage, path)) for path in targets]
     return found
+
+
+def _composed(stage, path):
+    """:returns: where what stands at a path is listed: in a prototype where it is a native instance's"""
+    prim = stage.GetPrimAtPath(path)
+    return prim.GetPrimInPrototype().GetPath() if prim and prim.IsInstanceProxy() else path
 
 
 def _within(paths, root):

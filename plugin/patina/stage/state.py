@@ -14,6 +14,7 @@ class Group:
     material_rules: bool = False  # ... unless this is set
     chain: tuple = ()  # prototypes of point instancers that this one is drawn inside of
     above: object = field(default=None, compare=False)  # state at the root of the native prototype that holds it
+    outer: object = field(default=None, compare=False)  # group that it was first found in; None: it is the world
 
     def path(self, prim):
         """:returns: the path of a prim in the scene"""

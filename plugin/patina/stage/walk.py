@@ -24,6 +24,10 @@ _COUNTED = {"prims": "prims of a kind", "instances": "instances"}  # by limits
 _PROXIES = Usd.TraverseInstanceProxies()  # what is skinned differs from instance to instance
 
 
+def _prototypes_of(instancer):
+    return instancer.GetRelationship("prototypes").GetForwardedTargets()
+
+
 class Walk:
     def __init__(self, context, bindings):
         self.context, self.bindings = context, bindings
@@ -34,6 +38,8 @@ class Walk:
         self._native = {}  # what prims of a prototype inherit -> group
         self._pointed = {}  # (prototype of a point instancer, group that it stands in) -> name of its group
         self._above = {}  # states of prims above such prototypes
+        self._shown = {}  # path below an instancer -> how many prototypes that lie outside of it have that name
+        self._reaching = {}  # path of a native prototype -> whether its instancers draw prims of other instances
         self._nested = 0  # of these, those inside of others
         self._told = False  # that there are too many
         self._most = {name: limits.value(name) for name in ("prims", "instances")}
@@ -166,7 +172,7 @@ class Walk:
                 material, rules = outer.material, outer.material_rules
             split = self.walked.values.split(state.primvars)
             key = (str(prototype.GetPath()), material, rules, state.purpose, state.draw_mode,
-                   tuple(sorted(state.marks.items())), split.key)
+                   tuple(sorted(state.marks.items())), split.key, outer.name if self._reaches_out(prototype, outer) else "")
             group = self._native.get(key)
             if group is None:
                 if not self._has_room(found.prim, state, self._native):
@@ -174,14 +180,14 @@ class Walk:
                 above = state.with_(primvars=split.copied, asset="")
                 group = Group(name=found.path, anchor=prototype, source=str(prototype.GetPath()),
                               shown=found.path, material=material or "", material_rules=rules,
-                              chain=outer.chain, above=above)
+                              chain=outer.chain, above=above, outer=outer)
                 self._native[key] = group
                 self._todo.append((prototype.GetChildren(), above.with_(group=group), Usd.PrimDefaultPredicate))
             self.walked.instances.setdefault((outer.name, group.name, split.signature), []).append(found)
 
     def _instancer(self, found):
         names = []
-        for index, target in enumerate(found.prim.GetRelationship("prototypes").GetForwardedTargets()):
+        for index, target in enumerate(_prototypes_of(found.prim)):
             names.append(self._prototype(found.prim, target, found.state.group, f"{found.path}[{index}]"))
         self.walked.instancers.append((found, names))
 
@@ -192,6 +198,8 @@ class Walk:
         if not root or not root.IsActive():
             self.context.warn(instancer.GetPath(), "prototypes", f"there is no prim {target}; it is not drawn")
             return name
+        root, home = self._at_home(root, outer)
+        target = root.GetPath()
         if instancer.GetPath().HasPrefix(target) or str(target) in outer.chain:
             self.context.warn(instancer.GetPath(), "prototypes", f"{target} holds itself; it is not drawn")
             return name
@@ -208,14 +216,64 @@ class Walk:
         self._nested += bool(outer.chain)
         self._pointed[key] = name
         inside = root.GetPath().HasPrefix(instancer.GetPath())
-        shown = outer.path(root) if inside else f"{outer.path(instancer)}/{root.GetName()}"
-        group = Group(name=name, anchor=root.GetParent(), source=str(target), shown=shown, chain=outer.chain + (str(target),))
-        if root.IsInPrototype():  # of a native instance, as the instancer is
-            group = replace(group, material=outer.material, material_rules=outer.material_rules, above=outer.above)
+        shown = outer.path(root) if inside else self._shown_below(instancer, root, outer)
+        group = Group(name=name, anchor=root.GetParent(), source=str(target), shown=shown, chain=outer.chain + (str(target),),
+                      outer=outer)
+        if root.IsInPrototype():  # of a native instance that the instancer is in
+            group = replace(group, material=home.material, material_rules=home.material_rules, above=home.above)
         concrete = root.IsDefined() and not root.IsAbstract()
         self._todo.append(([root], self._state_above(root, group.above).with_(group=group, asset=""),
                            Usd.PrimDefaultPredicate if concrete else _ANY))
         return name
+
+    def _shown_below(self, instancer, root, outer):
+        """:returns: a path that stands for a prototype elsewhere; prims of several may have the same names"""
+        path = f"{outer.path(instancer)}/{root.GetName()}"
+        number = self._shown.get(path, 1 if instancer.GetChild(root.GetName()) else 0)
+        self._shown[path] = number + 1
+        return f"{path}[{number}]" if number else path
+
+    def _reaches_out(self, prototype, outer):
+        """:param outer: group that an instance of the native prototype stands in
+        :returns: whether prototypes of point instancers below may lie in instances around, so that these count"""
+        if not outer.name:
+            return False
+        path = prototype.GetPath()
+        if path not in self._reaching:
+            todo, seen = [prototype], set()
+            self._reaching[path] = False
+            while todo and not self._reaching[path]:
+                found = todo.pop()
+                if found.GetPath() in seen:
+                    continue
+                seen.add(found.GetPath())
+                for prim in Usd.PrimRange(found):
+                    if prim.IsInstance():
+                        todo.append(prim.GetPrototype())
+                    elif self._kinds.of(prim)[0] == "instancer" and any(map(self._is_proxy, _prototypes_of(prim))):
+                        self._reaching[path] = True
+        return self._reaching[path]
+
+    def _is_proxy(self, path):
+        prim = self.context.stage.GetPrimAtPath(path)
+        return bool(prim) and prim.IsInstanceProxy()
+
+    @staticmethod
+    def _at_home(root, outer):
+        """A target in an instance around the instancer's own has the path of the one instance that pxr composed for all that
+        share the prototype.
+
+        :param root: prim of a target; outer: group that the instancer stands in
+        :returns: (the prim that stands for it in all of these instances, the group of the one around), else (root, outer)"""
+        if not root.IsInstanceProxy():
+            return root, outer
+        shared = root.GetPrimInPrototype()
+        home = outer.outer
+        while home is not None and home.name:
+            if shared.GetPath().HasPrefix(home.source):
+                return shared, home
+            home = home.outer
+        return root, outer
 
     def _state_above(self, prim, root_state):
         """What a prototype of a point instancer inherits by namespace, wherever its instancer stands. Prims above may be

@@ -334,3 +334,72 @@ def test_quaternions_are_normalised(read, numbers, name, type_):
     pi = reading.prim("/pi")
     assert numbers(pi["transform 0"])[:8] == pytest.approx([0, 1, 0, 0, -1, 0, 0, 0], abs=1e-3)
     assert "transform 2" not in pi and any("not of length 1" in w for w in reading.warnings)
+
+
+LIBRARY = """
+    def Xform "library" { %s  token visibility = "invisible"
+        double3 xformOp:translate = (0, 7, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]
+        def Xform "ball" { double3 xformOp:translate = (0, 1, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]
+            def Sphere "s" { } } }
+    class Xform "asset" { def PointInstancer "pi" { rel prototypes = </library/ball>
+        int[] protoIndices = [0, 0]
+        point3f[] positions = [(0,0,0), (1,0,0)] } }
+    def Xform "a" (instanceable = true; inherits = </asset>) { }
+    def Xform "b" (instanceable = true; inherits = </asset>; prepend apiSchemas = ["MaterialBindingAPI"]) {
+        rel material:binding = </red>  color3f[] primvars:displayColor = [(0, 0, 1)] }
+"""
+
+
+def test_native_instances_draw_prototypes_that_lie_outside_of_them(read, numbers):
+    """A prototype has material and primvars of its own place; those that it lacks are values of the instances around."""
+    reading = read(MATERIALS + LIBRARY % "color3f[] primvars:displayColor = [(0, 1, 0)]")
+    assert not reading.warnings
+    for path in ("/a", "/b"):
+        pi, ball = reading.prim(f"{path}/pi"), reading.prim(f"{path}/pi/ball/s")
+        assert pi["group"] == f'"{path}"' and pi["instances"] == "2" and pi["prototypes"] == f"{path}/pi[0]"
+        assert ball["group"] == f'"{path}/pi[0]"' and numbers(ball["transform"])[12:15] == [0, 1, 0]
+        assert ball["primvar displayColor constant x3"] == "0 1 0" and "material" not in ball
+    assert not any("displayColor" in line for line in reading.prim("/a"))
+    bare = read(MATERIALS + LIBRARY % "")
+    assert "primvar displayColor constant x3" not in bare.prim("/b/pi/ball/s")
+    assert bare.prim("/b")["primvar displayColor constant x3"] == "0 0 1"
+
+
+def test_prototypes_elsewhere_may_have_the_same_name(read):
+    reading = read("""
+    def Xform "a" { def Xform "ball" { def Sphere "s" { } } }
+    def Xform "b" { def Xform "ball" { def Cube "s" { } } }
+    def PointInstancer "pi" { rel prototypes = [</a/ball>, </pi/ball>, </b/ball>]
+        int[] protoIndices = [0, 1, 2]
+        point3f[] positions = [(0,0,0), (1,0,0), (2,0,0)]
+        def Xform "ball" { def Cone "s" { } } }""")
+    shapes = {}
+    for line in reading.text.splitlines():
+        if line.startswith("Implicit /pi/"):
+            prim = reading.prim(line.split(" ", 1)[1])
+            shapes[prim["group"]] = prim["shape"]
+    assert shapes == {'"/pi[0]"': "sphere", '"/pi[1]"': "cone", '"/pi[2]"': "cube"}
+
+
+def test_nested_instances_draw_prototypes_of_the_instance_around(read):
+    """pxr names such a prototype by one of the instances around: all would draw what that one has."""
+    nested = MATERIALS + """
+    class Xform "asset" {
+        class Xform "part" { def PointInstancer "pi" { rel prototypes = </asset/ball>
+            int[] protoIndices = [0]
+            point3f[] positions = [(0,0,0)] } }
+        def Xform "ball" { def Sphere "s" { } }
+        def Xform "sub" (instanceable = true; inherits = </asset/part>; prepend apiSchemas = ["MaterialBindingAPI"]) {
+            rel material:binding = </blue> } }
+    def Xform "a" (instanceable = true; inherits = </asset>) { }
+    def Xform "b" (instanceable = true; inherits = </asset>; prepend apiSchemas = ["MaterialBindingAPI"]) {
+        rel material:binding = </red> }"""
+    reading = read(nested)
+    assert not reading.warnings
+    assert "material" not in reading.prim("/a/sub/pi/ball/s")
+    assert reading.prim("/b/sub/pi/ball/s")["material"] == '"/red"'
+    assert reading.prim("/a/sub")["prototypes"] == "/a/sub" and reading.prim("/b/sub")["prototypes"] == "/b/sub"
+    # It may hold the instancer that draws it.
+    cyclic = read(nested.replace('def Sphere "s" { } }', """def Sphere "s" { }
+            def Xform "again" (instanceable = true; inherits = </asset/part>) { } }"""))
+    assert any("/ball holds itself" in warning for warning in cyclic.warnings), cyclic.warnings

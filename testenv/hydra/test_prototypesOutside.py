@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Point instancers inside of native instances whose prototypes lie outside of these."""
+import hydraBuild
+import sceneText
+import stages
+from test_oneTruth import compare, render_with_hydra
+
+STAGE = """#usda 1.0
+def Xform "library"
+{
+    color3f[] primvars:displayColor = [(0, 1, 0)]
+    def Xform "ball"
+    {
+        double3 xformOp:translate = (0, 1, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        def Mesh "card"
+        {
+            int[] faceVertexCounts = [4]
+            int[] faceVertexIndices = [0, 1, 2, 3]
+            point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+            uniform token subdivisionScheme = "none"
+        }
+    }
+}
+class Xform "asset"
+{
+    def PointInstancer "pi"
+    {
+        rel prototypes = [</library/ball>]
+        point3f[] positions = [(0, 0, 0), (2, 0, 0)]
+        int[] protoIndices = [0, 0]
+    }
+}
+def Xform "a" (
+    inherits = </asset>
+    instanceable = true
+)
+{
+    double3 xformOp:translate = (0, 3, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+
+
+def shot_of(tmp_path):
+    path = tmp_path / "outside.usda"
+    path.write_text(STAGE, encoding="utf-8")
+    return stages.Shot(str(path), tmp_path)
+
+
+def test_delegate_draws_them(tmp_path):
+    shot = shot_of(tmp_path)
+    image, text = render_with_hydra(shot, tmp_path, False)
+    assert sceneText.difference(text, shot.scene.dump(), native_shapes=False) == ""
+    compare(shot, image, False)
+
+
+def test_scene_index_leaves_them_out_aloud(tmp_path):
+    """Scene indices of some releases name an instancer for them that they do not hand on."""
+    shot = shot_of(tmp_path)
+    dump = tmp_path / "hydra.txt"
+    process = hydraBuild.run_host(shot.stage, tmp_path / "hydra.exr", *shot.host_flags(), "--set", "samples=1", "--dump", dump,
+                                  scene_index=True)
+    drawn = "\nInstancer " in dump.read_text(encoding="utf-8")
+    told = [line for line in hydraBuild.warnings_of(process) if "the host has no instancer" in line]
+    assert len(told) == (0 if drawn else 1), process.stderr

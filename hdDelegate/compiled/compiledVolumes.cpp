@@ -13,12 +13,15 @@ CompiledVolumes::medium(const std::shared_ptr<const Volume>& prim, const SceneSt
                         const RenderSettings& settings) {
     Request request{prim, nullptr};
     if (!prim->material.empty() && settings.enableSceneMaterials) {
-        if (const auto material = _materials.find(prim->material, prim->path, state, settings))
-            request.program = _materials.program(material, settings.methods, settings.tolerance);
+        const auto found = state.materials.find(prim->material);
+        if (found != state.materials.end())
+            request.program =
+                _materials.program(found->second, settings.methods, settings.tolerance);
         if (!request.program || !request.program->hasInterior()) {
-            _diagnostics.warn(
-                prim->path, "material:binding",
-                "the material is not a volume; a grey one is shown that scatters 0.8 of the light");
+            _diagnostics.warn(prim->path, "material:binding",
+                              "material " + prim->material +
+                                  " does not exist or is not a volume; a grey one is shown that "
+                                  "scatters 0.8 of the light");
             request.program = nullptr;
         }
     }

@@ -116,7 +116,7 @@ _ROWS = (
      "author the value on the light itself, as an input of UsdLux: nothing else of a light is evaluated"),
     # Materials.
     (r"does not exist; displayColor|binding is left out|which …; the", "correct `material:binding`: its target is a Material"),
-    (r"is not a volume; a grey", "bind a material with a volume terminal (`ND_volume`)"),
+    (r"a grey one is shown", "bind a material with a volume terminal (`ND_volume`)"),
     (r"can be shown; displayColor|no usable surface|is not a surface|not a displacement|is not a volume|terminal",
      "connect `outputs:surface` (or mtlx:surface) to a node of type surfaceshader"),
     (r"is not modelled|cannot be used at this place|coats only as the top",

@@ -102,6 +102,8 @@ MediaScene::Image MediaScene::render(int pixels, int samples) {
     renderer->wait();
     Image image;
     image.color = film->resolve("color");
+    const auto counts = renderer->progress().statistics;
+    image.raysPerPath = counts.at("rays") / counts.at("paths");
     const int n = pixels * pixels;
     for (int c = 0; c < 3; ++c) {
         double sum = 0.0, squares = 0.0;

@@ -35,6 +35,7 @@ public:
         std::vector<float> color;
         vec3 mean{0.0f}, error{0.0f}; ///< over pixels; error: standard deviation of the mean
         bool finite = true;
+        double raysPerPath = 0.0;
     };
     Image render(int pixels, int samples);
 };

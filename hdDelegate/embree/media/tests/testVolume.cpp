@@ -179,6 +179,44 @@ TEST(Volumes, WhatIsDenserThanItsMajorantGainsNoLight) {
         EXPECT_NEAR(image.mean[c], 1.0f, 5.0f * image.error[c] + 2e-3f);
 }
 
+TEST(Volumes, WithoutAKnownMaterialAreAGreyWhosePathsEnd) {
+    // Paths scatter until they have 0.25 of their light, which takes 7 times at 0.8 each; then each
+    // time 0.8 of them go on, which makes 5 more in the mean. Each time takes a ray to go on and
+    // one for the dome's light. The volume is so thick that white paths would scatter up to the
+    // bound of all paths, hundreds of times.
+    constexpr double most = 2.0 * (7 + 5) + 2.0;
+    for (const std::string material : {"", "/none", "/surface"}) {
+        MediaScene s;
+        s.material("/surface",
+                   {node("/m/surface", "ND_surface", {}, {{"bsdf", {"/m/diffuse", ""}}}),
+                    node("/m/diffuse", "ND_oren_nayar_diffuse_bsdf",
+                         {{"color", Value::makeColor3(1, 1, 1)}})});
+        volume(s, cubeGrid(2, [](const vec3&) { return 1000.0f; }), material);
+        s.dome(1.0f);
+        s.camera(vec3(0, 0, 5), 1.0f); // inside of the outline
+        const auto image = s.render(16, 16);
+        ASSERT_TRUE(image.finite);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GT(image.mean[c], 0.0f) << material;
+            EXPECT_LT(image.mean[c], 0.8f) << material; // all light that is seen was scattered
+        }
+        EXPECT_LT(image.raysPerPath, most) << material;
+        std::string told;
+        for (const Diagnostic& d : s.scene->diagnostics().all())
+            told += d.prim + " " + d.input + ": " + d.message;
+        const std::string wanted = "/volume material:binding: material " + material +
+                                   " does not exist or is not a volume; a grey one is shown that "
+                                   "scatters 0.8 of the light";
+        EXPECT_EQ(told, material.empty() ? "" : wanted);
+    }
+    MediaScene white;
+    volumeMaterial(white, vec3(0), vec3(1));
+    volume(white, cubeGrid(2, [](const vec3&) { return 1000.0f; }), "/m");
+    white.dome(1.0f);
+    white.camera(vec3(0, 0, 5), 1.0f);
+    EXPECT_GT(white.render(8, 4).raysPerPath, most) << "the bound tells them apart";
+}
+
 TEST(Volumes, ThreadsChangeNothing) {
     std::vector<float> first;
     for (int threads : {1, 2}) {

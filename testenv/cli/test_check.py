@@ -9,7 +9,7 @@ import pytest
 
 _patina = pytest.importorskip("_patina")
 
-from patina.cli import check, main  # noqa: E402
+from patina.cli import binnedDensity, check, main  # noqa: E402
 
 LAMBERT = """<materialx version="1.39">
   <oren_nayar_diffuse_bsdf name="d" type="BSDF"><input name="color" type="color3" value="0.8, 0.8, 0.8"/>
@@ -137,3 +137,45 @@ def test_every_step_is_counted():
         arguments = types.SimpleNamespace(samples=1024, places=2, tolerance=0.01, reciprocal=False, seed=0)
         check.check(probe, arguments, lambda: steps.append(1))
         assert len(steps) == check._steps(probe, arguments)
+
+
+class Spike:
+    """Densities around an axis (von Mises and Fisher): 1 in all, and narrower than points see at first."""
+
+    def __init__(self, sharpness, degrees):
+        self.sharpness = sharpness
+        self.axis = np.array([math.sin(math.radians(degrees)), 0.0, math.cos(math.radians(degrees))])
+
+    def eval(self, wo, wi):
+        away = 0.5 * ((wi.astype(np.float64) - self.axis) ** 2).sum(axis=1)  # 1 - cos, without cancellation
+        return None, self.sharpness / (2.0 * math.pi) * np.exp(-self.sharpness * away)
+
+    def sample(self, n, generator):
+        away = -np.log(generator.random(n)) / self.sharpness
+        phi = 2.0 * math.pi * generator.random(n)
+        r = np.sqrt(away * (2.0 - away))
+        tangent = np.array([self.axis[2], 0.0, -self.axis[0]])
+        return (self.axis * (1.0 - away)[:, None] + tangent * (r * np.cos(phi))[:, None] +
+                np.array([0.0, 1.0, 0.0]) * (r * np.sin(phi))[:, None])
+
+
+@pytest.mark.parametrize("degrees", [0.0, 0.3, 50.0, 89.5])
+@pytest.mark.parametrize("sharpness", [30.0, 1e4, 1e6])
+def test_narrow_densities_are_integrated(degrees, sharpness):
+    """Samples lead to a spike that lies between points, and chance explains their counts per bin (significance 0.1 %)."""
+    n, generator = 65536, np.random.default_rng(3)
+    spike = Spike(sharpness, degrees)
+    wi = spike.sample(n, generator)
+    y, x = binnedDensity.coordinates(wi)
+    bins, precise = binnedDensity.integrate(spike, np.array([0.0, 0.0, 1.0]), y, x, n)
+    assert precise and bins.sum() == pytest.approx(1.0, abs=binnedDensity.PRECISE)
+    p = check.chi_squared(binnedDensity.counts(y, x), bins * n, n)
+    assert p is None or p > 1e-3  # None: all in one bin
+
+
+def test_a_density_that_is_too_wide_is_found():
+    n, generator = 65536, np.random.default_rng(3)
+    y, x = binnedDensity.coordinates(Spike(1e4, 50.2).sample(n, generator))  # near the corner of four bins
+    found = [check.chi_squared(binnedDensity.counts(y, x), binnedDensity.integrate(
+        Spike(sharpness, 50.2), np.array([0.0, 0.0, 1.0]), y, x, n)[0] * n, n) for sharpness in (1e4, 8e3)]
+    assert found[0] > 1e-3 > found[1]

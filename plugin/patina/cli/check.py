@@ -23,14 +23,13 @@ import sys
 import numpy as np
 
 from patina import limits
-from patina.cli import causes, compiled, layers, materials, methods, outputs, statistics
+from patina.cli import binnedDensity, causes, compiled, layers, materials, methods, outputs, statistics
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
 
 CHECKS = ("finite", "energy", "pdf", "weight", "chi2", "reciprocity")
 MIRROR = 4  # event of samples that have a probability instead of a density
 SIGNIFICANCE = 0.01
-ROWS, COLUMNS = 16, 32  # bins of the sphere in height and longitude
 ANGLES = (0.0, 30.0, 60.0, 80.0, 89.0)
 
 
@@ -237,8 +236,9 @@ def _direction(probe, wo, where, arguments, generator, tests, found):
     error = np.median(np.abs(weight[smooth] - expected).max(axis=1) / scale)
     found["weight"].append((float(error), arguments.tolerance, where))
 
-    observed = np.bincount(_bins(s["wi"][smooth]), minlength=ROWS * COLUMNS)
-    expected, sure = integrate(probe, wo, observed / n, n)
+    y, x = binnedDensity.coordinates(s["wi"][smooth])
+    observed = binnedDensity.counts(y, x)
+    expected, sure = binnedDensity.integrate(probe, wo, y, x, n)
     total = expected.sum()
     if not sure:
         return  # narrower than the quadrature can see
@@ -249,64 +249,6 @@ def _direction(probe, wo, where, arguments, generator, tests, found):
     if p is not None:
         limit = -math.log(1.0 - (1.0 - SIGNIFICANCE) ** (1.0 / tests))
         found["chi2"].append((-math.log(max(p, 1e-300)), limit, where))
-
-
-def _bins(directions):
-    row = np.clip(((directions[:, 2] + 1.0) * 0.5 * ROWS).astype(int), 0, ROWS - 1)
-    longitude = np.arctan2(directions[:, 1], directions[:, 0]) / (2.0 * math.pi)
-    column = np.clip(((longitude - np.floor(longitude)) * COLUMNS).astype(int), 0, COLUMNS - 1)
-    return row * COLUMNS + column
-
-
-def _quadrature(probe, wo, bins, points):
-    """Integrals of the density over bins, by points x points in each."""
-    offsets = (np.arange(points) + 0.5) / points
-    cells = points * points
-    area = 4.0 * math.pi / (ROWS * COLUMNS)
-    sums = np.empty(len(bins))
-    step = max(1, (1 << 19) // cells)
-    for first in range(0, len(bins), step):
-        part = bins[first:first + step]
-        # In the two rows at the horizon points lie denser there, where grazing densities have their peak.
-        row = (part // COLUMNS)[:, None, None]
-        t = offsets[None, :, None]
-        above, under = row == ROWS // 2, row == ROWS // 2 - 1
-        height = np.where(above, t * t, np.where(under, 1.0 - (1.0 - t) ** 2, t))
-        slope = np.where(above, 2.0 * t, np.where(under, 2.0 * (1.0 - t), 1.0))
-        z = -1.0 + 2.0 * (row + height) / ROWS
-        phi = 2.0 * math.pi * ((part % COLUMNS)[:, None, None] + offsets[None, None, :]) / COLUMNS
-        z, phi = np.broadcast_arrays(z, phi)
-        r = np.sqrt(np.maximum(0.0, 1.0 - z * z))
-        wi = np.stack([r * np.cos(phi), r * np.sin(phi), z], axis=-1).reshape(-1, 3).astype(np.float32)
-        _, pdf = probe.eval(np.tile(wo.astype(np.float32), (len(wi), 1)), wi)
-        weighted = pdf.astype(np.float64).reshape(len(part), points, points) * slope
-        sums[first:first + step] = weighted.mean(axis=(1, 2)) * area
-    return sums
-
-
-def integrate(probe, wo, shares, n):
-    """Integrals of the density over the bins, refined where two of them differ, and where shares of n samples say
-    that points missed something.
-
-    :returns: array of bins, and whether they are precise to 0.001 in sum
-    """
-    bins = np.arange(ROWS * COLUMNS)
-    coarse, fine = _quadrature(probe, wo, bins, 6), _quadrature(probe, wo, bins, 12)
-    difference = np.abs(fine - coarse)
-    # Of 512 bins one or two differ by three standard errors by chance: once looked into, it takes five.
-    for points, errors in ((48, 3.0), (192, 5.0), (768, 5.0)):
-        noise = errors * np.sqrt(np.maximum(fine, 1.0 / n) / n)
-        doubt = np.maximum(difference, np.where(np.abs(shares - fine) > noise, np.abs(shares - fine), 0.0))
-        open_bins = np.argsort(-doubt)[:64 if points < 768 else 8]
-        open_bins = open_bins[doubt[open_bins] > 2e-5]
-        left = difference.sum() - difference[open_bins].sum()
-        if not len(open_bins) or (points == 768 and left >= 0.001):
-            break  # precise already, or not to be made so
-        finer = _quadrature(probe, wo, open_bins, points)
-        # Points lie four times as dense: at a kink the error falls to a quarter, which is a third of the difference.
-        difference[open_bins] = np.abs(finer - fine[open_bins]) / 3.0
-        fine[open_bins] = finer
-    return fine, bool(difference.sum() < 0.001)
 
 
 def chi_squared(observed, expected, n):

@@ -11,8 +11,10 @@ namespace {
 
 constexpr double meanOfHalfNormal = 0.79788456080286536; // sqrt(2 / pi)
 constexpr double minLuminance = 0.01;                    // black pixels do not decide
-constexpr double significant = 3.0; // standard errors by which the light of a pixel is known
-constexpr double manyAround = 0.2;  // of nine pixels: two or more
+// Derived in docs/tolerance.md, "Thresholds".
+constexpr double fewFinds = 5.0;   // samples of a pixel that find light: halves tell too little
+constexpr double manyAround = 0.2; // of nine pixels: two or more
+constexpr double margin = 2.0;     // standard errors
 
 /// A rectangle of numbers.
 struct Grid {
@@ -70,7 +72,8 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
             scale.at(x, y) = float(known + minLuminance);
             squares.at(x, y) =
                 float(std::min(variance / ((known + minLuminance) * (known + minLuminance)), 1e30));
-            rare.at(x, y) = l * l <= significant * significant * variance ? 1.0f : 0.0f;
+            // The root of k equal finds is how many standard errors k finds lie above none.
+            rare.at(x, y) = l * l <= fewFinds * variance ? 1.0f : 0.0f;
         }
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
@@ -109,8 +112,9 @@ static double spreadCorrection(const ErrorSums& sums) {
     const double growth = sums.growth / sums.pixels;
     if (!(sums.before > 0.0) || !(sums.own > 0.0) || !(growth > 1.0)) return 1.0;
     const double ratio = (sums.own * sums.own) / (sums.before * sums.before);
-    // Less what chance may have made of it, at two standard errors of each mean.
-    const double slope = (-std::log(ratio) - 2.0 / std::sqrt(sums.pixels)) / std::log(2.0 * growth);
+    // Less what chance may have made of it.
+    const double slope =
+        (-std::log(ratio) - margin / std::sqrt(sums.pixels)) / std::log(2.0 * growth);
     const double power = std::clamp(slope, 1.0, steepest);
     const double atPower =
         std::sqrt(std::pow(2.0, power) - 1.0) / (2.0 - std::pow(2.0, 0.5 * (power - 1.0)));
@@ -122,13 +126,13 @@ static double spreadCorrection(const ErrorSums& sums) {
 
 double relativeError(const ErrorSums& sums, PixelNoise noise) {
     if (!(sums.pixels > 0.0)) return 0.0;
-    // Two standard errors more of what chance makes of the difference between estimate and error.
+    // A margin for what chance makes of the difference between estimate and error.
     // How much of a pixel's square that is follows for normal noise: of |n| it is 1 - 2 / pi, and a
     // third of that of a mean of halves that count 1/2, 1/4, 1/8...
     constexpr double ofError = 1.0 - meanOfHalfNormal * meanOfHalfNormal, ofHalves = ofError / 3.0;
     constexpr double chance = (ofError + ofHalves) / (1.0 - ofError + ofHalves);
     const double error =
-        (spreadCorrection(sums) * sums.error + 2.0 * std::sqrt(chance * sums.ownSquares)) /
+        (spreadCorrection(sums) * sums.error + margin * std::sqrt(chance * sums.ownSquares)) /
         sums.pixels;
     // Pixels that are wrong together may agree by chance: then half of the plain error is the
     // least.

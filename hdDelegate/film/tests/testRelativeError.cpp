@@ -88,6 +88,33 @@ TEST(RelativeError, DoesNotForgetLightThatFewSamplesFind) {
     }
 }
 
+TEST(RelativeError, OfFewFindsFollowsFromPoissonsLaw) {
+    // The numbers of docs/tolerance.md, "Thresholds", where samples find 1 / chance or nothing. The
+    // relative variance of |n| is 0.57 and that of the halves 0.19, so 3840 pixels tell a ratio to
+    // 0.014: 0.055 is four standard errors.
+    constexpr int side = 64, rows = 60, samples = 256;
+    for (const auto& [finds, byHalves] : {std::pair{1, 0.77}, {5, 0.93}, {16, 0.97}}) {
+        Film film;
+        film.reset(side, rows, {});
+        const float chance = float(finds) / samples;
+        double error = 0.0, halves = 0.0;
+        for (int y = 0; y < rows; ++y)
+            for (int x = 0; x < side; ++x) {
+                for (uint32_t i = 0; i < samples; ++i) {
+                    Sampler sampler{uint32_t(x), uint32_t(y), 7u, i};
+                    const float found = sampler.random() < chance ? 1.0f / chance : 0.0f;
+                    film.addColor(x, y, glm::vec3(found), 1.0f);
+                }
+                error += std::abs(double(film.luminance(x, y)) - 1.0);
+                halves += double(film.deviationOfMean(x, y));
+            }
+        EXPECT_NEAR(halves / error, byHalves, 0.055) << finds;
+        // The estimate takes the standard deviation where halves tell less than 0.93.
+        EXPECT_GT(relativeError(film, 0, 0, side, rows) * 1.01 * side * rows / error, 0.93 - 0.055)
+            << finds;
+    }
+}
+
 TEST(RelativeError, IsThatOfTheRectangleAlone) {
     Film film;
     film.reset(8, 4, {});

@@ -12,6 +12,7 @@ import types
 import pytest
 
 import _patina
+import movie
 import patina
 from patina.cli.errors import CommandError, is_temporary
 from patina.farm import cut, folders, identity, job, owner, sender, work, worker
@@ -57,6 +58,35 @@ def test_a_link_in_the_place_of_the_parts_is_refused(tmp_path, resume):
     with pytest.raises(worker.PartFailed, match="cannot write "):
         version(tmp_path, os.path.join(one.folder, "1.log"), "links")
     assert sorted(os.listdir(other)) == ["1.log", "1.part", owner.NAME]
+
+
+@pytest.mark.parametrize("number, reason", [(1, ""), (2, "cannot write '{}/2.part': it is a folder"),
+                                            (3, "cannot read part '{}/1.part': it does not exist")])
+def test_a_link_that_comes_while_a_part_is_rendered_leads_nowhere(tmp_path, monkeypatch, number, reason):
+    """The third task merges."""
+    one, before, other = frame(tmp_path), tmp_path / "before", tmp_path / "other"
+    one.prepare("job")
+    other.mkdir()
+    os.mkdir(one.part_file(one.parts()[1]))
+    for name in ("1.part", f"{number}.log"):
+        (other / name).write_text("mine")
+    call = subprocess.call
+
+    def swapped(*arguments, **keywords):
+        os.rename(one.folder, before)
+        os.symlink(other, one.folder)
+        return call(*arguments, **keywords)
+
+    monkeypatch.setattr(worker.subprocess, "call", swapped)
+    task = work.Task(one, one.parts()[number - 1] if number < 3 else None)
+    command = task.arguments([movie.write_stage(tmp_path), one.image, "--imageWidth=96", "--samples=1"], 1)
+    if reason:
+        with pytest.raises(worker.PartFailed, match=reason.format(one.folder)):
+            worker.run(command, str(tmp_path), task.log, ("swapped", [], [], {}))
+    else:
+        worker.run(command, str(tmp_path), task.log, ("swapped", [], [], {}))
+    assert {path.name: path.read_text() for path in other.iterdir()} == dict.fromkeys(("1.part", f"{number}.log"), "mine")
+    assert os.path.isfile(before / "1.part") is (number == 1)
 
 
 def test_a_folder_of_somebody_else_is_refused(tmp_path, monkeypatch):

@@ -71,10 +71,10 @@ class _Log:
 
     def __enter__(self):
         try:
-            self._folder = self._open.enter_context(folders.opened(os.path.dirname(self._path)))
+            self.folder = self._open.enter_context(folders.opened(os.path.dirname(self._path)))
             with contextlib.suppress(FileNotFoundError):
-                self._folder.remove(self._name)
-            self.file = self._open.enter_context(open(self._folder.new(self._name), "w+b"))
+                self.folder.remove(self._name)
+            self.file = self._open.enter_context(open(self.folder.new(self._name), "w+b"))
         except OSError as error:
             self._open.close()
             raise PartFailed(f"cannot write {self._path}: {error.strerror}", place()[2], is_temporary(error)) from error
@@ -85,7 +85,7 @@ class _Log:
 
     def remove(self):
         with contextlib.suppress(OSError):  # what was asked for is done, whatever became of its log
-            self._folder.remove(self._name)
+            self.folder.remove(self._name)
 
     def keep(self):
         """Gives it a name of its own, which no other failure has. :returns: its path"""
@@ -93,13 +93,13 @@ class _Log:
         for number in itertools.count(1):
             kept = stem + (f".{number}" if number > 1 else "") + ".failed.log"
             try:
-                os.close(self._folder.new(kept))
-                self._folder.rename(self._name, kept)
+                os.close(self.folder.new(kept))
+                self.folder.rename(self._name, kept)
             except FileExistsError:
                 continue
             except OSError:  # the reason counts, with its log or without
                 with contextlib.suppress(OSError):
-                    self._folder.remove(kept)
+                    self.folder.remove(kept)
             return os.path.join(os.path.dirname(self._path), kept)
 
     def last_line(self):
@@ -126,10 +126,11 @@ def run(arguments, folder, log, checks, variables=None):
         raise Refused(f"{name} {words(problems)}", address)
     begin = time.perf_counter()
     with _Log(log) as kept:
-        command = [sys.executable, "-c", _CHILD, str(os.getpid()), *arguments]
+        handle = kept.folder.handle  # the command writes there, whatever comes in the folder's place meanwhile
+        command = [sys.executable, "-c", _CHILD, str(os.getpid()), kept.folder.path, str(handle), *arguments]
         environment = {name: value for name, value in {**os.environ, **(variables or {})}.items() if value is not None}
         status = subprocess.call(command, stdin=subprocess.DEVNULL, stdout=kept.file, stderr=kept.file, cwd=folder,
-                                 env=environment)
+                                 env=environment, pass_fds=[handle])
         if status != 0:
             reason = f"killed by signal {-status}" if status < 0 else kept.last_line() or f"it ended with status {status}"
             raise PartFailed(f"{reason} (on {name}, see {kept.keep()})", address, status in PASSING)

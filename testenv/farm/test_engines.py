@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Engines: what they are written as, and movies on real ones."""
+import json
 import os
 import re
 import shutil
 import stat
 import subprocess
+import sys
+import tempfile
 import time
+import types
 import urllib.error
 import urllib.request
 
@@ -133,6 +137,23 @@ def nobody_else_comes_in(cluster):
     for one in found.values():
         folder = os.path.dirname(os.path.dirname(one["local_directory"]))
         assert stat.S_IMODE(os.stat(folder).st_mode) == 0o700
+
+
+@pytest.mark.parametrize("page", ["", "127.0.0.1:1"])
+@pytest.mark.parametrize("engine, name", [("local:1", "scheduler_kwargs"), ("slurm:1", "scheduler_options")])
+def test_options_of_the_scheduler_open_no_page_of_dasks(engine, name, page, monkeypatch):
+    """It has an option of its own."""
+    given = {"port": 9, "dashboard": True, "dashboard_address": ":8787"}
+    options = [f"{name}={json.dumps(given)}"] + ([f"dashboard_address={page}"] if page else [])
+    monkeypatch.setitem(sys.modules, "dask_jobqueue", types.SimpleNamespace(SLURMCluster=dict))
+    dask = types.SimpleNamespace(LocalCluster=dict, Security=types.SimpleNamespace(temporary=str))
+    cluster = engines.Cluster(engines.parse(engine, options), tempfile.gettempdir())
+    try:
+        made = cluster._start(dask)
+    finally:
+        cluster.__exit__()
+    assert made[name] == {"port": 9, "dashboard": bool(page), "dashboard_address": page or "127.0.0.1:0"}
+    assert not {"dashboard", "dashboard_address"} & set(made)
 
 
 def test_certificates_are_files_that_are_there(tmp_path):

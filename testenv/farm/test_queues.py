@@ -10,8 +10,6 @@ import sys
 import pytest
 
 import movie
-from patina.cli.errors import UsageError
-from patina.farm import engines, pods
 
 FLAGS = ["--imageWidth=48", "--samples=4"]
 # Takes a script as its last argument or as its input, says a number, and runs the script in a session of its own.
@@ -72,43 +70,3 @@ def test_a_movie_through_a_queue(tmp_path, queue):
         for pid in running:
             os.killpg(pid, signal.SIGKILL)
     assert not running, "jobs were left in the queue"
-
-
-def test_pods_that_cannot_render_are_refused():
-    engines.parse("k8s:2", ["image=a", "volumes=shows:/shows,my-textures:/assets/textures"])
-    engines.parse("k8s:2", ["custom_cluster_spec=cluster.yaml"])
-    for options, words in (([], "image=NAME"), (["image=a", "volumes=/shows"], "CLAIM:/PATH"),
-                           (["image=a", "volumes=A_b:/x"], "CLAIM:/PATH")):
-        with pytest.raises(UsageError, match=words):
-            engines.parse("k8s:2", options)
-
-
-def test_pods_are_what_kubernetes_knows():
-    operator = pytest.importorskip("dask_kubernetes.operator", reason="dask-kubernetes is not installed")
-    from kubernetes import client
-
-    engine = engines.parse("k8s:3", ["image=studio/patina:1", "volumes=shows:/shows,shows:/again,textures:/textures",
-                                     'resources={"limits": {"cpu": "8"}}', 'env={"OCIO": "/shows/config.ocio"}',
-                                     "namespace=render"])
-    made = pods.cluster_options(operator.make_cluster_spec, engine.workers, engine.options, {"PYTHONPATH": "/shows/patina"})
-    assert made["namespace"] == "render" and set(made) == {"namespace", "custom_cluster_spec"}
-    worker = made["custom_cluster_spec"]["spec"]["worker"]
-    assert worker["replicas"] == 3
-    container = worker["spec"]["containers"][0]
-    assert container["args"][:3] == ["dask-worker", "--nthreads", "1"], "a pod takes one part at a time"
-    assert {"name": "OCIO", "value": "/shows/config.ocio"} in container["env"]
-    assert {"name": "PYTHONPATH", "value": "/shows/patina"} in container["env"]
-    claims = {volume["name"]: volume["persistentVolumeClaim"]["claimName"] for volume in worker["spec"]["volumes"]}
-    mounts = [(claims[mount["name"]], mount["mountPath"]) for mount in container["volumeMounts"]]
-    assert mounts == [("shows", "/shows"), ("shows", "/again"), ("textures", "/textures")] and len(claims) == 2
-    # Kubernetes' own classes take all of it: what they do not know would not come back.
-    api = client.ApiClient()
-    for part in ("worker", "scheduler"):
-        pod = made["custom_cluster_spec"]["spec"][part]["spec"]
-        known = api._ApiClient__deserialize(pod, "V1PodSpec")
-        assert api.sanitize_for_serialization(known) == pod
-
-
-def test_a_cluster_of_the_users_own_is_taken_as_it_is():
-    options = {"custom_cluster_spec": "cluster.yaml", "namespace": "render"}
-    assert pods.cluster_options(None, 4, options, {"A": "b"}) == options

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`python -m patina.farm.child PARENT FOLDER HANDLE ARGUMENTS...`: a command of Patina that ends when the worker that asked for it
-does. Files of FOLDER are those of the descriptor HANDLE, whatever has come to stand in its place."""
+"""`python -m patina.farm.child PARENT FOLDER HANDLE ARGUMENTS...`: a command of Patina that ends when the worker that asked for
+it does. Files of FOLDER are those of the descriptor HANDLE, whatever has come to stand in its place."""
 import functools
 import os
 import sys

@@ -79,9 +79,8 @@ def threads(engine):
 def queue_options(given):
     """:param given: options of --engineOption
     :returns: dict of what dask-jobqueue's class for the queue takes"""
-    variables = {**environment(), "DASK_DISTRIBUTED__WORKER__HTTP__ROUTES": "[]"}
     return {"cores": 1, "processes": 1, "memory": "4GiB", "python": shlex.quote(sys.executable),
-            "job_script_prologue": [f"export {name}={shlex.quote(value)}" for name, value in variables.items()],
+            "job_script_prologue": [f"export {name}={shlex.quote(value)}" for name, value in environment().items()],
             # One part at a time, which takes all of a job's cores.
             "worker_extra_args": ["--nthreads", "1", "--no-dashboard"], **given}
 
@@ -134,18 +133,14 @@ class Cluster:
 
     def replace(self, there):
         """Asks for workers in the place of those that went away: Dask forgets a worker that is away for longer than its setting
-        `distributed.deploy.lost-worker-timeout`, and starts no other by itself. An operator of Kubernetes does so.
+        `distributed.deploy.lost-worker-timeout`, and starts no other by itself.
 
         :param there: how many workers there are"""
-        if self._cluster is None or self.engine.kind == "k8s" or there >= self.engine.workers:
-            return
-        if time.monotonic() - self._asked >= REPLACE_SECONDS:
+        if self._cluster is not None and there < self.engine.workers and time.monotonic() - self._asked >= REPLACE_SECONDS:
             self._scale()
 
     def openness(self):
         """:returns: who else may run programs on the workers, or an empty text for nobody"""
-        if self.engine.kind == "k8s":
-            return "Dask's operator knows no TLS: whoever reaches its scheduler can run programs in the pods (docs/farm.md)"
         if self.engine.address.startswith("tcp:"):
             return (f"{self.engine.address} asks for no certificate: whoever reaches it can run programs as its workers' user "
                     "(docs/farm.md)")
@@ -154,15 +149,11 @@ class Cluster:
     def dashboard(self):
         """:returns: the address of Dask's own page, or an empty text. Of a scheduler that is started here it must be asked for:
             anybody may look at it"""
-        asked = self.engine.kind in ("dask", "k8s") or (_PAGE in self.engine.options and importlib.util.find_spec("bokeh"))
+        asked = self.engine.kind == "dask" or (_PAGE in self.engine.options and importlib.util.find_spec("bokeh"))
         return (getattr(self.client, "dashboard_link", "") or "") if asked else ""
 
     def _start(self, distributed):
         engine = self.engine
-        if engine.kind == "k8s":
-            operator = _import("dask_kubernetes.operator", "dask-kubernetes")
-            return operator.KubeCluster(**pods.cluster_options(operator.make_cluster_spec, engine.workers, engine.options,
-                                                               environment()))
         security = certificates.of_run(distributed)
         options = {name: value for name, value in engine.options.items() if name != _PAGE}
         shared = {"security": security, "silence_logs": logging.CRITICAL}
@@ -175,13 +166,16 @@ class Cluster:
             return distributed.LocalCluster(**{
                 "n_workers": engine.workers, "threads_per_worker": 1, "processes": True, "memory_limit": 0,
                 "local_directory": scratch, "scheduler_kwargs": page, **shared, **options})
-        jobqueue = _import("dask_jobqueue", "dask-jobqueue")
+        package = "kubernetes" if engine.kind == "k8s" else "dask-jobqueue"
+        module = _import(package.replace("-", "_"), package)
         # A queue's reason to refuse a job is told nowhere else.
         for name in ("tornado.application", "asyncio"):
             log = logging.getLogger(name)
             log.handlers, log.propagate = [self._complaints], False
+        if engine.kind == "k8s":
+            return pods.start(distributed, module, options, environment(), page, shared, self._folders)
         folder = self._folders.enter_context(certificates.private_folder(options.pop("shared_temp_directory", self._shared)))
-        return getattr(jobqueue, QUEUES[engine.kind])(**{"shared_temp_directory": folder, "scheduler_options": page, **shared,
+        return getattr(module, QUEUES[engine.kind])(**{"shared_temp_directory": folder, "scheduler_options": page, **shared,
                                                          **queue_options(options)})
 
     def _scale(self):
@@ -213,7 +207,7 @@ def _first(error):
 
 
 def environment():
-    """:returns: dict of what a worker's Python needs to find this Patina"""
+    """:returns: dict of what a worker's Python needs to find this Patina, and to show Dask's pages to nobody"""
     import patina
 
     module = sys.modules.get("_patina")
@@ -223,7 +217,8 @@ def environment():
     kept = {name: os.environ[name] for name in ("PATINA_BUILD_DIR", "PATINA_CACHE", "PATINA_OIDN_LIBRARY",
                                                 *identity.ENVIRONMENT)
             if os.environ.get(name)}
-    return {"PYTHONPATH": os.pathsep.join(dict.fromkeys(paths)), "PYTHONSAFEPATH": "1", **kept}
+    return {"PYTHONPATH": os.pathsep.join(dict.fromkeys(paths)), "PYTHONSAFEPATH": "1",
+            "DASK_DISTRIBUTED__WORKER__HTTP__ROUTES": "[]", **kept}
 
 
 def _configure(page):

@@ -2,6 +2,7 @@
 #include "base/regularFile.h"
 
 #include "base/exrClaims.h"
+#include "base/imageProfile.h"
 #include "base/trialRead.h"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ std::string whyNoImage(const std::string& path) {
                        std::all_of(start, start + got, [](char c) { return c == 0; });
     if (zeros) return "is no image: it begins with zeros";
     if (exrClaimsMore(file.number)) return "is no image: its header claims more than it holds";
-    return whyTrialFails(path);
+    return whyTrialFails(path, mayHoldProfile(file.number));
 }
 
 bool readRegularFile(const std::string& path, const MostBytes& most, std::string& bytes,

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""With `--limit untriedBytes=0` a process that may die reads stage and images first (SECURITY.md)."""
+"""A process that may die reads headers of images with an ICC profile first, with `--limit untriedBytes=0` stage and images
+(SECURITY.md)."""
 import glob
 import os
 import shutil
@@ -62,12 +63,26 @@ def test_an_image_that_kills_its_reader_is_left_out(stage, dying, tmp_path):
     assert inProcess.pixels(tmp_path / "a.exr").max() > 0
 
 
+@pytest.mark.parametrize("flags", [(), UNTRIED], ids=["default", "untried"])
 @pytest.mark.parametrize("file", KILLERS, ids=os.path.basename)
-def test_images_that_kill_some_libraries_harm_nobody(stage, file, tmp_path):
+def test_images_that_kill_some_libraries_harm_nobody(stage, file, tmp_path, flags):
     """Readers of formats die of them, depending on their versions."""
     shutil.copy(file, tmp_path / "t.png")
-    done = inProcess.record(stage, tmp_path / "a.exr", *FLAGS, *UNTRIED, check=False)
+    done = inProcess.record(stage, tmp_path / "a.exr", *FLAGS, *flags, check=False)
     assert done.returncode == 0 and os.path.exists(tmp_path / "a.exr"), done.stderr
+
+
+def test_images_with_a_profile_are_read_where_no_program_tries_them(stage, dying, tmp_path):
+    corpus = os.path.join(os.path.dirname(KILLERS[0]), "..", "texture")
+    shutil.copy(os.path.join(corpus, "soundProfileJpg"), tmp_path / "t.png")
+    for file in ("a", "b"):
+        command = [sys.executable, "-m", "patina", "record", stage, tmp_path / f"{file}.exr", *FLAGS]
+        done = subprocess.run(list(map(str, command)), env=dying, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        assert ("makes OpenImageIO fail (Segmentation fault)" in done.stderr) is (file == "a")
+        program = os.path.join(dying["PYTHONPATH"].split(":")[0], "patinaTryImage")
+        with open(program, "w", encoding="utf-8") as script:
+            script.write("#!/nowhere/at/all\n")
 
 
 def test_a_stage_that_kills_its_reader_is_refused(stage, tmp_path, monkeypatch):

@@ -45,8 +45,10 @@ def build(folder, names, jobs=1):
 
 
 def _environment(fuzzer, scratch, profile=None):
+    # The stack of each allocation, which took a tenth of an input's time, is told of leaks alone.
+    stacks = "" if fuzzer.leaks else ":malloc_context_size=1"
     return dict(os.environ, TMPDIR=scratch,
-                ASAN_OPTIONS=f"detect_leaks={int(fuzzer.leaks)}:allocator_may_return_null=1:handle_abort=1",
+                ASAN_OPTIONS=f"detect_leaks={int(fuzzer.leaks)}:allocator_may_return_null=1:handle_abort=1{stacks}",
                 UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1", LLVM_PROFILE_FILE=profile or os.devnull)
 
 
@@ -82,7 +84,8 @@ def run(name, fuzzer, folder, corpus, seconds, plateau, seed, say):
                 [program, work, os.path.join(ROOT, "testenv", "fuzz", "corpus", name), f"-max_total_time={int(left)}",
                  f"-seed={seed + part + 1}",
                  f"-max_len={LONGEST_INPUT}", f"-timeout={HANG_SECONDS}", f"-rss_limit_mb={MEGABYTES}",
-                 f"-artifact_prefix={artifacts}", "-print_final_stats=1", "-use_value_profile=0"],
+                 f"-artifact_prefix={artifacts}", "-print_final_stats=1", "-use_value_profile=0",
+                 "-entropic=0"],  # weighing inputs by what is rare took a third to two thirds of the time of small ones
                 edges, plateau, cwd=scratch, env=_environment(fuzzer, scratch))
             inputs += tried
             part += 1

@@ -176,7 +176,7 @@ class Cluster:
             return pods.start(distributed, module, options, environment(), page, shared, self._folders)
         folder = self._folders.enter_context(certificates.private_folder(options.pop("shared_temp_directory", self._shared)))
         return getattr(module, QUEUES[engine.kind])(**{"shared_temp_directory": folder, "scheduler_options": page, **shared,
-                                                         **queue_options(options)})
+                                                       **queue_options(options)})
 
     def _scale(self):
         self._asked = time.monotonic()

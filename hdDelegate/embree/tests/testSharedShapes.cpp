@@ -29,7 +29,7 @@ mat4 placeOf(int i) {
     return glm::scale(turned, vec3(1.0f, i % 4 == 3 ? -0.8f : 0.8f, 1.1f));
 }
 
-std::shared_ptr<Implicit> makePrim(int i, ImplicitShape shape, bool parted) {
+std::shared_ptr<Implicit> makePrim(int i, ImplicitShape shape, bool shrinks) {
     auto prim = std::make_shared<Implicit>();
     prim->path = "/prim" + std::to_string(100 + i);
     prim->shape = shape;
@@ -44,15 +44,19 @@ std::shared_ptr<Implicit> makePrim(int i, ImplicitShape shape, bool parted) {
     color.components = 3;
     color.values = {0.1f * float(i), 0.5f, 0.2f};
     prim->primvars.push_back(color);
-    // With parts of its own a prim is drawn alone.
-    if (parted) prim->subsets.push_back({prim->path + "/part", "", {}});
+    // What shrinks to a thousandth while the shutter is open is drawn alone.
+    if (shrinks) {
+        prim->transform.times.push_back(1.0f);
+        prim->transform.values.push_back(prim->transform.first() *
+                                         glm::scale(dmat4(1.0), dvec3(0.05)));
+    }
     return prim;
 }
 
-void fill(Built& built, ImplicitShape shape, bool parted) {
+void fill(Built& built, ImplicitShape shape, bool shrinks) {
     SceneEdit edit = built.scene.edit();
     for (int i = 0; i < 40; ++i)
-        edit.set(std::shared_ptr<const Geometry>(makePrim(i, shape, parted)));
+        edit.set(std::shared_ptr<const Geometry>(makePrim(i, shape, shrinks)));
     edit.commit();
     built.update();
 }

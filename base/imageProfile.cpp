@@ -2,7 +2,6 @@
 #include "base/imageProfile.h"
 
 #include <cstdint>
-#include <cstring>
 
 #include <unistd.h>
 

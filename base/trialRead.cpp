@@ -42,6 +42,7 @@ public:
         if (known != _answers.end()) return known->second;
         std::string answer;
         try {
+            // A header takes no time: only a machine that is busy with other work keeps it waiting.
             answer = ask(asked, (isWhole ? 10 : 60) + (found.st_size >> 20));
         } catch (const std::exception& e) {
             if (isWhole) answer = std::string("cannot be tried: ") + e.what();

@@ -242,9 +242,7 @@ void bindScene(py::module_& m) {
              "another kind.")
         .def("camera", &cameraDict, py::arg("path"),
              "A camera's values by set_camera()'s keywords, has_overscan, and image_aspect, the "
-             "width over the "
-             "height "
-             "that its image has of itself; KeyError where there is none.")
+             "width over the height that its image has of itself; KeyError where there is none.")
         .def(
             "material",
             [](const Scene& s, const std::string& path) {

@@ -130,7 +130,7 @@ else
             lacks "the .deb depends on $package, which is not installed"
     done
 fi
-loudly python3 -m venv --clear --system-site-packages "$folder/system"
+loudly /usr/bin/python3 -m venv --clear --system-site-packages "$folder/system" # it sees the .deb's python3-numpy
 loudly "$folder/system/bin/pip" install usd-core
 PATINA_PYTHON=$folder/system/bin/python render deb "$prefix/bin/patina"
 same wheel deb

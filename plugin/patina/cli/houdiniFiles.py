@@ -13,7 +13,7 @@ FOLDER = os.path.join(rows.ROOT, "plugin", "houdini")
 _RENDERERS = {"HdPatinaRendererPlugin": ("Patina", 50), "HdPatinaRasterRendererPlugin": ("Patina GL", 49)}
 _STATISTICS = {"percentDone": "percentDone", "totalClockTime": "totalClockTime",
                "renderProgressAnnotation": "renderProgressAnnotation"}
-# The engine decides these for a viewport.
+# Of Blender's add-on alone.
 _LEFT_OUT = ("viewportBackend", "albedoPass")
 
 

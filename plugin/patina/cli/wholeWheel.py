@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Takes into a wheel the libraries that it needs, so that pip alone installs Patina: for Linux as old as this machine's.
+"""Takes into a wheel the libraries that it needs, so that pip alone installs Patina, on any Linux whose
+glibc is not older than this machine's.
 
     ./patina python -m patina.cli.wholeWheel hdPatina-*.whl FOLDER
 

@@ -15,6 +15,7 @@ class Group:
     chain: tuple = ()  # prototypes of point instancers that this one is drawn inside of
     above: object = field(default=None, compare=False)  # state at the root of the native prototype that holds it
     outer: object = field(default=None, compare=False)  # group that it was first found in; None: it is the world
+    arcs: tuple = field(default=(), compare=False)  # of a native instance: paths of the stage that it is made of
 
     def path(self, prim):
         """:returns: the path of a prim in the scene"""

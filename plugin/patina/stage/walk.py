@@ -39,7 +39,8 @@ class Walk:
         self._pointed = {}  # (prototype of a point instancer, group that it stands in) -> name of its group
         self._above = {}  # states of prims above such prototypes
         self._shown = {}  # path below an instancer -> how many prototypes that lie outside of it have that name
-        self._reaching = {}  # path of a native prototype -> whether its instancers draw prims of other instances
+        self._outsides = {}  # path of a native prototype -> see _outside()
+        self._layers = set(context.stage.GetLayerStack())
         self._nested = 0  # of these, those inside of others
         self._told = False  # that there are too many
         self._most = {name: limits.value(name) for name in ("prims", "instances")}
@@ -180,10 +181,14 @@ class Walk:
                 above = state.with_(primvars=split.copied, asset="")
                 group = Group(name=found.path, anchor=prototype, source=str(prototype.GetPath()),
                               shown=found.path, material=material or "", material_rules=rules,
-                              chain=outer.chain, above=above, outer=outer)
+                              chain=outer.chain, above=above, outer=outer, arcs=self._arcs(found.prim))
                 self._native[key] = group
                 self._todo.append((prototype.GetChildren(), above.with_(group=group), Usd.PrimDefaultPredicate))
             self.walked.instances.setdefault((outer.name, group.name, split.signature), []).append(found)
+
+    def _arcs(self, instance):
+        """:returns: paths of the stage that a native instance is made of"""
+        return tuple(spec.path for spec in instance.GetPrimStack() if spec.layer in self._layers)
 
     def _instancer(self, found):
         names = []
@@ -198,7 +203,7 @@ class Walk:
         if not root or not root.IsActive():
             self.context.warn(instancer.GetPath(), "prototypes", f"there is no prim {target}; it is not drawn")
             return name
-        root, home = self._at_home(root, outer)
+        root, home = not root.IsInPrototype() and self._around(root, outer.outer) or (root, outer)
         target = root.GetPath()
         if instancer.GetPath().HasPrefix(target) or str(target) in outer.chain:
             self.context.warn(instancer.GetPath(), "prototypes", f"{target} holds itself; it is not drawn")
@@ -235,14 +240,15 @@ class Walk:
 
     def _reaches_out(self, prototype, outer):
         """:param outer: group that an instance of the native prototype stands in
-        :returns: whether prototypes of point instancers below may lie in instances around, so that these count"""
-        if not outer.name:
-            return False
+        :returns: whether prototypes of point instancers below lie in instances around, so that these count"""
+        return any(self._around(root, outer) for root in self._outside(prototype))
+
+    def _outside(self, prototype):
+        """:returns: what point instancers below a native prototype draw that lies in none"""
         path = prototype.GetPath()
-        if path not in self._reaching:
-            todo, seen = [prototype], set()
-            self._reaching[path] = False
-            while todo and not self._reaching[path]:
+        if path not in self._outsides:
+            roots, todo, seen = {}, [prototype], set()
+            while todo:
                 found = todo.pop()
                 if found.GetPath() in seen:
                     continue
@@ -250,30 +256,28 @@ class Walk:
                 for prim in Usd.PrimRange(found):
                     if prim.IsInstance():
                         todo.append(prim.GetPrototype())
-                    elif self._kinds.of(prim)[0] == "instancer" and any(map(self._is_proxy, _prototypes_of(prim))):
-                        self._reaching[path] = True
-        return self._reaching[path]
+                    elif self._kinds.of(prim)[0] == "instancer":
+                        roots.update((target, self.context.stage.GetPrimAtPath(target)) for target in _prototypes_of(prim))
+            self._outsides[path] = [root for root in roots.values() if root and not root.IsInPrototype()]
+        return self._outsides[path]
 
-    def _is_proxy(self, path):
-        prim = self.context.stage.GetPrimAtPath(path)
-        return bool(prim) and prim.IsInstanceProxy()
+    def _around(self, root, home):
+        """OpenUSD names a target in an instance around the instancer's own by one of the places that share the prototype, by
+        chance: one of the instances, or what these are made of.
 
-    @staticmethod
-    def _at_home(root, outer):
-        """A target in an instance around the instancer's own has the path of the one instance that pxr composed for all that
-        share the prototype.
-
-        :param root: prim of a target; outer: group that the instancer stands in
-        :returns: (the prim that stands for it in all of these instances, the group of the one around), else (root, outer)"""
-        if not root.IsInstanceProxy():
-            return root, outer
-        shared = root.GetPrimInPrototype()
-        home = outer.outer
+        :param root: prim of a target; home: group to begin at
+        :returns: (the prim that stands for it in all of these instances, the group of the one around), or None"""
+        shared = root.GetPrimInPrototype() if root.IsInstanceProxy() else None
         while home is not None and home.name:
-            if shared.GetPath().HasPrefix(home.source):
+            if shared and shared.GetPath().HasPrefix(home.source):
                 return shared, home
+            for made_of in home.arcs if not shared else ():
+                if root.GetPath().HasPrefix(made_of):
+                    inside = self.context.stage.GetPrimAtPath(root.GetPath().ReplacePrefix(made_of, home.source))
+                    if inside:
+                        return inside, home
             home = home.outer
-        return root, outer
+        return None
 
     def _state_above(self, prim, root_state):
         """What a prototype of a point instancer inherits by namespace, wherever its instancer stands. Prims above may be

@@ -381,28 +381,34 @@ def test_prototypes_elsewhere_may_have_the_same_name(read):
     assert shapes == {'"/pi[0]"': "sphere", '"/pi[1]"': "cone", '"/pi[2]"': "cube"}
 
 
-def test_nested_instances_draw_prototypes_of_the_instance_around(read, statements, tmp_path):
-    """pxr names such a prototype by one of the instances around: all would draw what that one has. The asset is a file of its
-    own; a class of the stage would be a third place that pxr may name."""
+@pytest.mark.parametrize("arc", ["inherits = </asset>", "references = </asset>", "references = @asset.usda@</asset>"])
+def test_nested_instances_draw_prototypes_of_the_instance_around(read, statements, tmp_path, arc):
+    """pxr names such a prototype by one of the instances around, or by the asset, by chance: all would draw what that one has."""
     asset = """
-    def Xform "asset" {
+    %s Xform "asset" {
         class Xform "part" { def PointInstancer "pi" { rel prototypes = </asset/ball>
             int[] protoIndices = [0]
             point3f[] positions = [(0,0,0)] } }
         def Xform "ball" { def Sphere "s" { } }
-        def Xform "sub" (instanceable = true; inherits = </asset/part>) { } }"""
-    stage = MATERIALS + """
-    def Xform "a" (instanceable = true; references = @asset.usda@</asset>) { }
-    def Xform "b" (instanceable = true; references = @asset.usda@</asset>; prepend apiSchemas = ["MaterialBindingAPI"]) {
-        rel material:binding = </red> }"""
-    (tmp_path / "asset.usda").write_text("#usda 1.0\n" + statements(asset))
-    reading = read(stage)
+        def Xform "sub" (instanceable = true; inherits = </asset/part>; prepend apiSchemas = ["MaterialBindingAPI"]) {
+            rel material:binding = </blue> } }""" % ("def" if "@" in arc else "class")
+    stage = MATERIALS + f"""
+    def Xform "a" (instanceable = true; {arc}) {{ }}
+    def Xform "b" (instanceable = true; {arc}; prepend apiSchemas = ["MaterialBindingAPI"]) {{
+        rel material:binding = </red> }}"""
+
+    def made(asset, name):
+        if "@" not in arc:
+            return read(asset + stage)
+        (tmp_path / name).write_text("#usda 1.0\n" + statements(asset.replace("rel material:binding = </blue>", "")))
+        return read(stage.replace("asset.usda", name))
+
+    reading = made(asset, "asset.usda")
     assert not reading.warnings
     assert "material" not in reading.prim("/a/sub/pi/ball/s")
     assert reading.prim("/b/sub/pi/ball/s")["material"] == '"/red"'
     assert reading.prim("/a/sub")["prototypes"] == "/a/sub" and reading.prim("/b/sub")["prototypes"] == "/b/sub"
     # It may hold the instancer that draws it.
-    (tmp_path / "cyclic.usda").write_text("#usda 1.0\n" + statements(asset.replace('def Sphere "s" { } }', """def Sphere "s" { }
-            def Xform "again" (instanceable = true; inherits = </asset/part>) { } }""")))
-    cyclic = read(stage.replace("asset.usda", "cyclic.usda"))
+    cyclic = made(asset.replace('def Sphere "s" { } }', """def Sphere "s" { }
+            def Xform "again" (instanceable = true; inherits = </asset/part>) { } }"""), "cyclic.usda")
     assert any("/ball holds itself" in warning for warning in cyclic.warnings), cyclic.warnings

@@ -383,7 +383,7 @@ def test_prototypes_elsewhere_may_have_the_same_name(read):
 
 @pytest.mark.parametrize("arc", ["inherits = </asset>", "references = </asset>", "references = @asset.usda@</asset>"])
 def test_nested_instances_draw_prototypes_of_the_instance_around(read, statements, tmp_path, arc):
-    """pxr names such a prototype by one of the instances around, or by the asset, by chance: all would draw what that one has."""
+    """pxr names such a prototype by one of the instances around, or by the asset, by chance: all would draw what that has."""
     asset = """
     %s Xform "asset" {
         class Xform "part" { def PointInstancer "pi" { rel prototypes = </asset/ball>

@@ -81,3 +81,16 @@ def test_what_does_not_fit_is_told(program, source, tmp_path):
     (folder / "lib/libusd_ms.so").write_bytes(b"something else")
     with pytest.raises(CommandError, match="has no symbols of OpenUSD"):
         hydraHosts.prefix_of(str(folder), str(headers), made)
+
+
+@pytest.mark.parametrize("portable, said", [(False, "build-usd "), (True, "build-usd-portable " + hydraHosts.LEVEL)])
+def test_a_plugin_for_other_machines_is_not_built_for_this_processor(tmp_path, monkeypatch, portable, said):
+    (tmp_path / "usd").mkdir()
+    (tmp_path / "usd/pxrConfig.cmake").write_text('set(PXR_VERSION "2608")\n')
+    command = tmp_path / "patina"
+    command.write_text(f'#!/bin/sh\necho "$(basename "$PATINA_BUILD_DIR") $PATINA_LEVEL" >{tmp_path}/said\n')
+    command.chmod(0o755)
+    monkeypatch.delenv("PATINA_LEVEL", raising=False)
+    built, = hydraHosts.build_all([str(tmp_path / "usd")], [], str(tmp_path / "build"), str(command), portable)
+    assert (tmp_path / "said").read_text() == said + "\n" and built.version == (26, 8)
+    assert os.path.dirname(built.plugin) == str(tmp_path / said.split()[0])

@@ -69,7 +69,8 @@ def _build(arguments):
     hosts = arguments.usd or [arguments.blender]
     if arguments.blender:
         file = arguments.output or f"patina-blender-{blenderAddOn.blender_version(arguments.blender)}.zip"
-    made = hydraHosts.build_all(hosts, arguments.headers, build, command)
+    packed = bool(arguments.blender or arguments.output)
+    made = hydraHosts.build_all(hosts, arguments.headers, build, command, portable=packed)
     if arguments.blender:
         with pluginPackage.whole(made[0]) as folder:
             blenderAddOn.pack(arguments.blender, folder, made[0].version, file)

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from patina.cli.errors import CommandError
 
+LEVEL = "x86-64-v2"  # the least that programs of today ask for
 _NAMESPACE = re.compile(rb"\d(pxr\w*?__pxrReserved__)")
 _CONFIG = """# Made by `patina hydra --usd`: the OpenUSD inside of {host}.
 set(PXR_VERSION {version})
@@ -161,20 +162,22 @@ class Built(NamedTuple):
     version: tuple  # of its OpenUSD: minor and patch
 
 
-def build_all(hosts, headers, build, command):
+def build_all(hosts, headers, build, command, portable=False):
     """Builds a plugin for each OpenUSD in a folder of its own.
 
     :param hosts: paths; see prefix_of()
     :param headers: of those that need them, in this order
     :param build: the build folder of the checkout
     :param command: the path of `patina`
+    :param portable: for all processors that have LEVEL, not for this machine's alone
     :returns: list of Built
     :raises CommandError: where one cannot be built"""
     left, made = list(headers), []
     for host in hosts:
         name, prefix = prefix_of(host, None if _installed(host) or not left else left.pop(0), os.path.join(build, "hosts"))
-        own = f"{build}-{name}"  # beside it, where ccache finds what both compile
-        environment = {**os.environ, "PATINA_BUILD_DIR": own, "PXR_USD_LOCATION": prefix}
+        own = f"{build}-{name}" + ("-portable" if portable else "")  # beside it, where ccache finds what both compile
+        environment = {**os.environ, "PATINA_BUILD_DIR": own, "PXR_USD_LOCATION": prefix,
+                       **({"PATINA_LEVEL": LEVEL} if portable else {})}
         for variable in ("PYTHONPATH", "PYTHONSAFEPATH", "pxr_DIR"):
             environment.pop(variable, None)
         print(f"\n{host}:", flush=True)

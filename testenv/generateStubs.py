@@ -47,8 +47,10 @@ def _source(name):
 def _keywords():
     """:returns: {method: keywords of a setter of SceneEdit, as the bindings read them}"""
     found, common = {}, []
-    with open(os.path.join(ROOT, "hdDelegate", "scene", "lightTypes.inc"), encoding="utf-8") as file:
-        shapes = re.findall(r'^PATINA_LIGHT_INPUT\(\w+, \w+, "?(\w+)"?,', file.read(), re.MULTILINE)
+    tables = {}
+    for table in ("lightTypes.inc", "cameraTypes.inc"):
+        with open(os.path.join(ROOT, "hdDelegate", "scene", table), encoding="utf-8") as file:
+            tables[table] = re.findall(r'^PATINA_\w+_INPUT\([\w, ]*?\s*"(\w+)"', file.read(), re.MULTILINE)
     for name in ("bindSceneGeometry.cpp", "bindScene.cpp"):
         source = _source(name)
         start = re.search(r"Fields& readCommon.*?\n}", source, re.DOTALL)
@@ -57,8 +59,8 @@ def _keywords():
             method = re.search(r'Fields(?: fields)?\("(\w+)"', body)
             if method:
                 own = re.findall(r'\.read\(\s*"(\w+)"', body)
-                found[method[1]] = (common if "readCommon(" in body else []) + own + (shapes
-                                                                                      if "lightTypes.inc" in body else [])
+                rows = [key for table, keys in tables.items() if table in body for key in keys]
+                found[method[1]] = (common if "readCommon(" in body else []) + own + rows
     return found
 
 

@@ -7,13 +7,11 @@
 #include "hdDelegate/scene/cameraInputs.h"
 #include "hdDelegate/scene/instancerCheck.h"
 
-#include <pxr/base/gf/camera.h>
 #include <pxr/imaging/hd/cameraSchema.h>
 #include <pxr/imaging/hd/changeTracker.h>
 #include <pxr/imaging/hd/renderIndex.h>
 #include <pxr/imaging/hd/sceneDelegate.h>
 #include <pxr/imaging/hd/sceneIndex.h>
-#include <pxr/imaging/hd/timeSampleArray.h>
 
 #include <cmath>
 
@@ -21,9 +19,9 @@ namespace patina {
 
 namespace {
 
-/// Hydra gives lengths in scene units, made from tenths of them: finds the authored number again,
-/// so that both hosts trace the very same rays.
-float tenths(float sceneUnits, double unit) {
+/// Hydra gives lengths in scene units, made from tenths of them.
+/// @returns the authored number, so that both hosts trace the very same rays
+float authored(float sceneUnits, double unit) {
     const float factor = float(unit), guess = float(double(sceneUnits) / unit);
     for (const float x : {guess, std::nextafter(guess, -INFINITY), std::nextafter(guess, INFINITY)})
         if (x * factor == sceneUnits) return x;
@@ -44,24 +42,16 @@ bool knowsProjection(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
     return false;
 }
 
-MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
-                            const SdfPath& id) {
-    MatrixSamples samples;
-    sampleTransform(delegate, param, id, samples);
-    std::vector<float> times;
-    std::vector<dmat4> values;
-    for (size_t i = 0; i < samples.count; ++i) {
-        const dmat4 m = toMat4(samples.values[i]);
+/// Nothing is seen under a transform without an inverse.
+MotionTransform placeOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id) {
+    const MotionTransform transform = transformOf(delegate, param, id);
+    for (const dmat4& m : transform.values) {
         const float volume = glm::determinant(mat3(mat4(m)));
-        if (!std::isfinite(volume) || volume == 0.0f) {
-            param.warn(id, "transform", inverseProblem(m) + "; none is used");
-            return MotionTransform(mat4(1.0f));
-        }
-        times.push_back(samples.times[i]);
-        values.push_back(m);
+        if (std::isfinite(volume) && volume != 0.0f) continue;
+        param.warn(id, "transform", inverseProblem(m) + "; none is used");
+        return mat4(1.0f);
     }
-    if (values.empty()) return MotionTransform(mat4(1.0f));
-    return inOrder(std::move(times), std::move(values), param, id, "transform");
+    return transform;
 }
 
 /// The lens of cameraInputs.def; a name of its own is stronger than a primvar.
@@ -91,21 +81,13 @@ void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     }
     auto camera = std::make_shared<Camera>();
     camera->path = GetId().GetString();
-    camera->transform = transformOf(*delegate, param, GetId());
+    camera->transform = placeOf(*delegate, param, GetId());
     camera->orthographic =
         GetProjection() == Orthographic && knowsProjection(*delegate, param, GetId());
-    // Apertures of a camera that has none (a host gave matrices) keep the schema's fallback.
-    if (GetHorizontalAperture() > 0.0f && GetVerticalAperture() > 0.0f) {
-        camera->horizontalAperture = tenths(GetHorizontalAperture(), GfCamera::APERTURE_UNIT);
-        camera->verticalAperture = tenths(GetVerticalAperture(), GfCamera::APERTURE_UNIT);
-    }
-    camera->horizontalApertureOffset =
-        tenths(GetHorizontalApertureOffset(), GfCamera::APERTURE_UNIT);
-    camera->verticalApertureOffset = tenths(GetVerticalApertureOffset(), GfCamera::APERTURE_UNIT);
-    if (GetFocalLength() > 0.0f)
-        camera->focalLength = tenths(GetFocalLength(), GfCamera::FOCAL_LENGTH_UNIT);
-    camera->fStop = GetFStop();
-    camera->focusDistance = GetFocusDistance();
+    // A camera that has no lens (a host gave matrices) keeps the schema's.
+#define PATINA_CAMERA_INPUT(field, key, Getter, unit, positive, fallback, description)             \
+    if (!(positive) || Getter() > 0.0f) camera->field = authored(Getter(), unit);
+#include "hdDelegate/scene/cameraTypes.inc"
     if (!GetClippingRange().IsEmpty()) {
         camera->clipNear = GetClippingRange().GetMin();
         camera->clipFar = GetClippingRange().GetMax();

@@ -7,34 +7,7 @@
 
 #include <pxr/imaging/hd/renderIndex.h>
 
-#include <cmath>
-
 namespace patina {
-
-namespace {
-
-MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
-                            const SdfPath& id) {
-    MatrixSamples samples;
-    sampleTransform(delegate, param, id, samples);
-    std::vector<float> times;
-    std::vector<dmat4> values;
-    for (size_t i = 0; i < samples.count; ++i) {
-        const dmat4 m = toMat4(samples.values[i]);
-        for (int c = 0; c < 4; ++c)
-            for (int r = 0; r < 4; ++r)
-                if (!std::isfinite(float(m[c][r]))) {
-                    param.warn(id, "transform", "is not finite; none is used");
-                    return MotionTransform(mat4(1.0f));
-                }
-        times.push_back(samples.times[i]);
-        values.push_back(m);
-    }
-    if (values.empty()) return MotionTransform(mat4(1.0f));
-    return inOrder(std::move(times), std::move(values), param, id, "transform");
-}
-
-} // namespace
 
 std::vector<std::string> categoriesOf(HdSceneDelegate& delegate, const SdfPath& id) {
     std::vector<std::string> categories;

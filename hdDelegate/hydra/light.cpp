@@ -4,7 +4,6 @@
 #include "hdDelegate/hydra/instances.h"
 #include "hdDelegate/hydra/lightParams.h"
 #include "hdDelegate/hydra/sampling.h"
-#include "hdDelegate/hydra/values.h"
 
 #include <pxr/imaging/hd/instancer.h>
 #include <pxr/imaging/hd/renderIndex.h>
@@ -12,40 +11,14 @@
 #include <pxr/imaging/hd/sceneDelegate.h>
 #include <pxr/imaging/hd/tokens.h>
 
-#include <cmath>
-
 namespace patina {
 
 namespace {
 
-bool isFinite(const mat4& m) {
-    for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 4; ++r)
-            if (!std::isfinite(m[c][r])) return false;
-    return true;
-}
-
-MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
-                            const SdfPath& id) {
-    // A dome that does not stand on +Y is turned first.
-    GfMatrix4d turn(1.0);
-    const VtValue offset = delegate.GetLightParamValue(id, TfToken("domeOffset"));
-    if (offset.IsHolding<GfMatrix4d>()) turn = offset.UncheckedGet<GfMatrix4d>();
-    MatrixSamples samples;
-    sampleTransform(delegate, param, id, samples);
-    std::vector<float> times;
-    std::vector<dmat4> values;
-    for (size_t i = 0; i < samples.count; ++i) {
-        const dmat4 m = toMat4(turn * samples.values[i]);
-        if (!isFinite(m)) {
-            param.warn(id, "transform", "is not finite; none is used");
-            return MotionTransform(mat4(1.0f));
-        }
-        times.push_back(samples.times[i]);
-        values.push_back(m);
-    }
-    if (values.empty()) return MotionTransform(toMat4(turn));
-    return inOrder(std::move(times), std::move(values), param, id, "transform");
+/// A dome that does not stand on +Y is turned first.
+MotionTransform placeOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id) {
+    const VtValue turn = delegate.GetLightParamValue(id, TfToken("domeOffset"));
+    return transformOf(delegate, param, id, turn.GetWithDefault(GfMatrix4d(1.0)));
 }
 
 } // namespace
@@ -63,7 +36,7 @@ void HdPatinaLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     _delegate = delegate;
     if (all || (*dirtyBits & DirtyTransform)) {
         _shutter = param.shutter();
-        light->transform = transformOf(*delegate, param, id);
+        light->transform = placeOf(*delegate, param, id);
     }
     // Hosts mark params dirty for visibility, collections and resources alike.
     if (all || (*dirtyBits & ~HdDirtyBits(DirtyTransform)))
@@ -95,7 +68,7 @@ void HdPatinaLight::updateTransform(HdPatinaRenderParam& param) {
     if (!_light || _shutter == param.shutter()) return;
     _shutter = param.shutter();
     auto light = std::make_shared<Light>(*_light);
-    light->transform = transformOf(*_delegate, param, GetId());
+    light->transform = placeOf(*_delegate, param, GetId());
     _light = light;
     if (_light->visible) param.set(_light);
 }

@@ -74,33 +74,20 @@ void readInput(const Params& p, const char* name, float& field) {
 void readInput(const Params& p, const char* name, bool& field) {
     p.flag(name, field);
 }
-
-void readShape(const Params& p, Light& light) {
-#define PATINA_LIGHT_INPUT(type, field, key, input, fallback, description)                         \
-    readInput(p, input, light.field);
-#include "hdDelegate/scene/lightTypes.inc"
+void readInput(const Params& p, const char* name, vec3& field) {
+    p.color(name, field);
 }
 
-void readShaping(const Params& p, Light& light) {
+void readInputs(const Params& p, Light& light) {
     // An applied ShapingAPI gives its cone angle, its fallback included.
-    if (!p.has("shaping:cone:angle") && !p.has("shaping:focus") && !p.has("shaping:ies:file"))
-        return;
-    light.shapingConeAuthored = true;
-    p.number("shaping:focus", light.shapingFocus);
-    p.color("shaping:focusTint", light.shapingFocusTint);
-    p.number("shaping:cone:angle", light.shapingConeAngle);
-    p.number("shaping:cone:softness", light.shapingConeSoftness);
-    p.text("shaping:ies:file", light.iesFile);
-    p.number("shaping:ies:angleScale", light.iesAngleScale);
-    p.flag("shaping:ies:normalize", light.iesNormalize);
-}
-
-void readShadow(const Params& p, Light& light) {
-    p.flag("shadow:enable", light.shadowEnable);
-    p.color("shadow:color", light.shadowColor);
-    p.number("shadow:distance", light.shadowDistance);
-    p.number("shadow:falloff", light.shadowFalloff);
-    p.number("shadow:falloffGamma", light.shadowFalloffGamma);
+    light.shapingConeAuthored =
+        p.has("shaping:cone:angle") || p.has("shaping:focus") || p.has("shaping:ies:file");
+    enum class Group { Light, Shape, Shaping, Shadow };
+#define PATINA_LIGHT_INPUT(group, type, field, key, input, fallback, description)                  \
+    if (Group::group != Group::Shaping || light.shapingConeAuthored)                               \
+        readInput(p, input, light.field);
+#include "hdDelegate/scene/lightTypes.inc"
+    if (light.shapingConeAuthored) p.text("shaping:ies:file", light.iesFile);
 }
 
 void convertColor(const HdMaterialNode& node, const char* input, HdPatinaRenderParam& param,
@@ -114,6 +101,9 @@ void convertColor(const HdMaterialNode& node, const char* input, HdPatinaRenderP
     else if (!ColorSpaces::isData(space))
         color = glm::max(color, vec3(0.0f)); // of what Rec.709 does not reach
 }
+
+template <class T>
+void convertColor(const HdMaterialNode&, const char*, HdPatinaRenderParam&, const SdfPath&, T&) {}
 
 /// Lights are nodes of networks, which tell the colour spaces of their inputs. Other nodes are not
 /// evaluated.
@@ -131,9 +121,9 @@ void readNetwork(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const Sd
     const auto space = node.parameters.find(TfToken("colorSpace:texture:file"));
     if (space != node.parameters.end() && !light.textureFile.empty())
         light.textureColorSpace = textOf(space->second);
-    convertColor(node, "color", param, id, light.color);
-    convertColor(node, "shadow:color", param, id, light.shadowColor);
-    convertColor(node, "shaping:focusTint", param, id, light.shapingFocusTint);
+#define PATINA_LIGHT_INPUT(group, type, field, key, input, fallback, description)                  \
+    convertColor(node, input, param, id, light.field);
+#include "hdDelegate/scene/lightTypes.inc"
     if (node.identifier.GetString().compare(0, 3, "ND_") == 0)
         param.warn(id, "light:shaderId",
                    "is " + node.identifier.GetString() +
@@ -169,17 +159,7 @@ void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
     light.type = typeOf(type);
     light.visible = delegate.GetVisible(id);
 
-    p.color("color", light.color);
-    p.number("intensity", light.intensity);
-    p.number("exposure", light.exposure);
-    p.number("diffuse", light.diffuse);
-    p.number("specular", light.specular);
-    p.flag("normalize", light.normalize);
-    p.flag("enableColorTemperature", light.enableColorTemperature);
-    p.number("colorTemperature", light.colorTemperature);
-    readShape(p, light);
-    readShaping(p, light);
-    readShadow(p, light);
+    readInputs(p, light);
     if (light.type == LightType::Dome || light.type == LightType::Rect) {
         p.text("texture:file", light.textureFile);
         p.text("texture:format", light.textureFormat);

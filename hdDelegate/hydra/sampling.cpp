@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/sampling.h"
 
+#include <cmath>
+
 namespace patina {
 
 void warnOfSamples(HdPatinaRenderParam& param, const SdfPath& id, const std::string& input,
@@ -8,6 +10,27 @@ void warnOfSamples(HdPatinaRenderParam& param, const SdfPath& id, const std::str
     param.warn(id, input,
                "has " + std::to_string(count) + " time samples in the shutter; " +
                    std::to_string(maxTimeSamples) + " of them are used");
+}
+
+MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                            const SdfPath& id, const GfMatrix4d& before) {
+    MatrixSamples samples;
+    sampleTransform(delegate, param, id, samples);
+    std::vector<float> times;
+    std::vector<dmat4> values;
+    for (size_t i = 0; i < samples.count; ++i) {
+        const dmat4 m = toMat4(before * samples.values[i]);
+        for (int c = 0; c < 4; ++c)
+            for (int r = 0; r < 4; ++r)
+                if (!std::isfinite(float(m[c][r]))) {
+                    param.warn(id, "transform", "is not finite; none is used");
+                    return mat4(1.0f);
+                }
+        times.push_back(samples.times[i]);
+        values.push_back(m);
+    }
+    if (values.empty()) return toMat4(before);
+    return inOrder(std::move(times), std::move(values), param, id, "transform");
 }
 
 } // namespace patina

@@ -102,4 +102,9 @@ template <class T> Sampled<T> inOrder(std::vector<float> times, std::vector<T> v
     return result;
 }
 
+/// The transform of a prim over the shutter; none, after a warning, where it is not finite.
+/// @param before  stands before it
+MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                            const SdfPath& id, const GfMatrix4d& before = GfMatrix4d(1.0));
+
 } // namespace patina

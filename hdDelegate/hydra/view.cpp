@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/view.h"
 
+#include "hdDelegate/hydra/values.h"
 #include "hdDelegate/scene/primCompare.h"
 
 #include <pxr/base/gf/matrix4d.h>
@@ -16,14 +17,6 @@ namespace patina {
 namespace {
 
 constexpr double apertureUnit = 0.1; // cameras give tenths of a scene unit
-
-dmat4 toMat4(const GfMatrix4d& m) {
-    dmat4 result;
-    for (int row = 0; row < 4; ++row) // Gf's rows are GLM's columns
-        for (int column = 0; column < 4; ++column)
-            result[row][column] = m[row][column];
-    return result;
-}
 
 /// A camera that has the given matrices: for hosts that give no camera prim.
 Camera cameraOf(const GfMatrix4d& worldToView, const GfMatrix4d& projection) {

@@ -11,14 +11,9 @@ struct Camera {
     std::string path;
     MotionTransform transform{mat4(1.0f)};
     bool orthographic = false;
-    // apertures, offsets and focal length in tenths of a scene unit, as UsdGeomCamera says
-    float horizontalAperture = 20.955f;
-    float verticalAperture = 15.2908f;
-    float horizontalApertureOffset = 0.0f;
-    float verticalApertureOffset = 0.0f;
-    float focalLength = 50.0f;
-    float fStop = 0.0f;         ///< 0 means everything is sharp
-    float focusDistance = 0.0f; ///< scene units
+#define PATINA_CAMERA_INPUT(field, key, Getter, unit, positive, fallback, description)             \
+    float field = fallback;
+#include "hdDelegate/scene/cameraTypes.inc"
     float clipNear = 1.0f, clipFar = 1e6f;
     std::vector<vec4> clippingPlanes;             ///< camera space; points with dot < 0 are clipped
     double shutterOpen = 0.0, shutterClose = 0.0; ///< time codes relative to the frame

@@ -40,18 +40,9 @@ struct Light {
     bool visible = true;       ///< off: it emits nothing
     bool cameraVisible = true; ///< dome or area light seen directly by the camera
 
-    // LightAPI
-    vec3 color{1.0f};
-    float intensity = 1.0f;
-    float exposure = 0.0f;
-    float diffuse = 1.0f;
-    float specular = 1.0f;
-    bool normalize = false;
-    bool enableColorTemperature = false;
-    float colorTemperature = 6500.0f; ///< kelvin
-
-    // what shapes it; explained in lightTypes.inc
-#define PATINA_LIGHT_INPUT(type, field, key, input, fallback, description) type field = fallback;
+    // inputs of the schemas; explained in lightTypes.inc
+#define PATINA_LIGHT_INPUT(group, type, field, key, input, fallback, description)                  \
+    type field = fallback;
 #include "hdDelegate/scene/lightTypes.inc"
 
     // textures
@@ -61,23 +52,9 @@ struct Light {
     std::string textureColorSpace; ///< empty or "auto": by file type
     float guideRadius = 0.0f;
 
-    // ShapingAPI
-    float shapingFocus = 0.0f;
-    vec3 shapingFocusTint{0.0f};
-    float shapingConeAngle = 180.0f;
-    float shapingConeSoftness = 0.0f;
     bool shapingConeAuthored =
         false; ///< the ShapingAPI is applied: an unauthored one shapes nothing
     std::string iesFile;
-    float iesAngleScale = 0.0f;
-    bool iesNormalize = false;
-
-    // ShadowAPI
-    bool shadowEnable = true;
-    vec3 shadowColor{0.0f};
-    float shadowDistance = -1.0f;
-    float shadowFalloff = -1.0f;
-    float shadowFalloffGamma = 1.0f;
 
     // linking: empty lights (or shadows) everything; else a name found in Geometry::categories
     std::string lightLink;

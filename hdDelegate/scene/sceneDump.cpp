@@ -276,33 +276,14 @@ void writeLight(Writer& w, const Light& l) {
     w.transform("transform", l.transform);
     w.field("visible", l.visible, d.visible);
     w.field("cameraVisible", l.cameraVisible, d.cameraVisible);
-    writeVector(w, "color", l.color, d.color);
-    w.field("intensity", l.intensity, d.intensity);
-    w.field("exposure", l.exposure, d.exposure);
-    w.field("diffuse", l.diffuse, d.diffuse);
-    w.field("specular", l.specular, d.specular);
-    w.field("normalize", l.normalize, d.normalize);
-    w.field("enableColorTemperature", l.enableColorTemperature, d.enableColorTemperature);
-    w.field("colorTemperature", l.colorTemperature, d.colorTemperature);
-#define PATINA_LIGHT_INPUT(type, field_, key, input, fallback, description)                        \
-    w.field(#field_, l.field_, d.field_);
+#define PATINA_LIGHT_INPUT(group, type, field_, key, input, fallback, description)                 \
+    writeInput(w, #field_, l.field_, d.field_);
 #include "hdDelegate/scene/lightTypes.inc"
     w.field("textureFile", l.textureFile, d.textureFile);
     w.field("textureFormat", l.textureFormat, d.textureFormat);
     w.field("textureColorSpace", l.textureColorSpace, d.textureColorSpace);
-    w.field("shapingFocus", l.shapingFocus, d.shapingFocus);
-    writeVector(w, "shapingFocusTint", l.shapingFocusTint, d.shapingFocusTint);
-    w.field("shapingConeAngle", l.shapingConeAngle, d.shapingConeAngle);
-    w.field("shapingConeSoftness", l.shapingConeSoftness, d.shapingConeSoftness);
     w.field("shapingConeAuthored", l.shapingConeAuthored, d.shapingConeAuthored);
     w.field("iesFile", l.iesFile, d.iesFile);
-    w.field("iesAngleScale", l.iesAngleScale, d.iesAngleScale);
-    w.field("iesNormalize", l.iesNormalize, d.iesNormalize);
-    w.field("shadowEnable", l.shadowEnable, d.shadowEnable);
-    writeVector(w, "shadowColor", l.shadowColor, d.shadowColor);
-    w.field("shadowDistance", l.shadowDistance, d.shadowDistance);
-    w.field("shadowFalloff", l.shadowFalloff, d.shadowFalloff);
-    w.field("shadowFalloffGamma", l.shadowFalloffGamma, d.shadowFalloffGamma);
     w.field("lightLink", l.lightLink, d.lightLink);
     w.field("shadowLink", l.shadowLink, d.shadowLink);
     for (const LightFilter& filter : l.filters)
@@ -323,13 +304,9 @@ void writeCamera(Writer& w, const Camera& c) {
     w.prim("Camera", c.path);
     w.transform("transform", c.transform);
     w.field("orthographic", c.orthographic, d.orthographic);
-    w.field("horizontalAperture", c.horizontalAperture, d.horizontalAperture);
-    w.field("verticalAperture", c.verticalAperture, d.verticalAperture);
-    w.field("horizontalApertureOffset", c.horizontalApertureOffset, d.horizontalApertureOffset);
-    w.field("verticalApertureOffset", c.verticalApertureOffset, d.verticalApertureOffset);
-    w.field("focalLength", c.focalLength, d.focalLength);
-    w.field("fStop", c.fStop, d.fStop);
-    w.field("focusDistance", c.focusDistance, d.focusDistance);
+#define PATINA_CAMERA_INPUT(field_, key, Getter, unit, positive, fallback, description)            \
+    w.field(#field_, c.field_, d.field_);
+#include "hdDelegate/scene/cameraTypes.inc"
     w.field("clipNear", c.clipNear, d.clipNear);
     w.field("clipFar", c.clipFar, d.clipFar);
     if (!c.clippingPlanes.empty())

@@ -24,33 +24,15 @@ void setLight(PythonEdit& edit, const std::string& path, const py::kwargs& value
         .read("transform", light->transform)
         .read("visible", light->visible)
         .read("camera_visible", light->cameraVisible)
-        .read("color", light->color)
-        .read("intensity", light->intensity)
-        .read("exposure", light->exposure)
-        .read("diffuse", light->diffuse)
-        .read("specular", light->specular)
-        .read("normalize", light->normalize)
-        .read("enable_color_temperature", light->enableColorTemperature)
-        .read("color_temperature", light->colorTemperature)
-#define PATINA_LIGHT_INPUT(type, field, key, input, fallback, description) .read(key, light->field)
+#define PATINA_LIGHT_INPUT(group, type, field, key, input, fallback, description)                  \
+    .read(key, light->field)
 #include "hdDelegate/scene/lightTypes.inc"
         .read("texture_file", light->textureFile)
         .read("texture_format", light->textureFormat)
         .read("texture_color_space", light->textureColorSpace)
         .read("guide_radius", light->guideRadius)
-        .read("shaping_focus", light->shapingFocus)
-        .read("shaping_focus_tint", light->shapingFocusTint)
-        .read("shaping_cone_angle", light->shapingConeAngle)
-        .read("shaping_cone_softness", light->shapingConeSoftness)
         .read("shaping_cone_authored", light->shapingConeAuthored)
         .read("ies_file", light->iesFile)
-        .read("ies_angle_scale", light->iesAngleScale)
-        .read("ies_normalize", light->iesNormalize)
-        .read("shadow_enable", light->shadowEnable)
-        .read("shadow_color", light->shadowColor)
-        .read("shadow_distance", light->shadowDistance)
-        .read("shadow_falloff", light->shadowFalloff)
-        .read("shadow_falloff_gamma", light->shadowFalloffGamma)
         .read("light_link", light->lightLink)
         .read("shadow_link", light->shadowLink)
         .read("filters", light->filters)
@@ -69,13 +51,9 @@ void setCamera(PythonEdit& edit, const std::string& path, const py::kwargs& valu
     Fields("set_camera", path, values)
         .read("transform", camera->transform)
         .read("orthographic", camera->orthographic)
-        .read("horizontal_aperture", camera->horizontalAperture)
-        .read("vertical_aperture", camera->verticalAperture)
-        .read("horizontal_aperture_offset", camera->horizontalApertureOffset)
-        .read("vertical_aperture_offset", camera->verticalApertureOffset)
-        .read("focal_length", camera->focalLength)
-        .read("f_stop", camera->fStop)
-        .read("focus_distance", camera->focusDistance)
+#define PATINA_CAMERA_INPUT(field, key, Getter, unit, positive, fallback, description)             \
+    .read(key, camera->field)
+#include "hdDelegate/scene/cameraTypes.inc"
         .read("clip_near", camera->clipNear)
         .read("clip_far", camera->clipFar)
         .read("clipping_planes", camera->clippingPlanes)
@@ -107,13 +85,9 @@ py::dict cameraDict(const Scene& scene, const std::string& path) {
     py::dict dict;
     dict["path"] = camera.path;
     dict["orthographic"] = camera.orthographic;
-    dict["horizontal_aperture"] = camera.horizontalAperture;
-    dict["vertical_aperture"] = camera.verticalAperture;
-    dict["horizontal_aperture_offset"] = camera.horizontalApertureOffset;
-    dict["vertical_aperture_offset"] = camera.verticalApertureOffset;
-    dict["focal_length"] = camera.focalLength;
-    dict["f_stop"] = camera.fStop;
-    dict["focus_distance"] = camera.focusDistance;
+#define PATINA_CAMERA_INPUT(field, key, Getter, unit, positive, fallback, description)             \
+    dict[key] = camera.field;
+#include "hdDelegate/scene/cameraTypes.inc"
     dict["shutter_open"] = camera.shutterOpen;
     dict["shutter_close"] = camera.shutterClose;
     dict["exposure_scale"] = camera.exposureScale;
@@ -164,12 +138,23 @@ void bindScene(py::module_& m) {
         "light_inputs",
         [] {
             py::list inputs;
-#define PATINA_LIGHT_INPUT(type, field, key, input, fallback, description)                         \
-    inputs.append(py::make_tuple(input, key, #type));
+#define PATINA_LIGHT_INPUT(group, type, field, key, input, fallback, description)                  \
+    inputs.append(py::make_tuple(#group, input, key, #type));
 #include "hdDelegate/scene/lightTypes.inc"
             return inputs;
         },
-        "Inputs that shape lights: (name in the schema, keyword of set_light(), float or bool).");
+        "Inputs of lights: (Light, Shape, Shaping or Shadow, name in the schema, keyword of "
+        "set_light(), float, bool or vec3).");
+    m.def(
+        "camera_inputs",
+        [] {
+            py::list inputs;
+#define PATINA_CAMERA_INPUT(field, key, Getter, unit, positive, fallback, description)             \
+    inputs.append(py::make_tuple(#field, key, fallback));
+#include "hdDelegate/scene/cameraTypes.inc"
+            return inputs;
+        },
+        "Numbers of UsdGeomCamera: (attribute, keyword of set_camera(), fallback).");
     m.def(
         "light_filter_types", [] { return wordsBySchemas(lightFilterRows); },
         "Types of light filters, separated by blanks where several are read alike -> word.");

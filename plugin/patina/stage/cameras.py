@@ -15,12 +15,6 @@ from .state import Found, State
 from .transforms import matrix_at, transform_of
 
 FRAMING = "/patinaFramingCamera"
-_FIELDS = {  # name on the stage -> (name in the scene, fallback)
-    "horizontalAperture": ("horizontal_aperture", 20.955), "verticalAperture": ("vertical_aperture", 15.2908),
-    "horizontalApertureOffset": ("horizontal_aperture_offset", 0.0),
-    "verticalApertureOffset": ("vertical_aperture_offset", 0.0), "focalLength": ("focal_length", 50.0),
-    "fStop": ("f_stop", 0.0), "focusDistance": ("focus_distance", 0.0),
-}
 
 
 def choose(context, walked):
@@ -88,6 +82,14 @@ def shutter_of(context, found):
 
 
 @functools.lru_cache(maxsize=None)
+def _inputs():
+    """:returns: list of (attribute, key of the scene, fallback) of hdDelegate/scene/cameraTypes.inc"""
+    import _patina
+
+    return _patina.camera_inputs()
+
+
+@functools.lru_cache(maxsize=None)
 def _input_names():
     """:returns: attribute -> name of hdDelegate/scene/cameraInputs.def; a name of its own is stronger than a primvar"""
     import _patina
@@ -125,7 +127,7 @@ class Placed:
 def emit(context, found):
     """:returns: a Placed"""
     prim, time = found.prim, context.time
-    fields = {key: number(context, prim, name, fallback) for name, (key, fallback) in _FIELDS.items()}
+    fields = {key: number(context, prim, name, fallback) for name, key, fallback in _inputs()}
     try:
         near, far = map(float, get(prim, "clippingRange", time, (1.0, 1e6)))
     except (TypeError, ValueError):

@@ -149,7 +149,8 @@ def vector(context, prim, name, fallback, value=None):
     except (TypeError, ValueError):
         numbers = np.zeros(0)
     if numbers.shape != (3,) or not np.isfinite(numbers).all():
-        context.warn(prim.GetPath(), name, f"is not three finite numbers; {fallback} is used")
+        used = "the default" if fallback is None else fallback
+        context.warn(prim.GetPath(), name, f"is not three finite numbers; {used} is used")
         return fallback
     return tuple(map(float, numbers))
 

@@ -9,22 +9,13 @@ from .context import number, shown, vector
 from .primvars import text
 from .transforms import transform_of
 
-_FLOATS = ("intensity", "exposure", "diffuse", "specular", "colorTemperature")
-_BOOLS = ("normalize", "enableColorTemperature")
-_SHAPING = {"shaping:focus": "shaping_focus", "shaping:cone:angle": "shaping_cone_angle",
-            "shaping:cone:softness": "shaping_cone_softness", "shaping:ies:angleScale": "ies_angle_scale"}
-_SHADOW = {"shadow:distance": "shadow_distance", "shadow:falloff": "shadow_falloff",
-           "shadow:falloffGamma": "shadow_falloff_gamma"}
-
 
 def emit(context, found, linking):
     prim, group = found.prim, found.state.group
     is_mesh = prim.IsA(UsdGeom.Mesh)
     type_ = "mesh" if is_mesh else kinds.lights().get(kinds.schema_among(prim, kinds.lights()))
     fields = {"type": type_, "group": group.name}
-    _read(context, prim, fields)
-    _read_shaping(context, prim, fields)
-    _read_shadow(context, prim, fields)
+    _read_inputs(context, prim, fields)
     fields["light_link"], fields["shadow_link"] = linking.links_of(prim)
     fields["light_group"] = _light_group(context, found)
     fields["filters"] = lightFilters.of(context, prim, group)
@@ -53,7 +44,8 @@ def emit(context, found, linking):
 
 
 @functools.lru_cache(maxsize=None)
-def _shape_inputs():
+def _inputs():
+    """:returns: list of (group, input, key of the scene, type) of hdDelegate/scene/lightTypes.inc"""
     import _patina
 
     return _patina.light_inputs()
@@ -113,26 +105,21 @@ def _attribute_of(context, prim, name, authored=False):
     return None
 
 
-def _set_color(context, prim, name, key, fallback, fields):
-    if not context.light_fallbacks.is_authored(prim, name):
-        value = _input(context, prim, name)
-        if value is not None:
-            fields[key] = vector(context, prim, "inputs:" + name, fallback, value)
-        return
-    attribute = _attribute_of(context, prim, name)
-    if attribute is None:
-        return
-    color = vector(context, prim, "inputs:" + name, fallback, attribute.Get(context.time))
-    space = context.color_spaces.space_of(attribute) if attribute.HasAuthoredValue() else ""
-    if space:
-        import _patina
+def _color(context, prim, name):
+    """:returns: three numbers for the scene, None where its own fallback, the schema's, is to stay"""
+    attribute = _attribute_of(context, prim, name) if context.light_fallbacks.is_authored(prim, name) else None
+    value = attribute.Get(context.time) if attribute else _input(context, prim, name)
+    color = vector(context, prim, "inputs:" + name, None, value)
+    space = context.color_spaces.space_of(attribute) if color and attribute and attribute.HasAuthoredValue() else ""
+    if not space:
+        return color
+    import _patina
 
-        converted = _patina.color_to_rendering([float(x) for x in color], space)
-        if converted is None:
-            context.warn(prim.GetPath(), "inputs:" + name, f"unknown colour space '{space}'; the value is used as it is")
-        else:
-            color = tuple(max(x, 0.0) for x in converted)  # of what Rec.709 does not reach
-    fields[key] = color
+    converted = _patina.color_to_rendering(list(color), space)
+    if converted is None:
+        context.warn(prim.GetPath(), "inputs:" + name, f"unknown colour space '{space}'; the value is used as it is")
+        return color
+    return tuple(max(x, 0.0) for x in converted)  # of what Rec.709 does not reach
 
 
 def _source_of(attribute):
@@ -152,29 +139,26 @@ def _plain(context, prim, name):
     return attribute.Get(context.time) if attribute else None
 
 
-def _set_number(context, prim, name, key, value, fields):
-    """Values that are no numbers leave the scene's own fallback, which is the schema's."""
-    checked = number(context, prim, "inputs:" + name, None, value)
-    if checked is not None:
-        fields[key] = checked
+def _is_shaped(prim):
+    """:returns: whether the ShapingAPI is applied, or authored on stages older than that rule"""
+    names = [name for group, name, _, _ in _inputs() if group == "Shaping"]
+    return prim.HasAPI(UsdLux.ShapingAPI) or any(prim.HasAttribute("inputs:" + n) or prim.HasAttribute(n) for n in names)
 
 
-def _read(context, prim, fields):
-    for name in _FLOATS:
-        value = _input(context, prim, name)
+def _read_inputs(context, prim, fields):
+    """Values that are none leave the scene's own fallback, which is the schema's."""
+    shaped = fields["shaping_cone_authored"] = _is_shaped(prim)
+    for group, name, key, type_ in _inputs():
+        if group == "Shaping" and not shaped:
+            continue
+        value = _color(context, prim, name) if type_ == "vec3" else _input(context, prim, name)
+        if value is not None and type_ == "float":
+            value = number(context, prim, "inputs:" + name, None, value)
         if value is not None:
-            _set_number(context, prim, name, _snake(name), value, fields)
-    for name, key, type_ in _shape_inputs():
-        value = _plain(context, prim, name) if type_ == "bool" else _input(context, prim, name)
-        if value is not None and type_ == "bool":
-            fields[key] = bool(value)
-        elif value is not None:
-            _set_number(context, prim, name, key, value, fields)
-    for name in _BOOLS:
-        value = _input(context, prim, name)
-        if value is not None:
-            fields[_snake(name)] = bool(value)
-    _set_color(context, prim, "color", "color", (1.0, 1.0, 1.0), fields)
+            fields[key] = bool(value) if type_ == "bool" else value
+    attribute = prim.GetAttribute("inputs:shaping:ies:file")
+    if shaped and attribute and attribute.HasAuthoredValue():
+        fields["ies_file"] = assets.resolve(context, attribute)
 
 
 def _read_texture(context, prim, fields):
@@ -184,34 +168,6 @@ def _read_texture(context, prim, fields):
     if attribute and attribute.HasAuthoredValue():
         fields["texture_file"] = assets.resolve(context, attribute)
         fields["texture_color_space"] = context.color_spaces.space_of(attribute)
-
-
-def _read_shaping(context, prim, fields):
-    """Values count where the ShapingAPI is applied, or authored on stages older than that rule."""
-    if not prim.HasAPI(UsdLux.ShapingAPI) and not any(
-            prim.HasAttribute("inputs:" + n) or prim.HasAttribute(n) for n in _SHAPING):
-        return
-    for name, key in _SHAPING.items():
-        value = _input(context, prim, name)
-        if value is not None:
-            _set_number(context, prim, name, key, value, fields)
-    _set_color(context, prim, "shaping:focusTint", "shaping_focus_tint", (0.0, 0.0, 0.0), fields)
-    fields["ies_normalize"] = bool(_input(context, prim, "shaping:ies:normalize") or False)
-    attribute = prim.GetAttribute("inputs:shaping:ies:file")
-    if attribute and attribute.HasAuthoredValue():
-        fields["ies_file"] = assets.resolve(context, attribute)
-    fields["shaping_cone_authored"] = True
-
-
-def _read_shadow(context, prim, fields):
-    enable = _input(context, prim, "shadow:enable")
-    if enable is not None:
-        fields["shadow_enable"] = bool(enable)
-    _set_color(context, prim, "shadow:color", "shadow_color", (0.0, 0.0, 0.0), fields)
-    for name, key in _SHADOW.items():
-        value = _input(context, prim, name)
-        if value is not None:
-            _set_number(context, prim, name, key, value, fields)
 
 
 def _dome_pole(context, prim):
@@ -235,8 +191,3 @@ def _geometry_of(context, prim, group):
         context.warn(prim.GetPath(), "geometry", "names no mesh; the light is left out")
         return ""
     return group.path(target)
-
-
-@functools.lru_cache(maxsize=None)
-def _snake(name):
-    return "".join("_" + c.lower() if c.isupper() else c for c in name)

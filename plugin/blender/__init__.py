@@ -8,7 +8,7 @@ import bpy
 HERE = os.path.dirname(os.path.abspath(__file__))
 DELEGATE = "HdPatinaRendererPlugin"
 # Blender's pass: channels, their names, kind, Hydra's AOV
-PASSES = {"Combined": (4, "RGBA", "COLOR", "color"), "Depth": (1, "Z", "VALUE", "depth"),
+PASSES = {"Combined": (4, "RGBA", "COLOR", "color"), "Depth": (1, "Z", "VALUE", "cameraDepth"),
           "Normal": (3, "XYZ", "VECTOR", "normal"), "Position": (3, "XYZ", "VECTOR", "position"),
           "Albedo": (3, "RGB", "COLOR", "albedo")}
 _problem = ""  # why the plugin cannot be used here

@@ -3,14 +3,17 @@
 
   python blenderScene.py EXTENSION.zip FOLDER [ENGINE...] [SETTING=NUMBER...]
 
-FOLDER gets scene.usda and ENGINE.exr of each engine (PATINA, CYCLES). Settings are Patina's."""
+FOLDER gets scene.usda and ENGINE.exr of each engine (PATINA, CYCLES), and passes.npz with the passes of Patina by the names of
+their channels. Settings are Patina's."""
 import math
 import os
 import sys
 
 import bpy
+import numpy as np
 
-SIZE = (160, 120)
+SIZE, FRAME = (160, 120), 2
+SMOKE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scenes", "textures", "puff.vdb")
 
 
 def material(name, **inputs):
@@ -68,6 +71,37 @@ def light(name, kind, energy, place, turn=(0, 0, 0), **values):
     return link(name, data, place, turn)
 
 
+def hair(look, place, radius):
+    """A tuft on the upper half of a ball."""
+    random = np.random.default_rng(3)
+    roots = random.normal(size=(150, 3))
+    roots /= np.linalg.norm(roots, axis=1, keepdims=True)
+    roots[:, 2] = np.abs(roots[:, 2])
+    lengths = np.linspace(1.0, 1.8, 5)[None, :, None]
+    points = roots[:, None, :] * lengths + np.array([0.25, 0.0, -0.35]) * (lengths - 1.0) ** 2
+    curves = bpy.data.hair_curves.new("tuft")
+    curves.add_curves([points.shape[1]] * len(points))
+    curves.points.foreach_set("position", (radius * points).astype(np.float32).ravel())
+    widths = curves.attributes.new("radius", "FLOAT", "POINT")
+    widths.data.foreach_set("value", np.full(points.shape[0] * points.shape[1], 0.008, np.float32))
+    curves.materials.append(look)
+    link("tuft", curves, place)
+
+
+def smoke(place):
+    volume = bpy.data.volumes.new("puff")
+    volume.filepath = os.path.abspath(SMOKE)
+    link("puff", volume, place).scale = (0.4, 0.4, 0.4)
+
+
+def moving(camera):
+    """It is somewhere else at each frame."""
+    for frame, x in ((1, -1.5), (FRAME, 0.0)):
+        camera.location[0] = x
+        camera.keyframe_insert("location", frame=frame)
+    bpy.context.scene.frame_end = FRAME
+
+
 def make(folder):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
@@ -96,6 +130,8 @@ def make(folder):
         point.handle_left_type = point.handle_right_type = "AUTO"
     curve.materials.append(looks[3])
     link("bow", curve)
+    hair(looks[4], (3.2, -1.4, 0.3), 0.3)
+    smoke((-2.6, -2.2, 0.6))
     light("sun", "SUN", 1.0, (0, 0, 5), (0.6, 0.2, 0))
     light("point", "POINT", 60, (-3, -3, 3), shadow_soft_size=0.3)
     light("spot", "SPOT", 200, (3, -3, 4), (0.75, 0, 0.75), spot_size=0.9, spot_blend=0.3, shadow_soft_size=0.2)
@@ -108,11 +144,32 @@ def make(folder):
     camera = bpy.data.cameras.new("camera")
     camera.lens = 35
     scene.camera = link("camera", camera, (0, -7.5, 4.2), (math.radians(62), 0, 0))
+    moving(scene.camera)
     return scene
 
 
 def install(file):
     bpy.ops.extensions.package_install_files(filepath=file, repo="user_default", enable_on_install=True)
+
+
+def write_passes(scene, folder):
+    """Renders again, with all passes that Patina has."""
+    getattr(bpy.utils, "expose_bundled_modules", lambda: None)()
+    import OpenImageIO
+
+    layer, settings = bpy.context.view_layer, scene.render.image_settings
+    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_position = scene.patina.albedoPass = True
+    if hasattr(settings, "media_type"):  # since Blender 5.0
+        settings.media_type = "MULTI_LAYER_IMAGE"
+    settings.file_format, settings.color_depth = "OPEN_EXR_MULTILAYER", "32"
+    scene.render.filepath = os.path.join(folder, "passes.exr")
+    bpy.ops.render.render(write_still=True)
+    file, found, part = OpenImageIO.ImageInput.open(scene.render.filepath), {}, 0
+    while file.seek_subimage(part, 0):
+        pixels = file.read_image(part, 0, 0, file.spec().nchannels, "float")
+        found.update({name.split(".", 1)[-1]: pixels[..., i] for i, name in enumerate(file.spec().channelnames)})
+        part += 1
+    np.savez(os.path.join(folder, "passes.npz"), **found)
 
 
 def main(extension, folder, words):
@@ -121,7 +178,9 @@ def main(extension, folder, words):
     scene = make(folder)
     install(extension)  # now, for factory settings forget it
     bpy.ops.wm.usd_export(filepath=os.path.join(folder, "scene.usda"), export_materials=True, generate_preview_surface=False,
-                          generate_materialx_network=True, export_textures_mode="KEEP", convert_world_material=True)
+                          generate_materialx_network=True, export_textures_mode="KEEP", convert_world_material=True,
+                          export_hair=True, export_volumes=True, export_animation=True)
+    scene.frame_set(FRAME)
     scene.hydra.export_method = "USD"  # the quick one has other strengths of lights than the exporter
     for name, value in settings.items():
         setattr(scene.patina, name, type(getattr(scene.patina, name))(value))
@@ -133,6 +192,9 @@ def main(extension, folder, words):
         scene.render.image_settings.color_depth = "32"
         scene.render.filepath = os.path.join(folder, engine + ".exr")
         bpy.ops.render.render(write_still=True)
+    if "PATINA" in engines:
+        scene.render.engine = "PATINA"
+        write_passes(scene, folder)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import hydraBuild
 import inProcess
 from patina.cli import blenderAddOn
 
-SIZE, DEPTH, SAMPLES = (160, 120), 1, 64
+SIZE, FRAME, DEPTH, SAMPLES = (160, 120), 2, 1, 64
 CAMERA = "/root/camera/camera"
 
 
@@ -27,23 +27,20 @@ def blender():
     return (python, found.stdout.split("\n")[-2]) if found.returncode == 0 else "the OpenUSD of this build is not that of a bpy"
 
 
-@pytest.fixture(scope="module")
-def rendered(tmp_path_factory):
-    """:returns: folder with what blenderScene.py leaves"""
+def run(made, *words):
+    """Runs blenderScene.py in a folder."""
     if isinstance(blender(), str):
         pytest.skip(blender())
     python, folder = blender()
-    made = tmp_path_factory.mktemp("blender")
     extension = made / "patina.zip"
     version = divmod(int(hydraBuild.folder("version")), 100)
     blenderAddOn.pack(folder, hydraBuild.folder("plugin"), version, str(extension))
     script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "blenderScene.py")
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
-    done = subprocess.run([python, script, str(extension), str(made), "PATINA", f"maxDepth={DEPTH}", f"samples={SAMPLES}"],
+    done = subprocess.run([python, script, str(extension), str(made), *words],
                           env={**environment, "BLENDER_USER_RESOURCES": str(made / "home")}, capture_output=True, text=True,
                           timeout=hydraBuild.TIMEOUT, check=False)
-    assert done.returncode == 0 and os.path.exists(made / "PATINA.exr"), done.stdout[-2000:] + done.stderr[-4000:]
-    return made
+    assert done.returncode == 0 and os.path.exists(made / "scene.usda"), done.stdout[-2000:] + done.stderr[-4000:]
 
 
 def tiles(image):
@@ -52,13 +49,13 @@ def tiles(image):
     return image[:height * 8, :width * 8].reshape(height, 8, width, 8, 3).mean(axis=(1, 3))
 
 
-def test_blender_shows_what_the_exported_stage_is(rendered):
+def test_blender_shows_what_the_exported_stage_is(tmp_path):
     import _patina
 
-    image = _patina.read_image(str(rendered / "PATINA.exr"))
-    own = np.array(image.pixels)[..., :3]
-    stage = inProcess.Stage(str(rendered / "scene.usda"), "--camera", CAMERA, "-w", str(SIZE[0]), "--samples", str(SAMPLES),
-                            "--maxDepth", str(DEPTH), image_height=SIZE[1])
+    run(tmp_path, "PATINA", f"maxDepth={DEPTH}", f"samples={SAMPLES}")
+    stage = inProcess.Stage(str(tmp_path / "scene.usda"), "--camera", CAMERA, "--frames", str(FRAME), "-w", str(SIZE[0]),
+                            "--samples", str(SAMPLES), "--maxDepth", str(DEPTH), image_height=SIZE[1])
+    own = np.array(_patina.read_image(str(tmp_path / "PATINA.exr")).pixels)[..., :3]
     seeds = [tiles(stage.image(seed)) for seed in (11, 12, 13, 14)]
     assert own.shape == (SIZE[1], SIZE[0], 3) and own.mean() > 0.1
     mean, error = np.mean(seeds, axis=0), np.std(seeds, axis=0, ddof=1)
@@ -67,12 +64,32 @@ def test_blender_shows_what_the_exported_stage_is(rendered):
     bound = 6.0 * np.sqrt(1.25) * np.sqrt(error**2 + np.median(error) ** 2) + 0.002 * mean
     off = np.abs(tiles(own) - mean) > bound
     assert off.mean() < 0.01, np.argwhere(off.any(axis=2))[:20].tolist()
+    compare_passes(np.load(tmp_path / "passes.npz"), stage)
 
 
-def test_the_extension_needs_its_blender(rendered):
+def compare_passes(passes, stage):
+    """Depth along the axis, world-space normals and places, albedo. Blender clears all to 0."""
+    film = stage.module.Film()
+    settings = {**stage.settings, "aovs": ["color", "depth", "normal", "position", "albedo"]}
+    stage.renderer.start(stage.scene, stage.camera, settings, film)
+    stage.renderer.wait()
+    nothing = np.array(film.resolve("depth")).reshape(SIZE[1], SIZE[0]) >= 1e10
+    assert 0.05 < nothing.mean() < 0.5
+    for name, channels, aov in (("Depth", "Z", "depth"), ("Normal", "XYZ", "normal"), ("Position", "XYZ", "position"),
+                                ("Albedo", "RGB", "albedo")):
+        own = np.stack([passes[f"{name}.{channel}"] for channel in channels], axis=-1)
+        truth = np.array(film.resolve(aov), np.float64).reshape(own.shape)
+        assert np.ptp(truth) > 0.1, aov
+        truth[nothing] = 0.0
+        off = np.abs(own - truth).max(axis=-1) > 0.02 * (1.0 + np.abs(truth).max(axis=-1))
+        assert off.mean() < 0.05, (aov, off.mean())  # edges, hair and smoke differ by their samples
+
+
+def test_the_extension_needs_its_blender(tmp_path):
     """Another Blender's says so, in place of a crash."""
+    run(tmp_path)
     python, _ = blender()
-    home = glob.glob(str(rendered / "home/extensions/*/patina/host.json"))
+    home = glob.glob(str(tmp_path / "home/extensions/*/patina/host.json"))
     assert len(home) == 1
     with open(home[0], "w", encoding="utf-8") as file:
         file.write('{"version": [23, 11]}')
@@ -80,6 +97,6 @@ def test_the_extension_needs_its_blender(rendered):
                "bpy.context.scene.render.engine = 'PATINA'\n"
                "try:\n    bpy.ops.render.render()\nexcept RuntimeError as error:\n    print(error)")
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
-    done = subprocess.run([python, "-c", program], env={**environment, "BLENDER_USER_RESOURCES": str(rendered / "home")},
+    done = subprocess.run([python, "-c", program], env={**environment, "BLENDER_USER_RESOURCES": str(tmp_path / "home")},
                           capture_output=True, text=True, timeout=hydraBuild.TIMEOUT, check=False)
     assert "the plugin is built for OpenUSD 23.11" in done.stdout + done.stderr, done.stdout + done.stderr

@@ -47,6 +47,18 @@ if(PATINA_PRECOMPILED)
     endif()
 endif()
 
+# patina_unity(targets...): their files are compiled six at once, since headers of OpenUSD take most of the time of
+# each. Names in anonymous namespaces have to differ within a room.
+function(patina_unity)
+    foreach(target ${ARGN})
+        if(PATINA_UNITY AND TARGET ${target})
+            set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+            # g++ takes the files for headers, in which it would be a mistake.
+            target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+        endif()
+    endforeach()
+endfunction()
+
 # patina_add_library(name SOURCES... [LIBS libraries...]): a static library of one room.
 function(patina_add_library name)
     cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})

@@ -15,7 +15,8 @@ namespace patina {
 
 namespace {
 
-std::vector<std::vector<std::string>> categoriesOf(HdSceneDelegate& delegate, const SdfPath& id) {
+std::vector<std::vector<std::string>> instanceCategories(HdSceneDelegate& delegate,
+                                                         const SdfPath& id) {
     std::vector<std::vector<std::string>> categories;
     for (const VtArray<TfToken>& names : delegate.GetInstanceCategories(id)) {
         categories.emplace_back();
@@ -43,7 +44,7 @@ void HdPatinaInstancer::Sync(HdSceneDelegate* delegate, HdRenderParam* renderPar
         HdChangeTracker::IsAnyPrimvarDirty(*dirtyBits, id))
         readInstances(*delegate, param, *data);
     data->visible = delegate->GetVisible(id);
-    data->categories = categoriesOf(*delegate, id);
+    data->categories = instanceCategories(*delegate, id);
     {
         std::lock_guard<std::mutex> lock(_mutex);
         _data = data;
@@ -70,7 +71,7 @@ void HdPatinaInstancer::updateCategories(HdPatinaRenderParam& param) {
     {
         std::lock_guard<std::mutex> lock(_mutex);
         if (!_data) return;
-        auto categories = categoriesOf(*GetDelegate(), GetId());
+        auto categories = instanceCategories(*GetDelegate(), GetId());
         if (categories == _data->categories) return;
         auto data = std::make_shared<HdPatinaInstanceData>(*_data);
         data->categories = std::move(categories);

@@ -42,7 +42,7 @@ std::optional<double> numberOf(const VtValue& value) {
     return parsed;
 }
 
-std::optional<std::string> textOf(const VtValue& value) {
+std::optional<std::string> givenText(const VtValue& value) {
     if (value.IsHolding<TfToken>()) return value.UncheckedGet<TfToken>().GetString();
     if (value.IsHolding<std::string>()) return value.UncheckedGet<std::string>();
     return std::nullopt;
@@ -162,13 +162,13 @@ TfToken settingKey(const TfToken& name) {
 
 VtValue settingValue(const TfToken& key, const VtValue& value) {
     if (isMethod(key.GetString())) {
-        const auto text = textOf(value);
+        const auto text = givenText(value);
         return text ? VtValue(*text) : VtValue();
     }
     const Row* row = rowOf(key);
     if (!row) return VtValue();
     if (row->initial.IsHolding<std::string>()) {
-        const auto text = textOf(value);
+        const auto text = givenText(value);
         return text ? VtValue(*text) : VtValue();
     }
     const auto number = numberOf(value);

@@ -43,13 +43,29 @@ def parsed(text):
     return stack[0]
 
 
+def test_names_of_attributes_are_encoded_as_houdini_does():
+    """Names that Solaris gives parameters of UsdLux's inputs."""
+    assert houdiniFiles.encoded("inputs:intensity") == "xn__inputsintensity_i0a"
+    assert houdiniFiles.encoded("inputs:color") == "xn__inputscolor_zta"
+
+
 @pytest.mark.parametrize("name", [name for name in TEXTS if name.endswith(".ds")])
 def test_dialogue_scripts_have_a_parameter_for_each_setting(name):
     (words,) = parsed(TEXTS[name])
     assert words[:2] == ["name", os.path.basename(name)[:-3]]
     parameters = [dict(zip(inner[::2], inner[1::2])) for key, inner in zip(words[::2], words[1::2]) if key == "parm"]
-    settings = {s["key"]: s for s in hostSettings.shown()}
-    assert {p["name"] for p in parameters} == set(settings) - {"viewportBackend", "albedoPass"}
+    shown = {s["key"]: s for s in hostSettings.shown() if s["key"] not in ("viewportBackend", "albedoPass")}
+    if name.endswith("_Global.ds"):
+        settings = {houdiniFiles.encoded("patina:" + key): s for key, s in shown.items()}
+        controls = [p for p in parameters if p["name"].endswith("_control")]
+        parameters = [p for p in parameters if p not in controls]
+        assert [p["name"] + "_control" for p in parameters] == [p["name"] for p in controls]
+        for p, control in zip(parameters, controls):
+            assert control["menujoin"][::2] == ["set", "setexisting", "block", "none"] and control["default"] == ["none"]
+            assert p["parmtag"] == ["usdvaluetype", settings[p["name"]]["type"]] and control["name"] in p["disablewhen"]
+    else:
+        settings = shown
+    assert {p["name"] for p in parameters} == set(settings)
     for p in parameters:
         assert p["type"] in ("toggle", "integer", "float", "string") and p["label"]
         assert len(p["default"]) == 1

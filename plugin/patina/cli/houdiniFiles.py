@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes what Houdini reads beside the plugin, from the table of settings: `./patina python -m patina.cli.houdiniFiles`.
 
-UsdRenderers.json names the renderer in Solaris' menus; soho/parameters/RENDERER_Viewport.ds holds the settings of the viewport
-(HDK, "USD Hydra: Customizing for Houdini"). Both are found on HOUDINI_PATH.
+UsdRenderers.json names the renderer in Solaris' menus; in soho/parameters RENDERER_Viewport.ds holds the settings of the viewport
+and RENDERER_Global.ds those of the node Render Settings (HDK, "USD Hydra: Customizing for Houdini"). All are found on
+HOUDINI_PATH.
 """
 import json
 import os
@@ -27,12 +28,34 @@ def _quoted(text):
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
-def _parameter(setting):
+def encoded(name):
+    """:param name: of an attribute, with one colon
+    :returns: it as names of parameters have it (hou.text.encode): Punycode (RFC 3492) in which all but letters, digits and _ are
+        the special characters, from code 1 on"""
+    plain, digits, text = name.replace(":", ""), "abcdefghijklmnopqrstuvwxyz0123456789", ""
+    number = (ord(":") - 1) * (len(plain) + 1) + name.index(":")
+    for least in (1, 1, 26, 26, 26):  # thresholds of the first character's digits
+        if number < least:
+            break
+        number, digit = divmod(number - least, 36 - least)
+        text += digits[digit + least]
+    return f"xn__{plain}_{text}{digits[number]}"
+
+
+def _control(setting, name):
+    """Whether the node writes the attribute; the next parameter has its value."""
+    return ["    parm {", f"        name    {_quoted(name + '_control')}", f"        label   {_quoted(setting['label'])}",
+            "        type    string", '        default { "none" }', "        menujoin {",
+            '            "set" "Set or Create"', '            "setexisting" "Set if Exists"', '            "block" "Block"',
+            '            "none" "Do Nothing"', "        }", "    }"]
+
+
+def _parameter(setting, name, tags=()):
     kind = {"bool": "toggle", "int": "integer", "float": "float", "string": "string"}[setting["type"]]
     default = setting["default"]
     if kind in ("toggle", "string"):
         default = _quoted(default if kind == "string" else str(int(default)))
-    lines = [f"name    {_quoted(setting['key'])}", f"label   {_quoted(setting['label'])}", f"type    {kind}",
+    lines = [f"name    {_quoted(name)}", f"label   {_quoted(setting['label'])}", f"type    {kind}",
              f"default {{ {default} }}"]
     low, high = setting["min"], setting["max"]
     if kind in ("integer", "float") and low is not None:
@@ -43,21 +66,37 @@ def _parameter(setting):
         lines += ["menu {", *(f"    {_quoted(choice)} {_quoted(choice)}" for choice in setting["choices"]), "}"]
     if setting["help"]:
         lines.append(f"help    {_quoted(' '.join(setting['help'].split()))}")
-    return ["    parm {", *(f"        {line}" for line in lines), "    }"]
+    return ["    parm {", *(f"        {line}" for line in [*lines, *tags]), "    }"]
 
 
-def _viewport(renderer, label):
-    settings = [s for s in hostSettings.shown() if s["key"] not in _LEFT_OUT]
-    lines = [line for setting in settings for line in _parameter(setting)]
-    head = [f"    name    {_quoted(renderer + '_Viewport')}", f"    label   {_quoted(label)}"]
+def _settings():
+    return [s for s in hostSettings.shown() if s["key"] not in _LEFT_OUT]
+
+
+def _script(name, label, lines):
+    head = [f"    name    {_quoted(name)}", f"    label   {_quoted(label)}"]
     return "\n".join(["{", *head, *lines, "}"]) + "\n"
+
+
+def _global():
+    """Of attributes of a RenderSettings prim, which are called patina:NAME."""
+    lines = []
+    for setting in _settings():
+        name = encoded("patina:" + setting["key"])
+        lines += _control(setting, name)
+        lines += _parameter(setting, name, [
+            f'disablewhen "{{ {name}_control == block }} {{ {name}_control == none }}"',
+            f'parmtag {{ "usdvaluetype" "{setting["type"]}" }}'])
+    return lines
 
 
 def texts():
     """:returns: dict from a file's name below FOLDER to its text"""
     found = {"UsdRenderers.json": _renderers()}
     for name, (label, _) in _RENDERERS.items():
-        found[os.path.join("soho", "parameters", f"{name}_Viewport.ds")] = _viewport(name, label)
+        viewport = [line for setting in _settings() for line in _parameter(setting, setting["key"])]
+        for kind, lines in (("Viewport", viewport), ("Global", _global())):
+            found[os.path.join("soho", "parameters", f"{name}_{kind}.ds")] = _script(f"{name}_{kind}", label, lines)
     return found
 
 

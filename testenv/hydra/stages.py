@@ -48,8 +48,9 @@ LIGHT = """def DomeLight "testDome"
 class Shot:
     """A stage as both hosts can render it.
 
-    stage: path; a layer over the stage when that has no camera or no light: then with the camera
-        that the stage reader frames it with, and with `light`, in which @rows@ is the camera's transform
+    stage: path; a layer over the stage when that has no camera or no light, or names render settings: then
+        with the camera that the stage reader frames it with, and with `light`, in which @rows@ is the
+        camera's transform
     camera, frame, size: what to render
     scene: the `_patina.Scene` that the stage reader makes of it, without lights of its own"""
 
@@ -68,7 +69,8 @@ class Shot:
         self.camera = self.info.camera
         lens = self.scene.camera(self.camera)
         text = self.scene.dump()
-        if self.info.framed or "\nLight " not in text:
+        # Hosts that are not interactive would write a stage's products, and no image.
+        if self.info.framed or "\nLight " not in text or opened.HasAuthoredMetadata("renderSettingsPrimPath"):
             self.stage = _wrapped(opened, path, _lens(text, self.camera), self.info.framed,
                                   "" if "\nLight " in text else light, folder)
             self.camera = "/framingCamera" if self.info.framed else self.camera

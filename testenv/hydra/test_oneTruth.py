@@ -214,6 +214,34 @@ def test_mixed_shaders_and_back_shaders(tmp_path, scene_index):
     assert (np.abs(image - (0.0, 1.0, 0.0)) < 0.01).all(axis=2).sum() > 20
 
 
+MODEL = """#usda 1.0
+def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"])
+{
+    uniform token model:drawMode = "%s"
+    float3 model:drawModeColor = (1, 0.5, 0.1)
+    def Mesh "triangle"
+    {
+        float3[] extent = [(0, 0, 0), (4, 3, 1)]
+        int[] faceVertexCounts = [3]
+        int[] faceVertexIndices = [0, 1, 2]
+        point3f[] points = [(0, 0, 0), (4, 0, 1), (0, 3, 0)]
+    }
+}
+"""
+
+
+@MODES
+@pytest.mark.parametrize("draw_mode", ["bounds", "origin"])
+def test_models_drawn_as_lines(tmp_path, draw_mode, scene_index):
+    """Thin ones, where UsdImaging says that they are 1 wide: it means pixels."""
+    stage = tmp_path / "model.usda"
+    stage.write_text(MODEL % draw_mode)
+    shot = stages.Shot(str(stage), tmp_path)
+    image, _ = render_with_hydra(shot, tmp_path, scene_index)
+    compare(shot, image, scene_index)
+    assert 0 < (np.abs(image - image[0, 0]) > 1e-3).any(axis=2).sum() < 0.3 * image[..., 0].size
+
+
 @MODES
 def test_forms_that_hydra_has_no_place_for(tmp_path, scene_index):
     """NURBS patches and curves and tetrahedra are what the stage says, not the grids and lines that hosts make of them."""

@@ -66,6 +66,17 @@ def test_models_drawn_as_boxes(read):
     assert not reading.has("/model/s") and reading.has("/plain/s")
 
 
+def test_models_drawn_as_their_basis_vectors(read, numbers):
+    """Of unit length, whatever the model's size, and where it has none."""
+    reading = read("""def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"]) {
+        uniform token model:drawMode = "origin"  %s }""" % 'def Sphere "s" { double radius = 9 }')
+    axes = reading.prim("/model")
+    assert numbers(axes["points"]) == [0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1]
+    empty = read("""def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"]) {
+        uniform token model:drawMode = "origin" }""")
+    assert empty.prim("/model")["points"] == axes["points"]
+
+
 def test_models_drawn_as_cards(read, numbers, tmp_path):
     (tmp_path / "x.png").write_bytes(b"png")
     text = """def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"]) {

@@ -68,10 +68,14 @@ def work(sets, options, arguments):
         parts.update(found.parts(each.stages))
         asked += [(each.label(stage), stage) for stage in each.stages]
     asked = [(label, stage) for label, stage in asked if not arguments.only or fnmatch.fnmatch(label, f"*{arguments.only}*")]
-    left = [(label, stage) for label, stage in asked if arguments.again or label not in rows]
+    if arguments.again:
+        rows = {label: row for label, row in rows.items() if label not in dict(asked)}
+    left = [(label, stage, [*stageRun.missing(rows.get(label), options["ways"])]) for label, stage in asked]
+    left = [each for each in left if each[2]]
     print(f"{len(asked)} stages, of which {len(asked) - len(left)} are finished", flush=True)
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool, open(file, "a", encoding="utf-8") as out:
-        waiting = [pool.submit(stageRun.run, label, stage, options, parts.get(stage)) for label, stage in left]
+        waiting = [pool.submit(stageRun.run, label, stage, dict(options, ways=names), parts.get(stage), rows.get(label))
+                   for label, stage, names in left]
         try:
             for number, done in enumerate(concurrent.futures.as_completed(waiting), 1):
                 row = done.result()
@@ -97,7 +101,7 @@ def parsed(words):
     parser.add_argument("--jobs", type=int, default=1, help="stages at once (default: %(default)s)")
     parser.add_argument("--only", default="", metavar="PATTERN", help="stages whose names hold this; * is any text")
     parser.add_argument("--ways", default=",".join(ways.WAYS), help="default: %(default)s")
-    parser.add_argument("--again", action="store_true", help="also draw stages that are finished")
+    parser.add_argument("--again", action="store_true", help="draw stages anew that are finished")
     parser.add_argument("--results", action="store_true", help="take the counts over into testenv/conformance/results.json")
     return parser, parser.parse_args(words)
 

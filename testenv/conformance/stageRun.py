@@ -16,12 +16,26 @@ import ways
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
-def run(label, stage, options, part_of=None):
+def missing(row, names):
+    """:param row: of an earlier run, or None
+    :returns: which of these ways are still to be drawn"""
+    if row is None:
+        return names
+    if row["listed"] or "read" in row["ways"]:
+        return []
+    left = [name for name in names if name not in row["ways"]]
+    again = ["embree"] if set(left) & set(ways.COMPARED) and "embree" in names and "embree" not in left else []
+    return again + left
+
+
+def run(label, stage, options, part_of=None, row=None):
     """:param options: samples, size (width, height), limits of watched.run(), ways (names), pictures (a folder)
     :param part_of: another stage that composes this one, or None
+    :param row: of an earlier run by other ways, which is completed
     :returns: a row of results: dict of `name`, `listed` (why the stage is not drawn by itself, or empty), `ways`, `pairs`,
         `peers` and `pictures`"""
-    row = {"name": label, "stage": stage, "listed": "", "ways": {}, "pairs": {}, "pictures": {}, "peers": peers.of(stage)}
+    row = row or {"name": label, "stage": stage, "listed": "", "ways": {}, "pairs": {}, "pictures": {}}
+    row["peers"] = peers.of(stage)
     with tempfile.TemporaryDirectory(prefix="patinaConformance") as folder:
         shot, ending = _prepared(stage, folder, options)
         if shot is None:
@@ -41,7 +55,7 @@ def _prepared(stage, folder, options):
     """:returns: (dict of prepare.py or None, the Ending)"""
     out = os.path.join(folder, "shot.json")
     ending = watched.run([sys.executable, os.path.join(HERE, "prepare.py"), stage, folder, *options["size"], out],
-                         **options["limits"])
+                         folder=folder, **options["limits"])
     if ending.word() != "ok":
         return None, ending
     with open(out, encoding="utf-8") as file:
@@ -64,13 +78,14 @@ def _draw(row, shot, folder, options):
         if images[name] is not None:
             row["pictures"][name] = _keep(images[name], row["name"], name, options["pictures"])
     for name in ways.COMPARED:
-        if all(row["ways"].get(way, {}).get("status") == "ok" for way in (name, "embree")):
-            pair = agreement.decide(images[name], images["embree"], functools.partial(again, name),
-                                    functools.partial(again, "embree"))
-            # UsdImagingDelegate makes coarse meshes of spheres, cubes and the like.
-            if pair["word"] == "differs" and name == "delegate" and "Implicit" in shot["shapes"]:
-                pair["word"] = "coarse"
-            row["pairs"][name] = pair
+        if all(way in images and row["ways"][way]["status"] == "ok" for way in (name, "embree")):
+            worst = agreement.at_once(images[name], images["embree"])
+            # UsdImagingDelegate makes coarse meshes of spheres, cubes and the like: more renders would only say so again.
+            if name == "delegate" and "Implicit" in shot["shapes"] and agreement.MARGIN < worst < float("inf"):
+                row["pairs"][name] = {"word": "coarse", "worst": worst, "text": ""}
+                continue
+            row["pairs"][name] = agreement.decide(images[name], images["embree"], functools.partial(again, name),
+                                                  functools.partial(again, "embree"))
 
 
 def _keep(pixels, label, way, folder):

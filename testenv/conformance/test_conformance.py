@@ -102,8 +102,8 @@ def test_agreement():
     assert decide(1.0)["word"] == "same"
     assert decide(1.005)["word"] == "agrees"
     assert decide(1.2)["word"] == "differs" and decide(1.2)["worst"] == pytest.approx(0.18, abs=0.05)
-    other = agreement.decide(noisy(1.0, 1, 2.0), noisy(1.0, 2, 2.0), lambda seed: noisy(1.0, seed, 2.0),
-                             lambda seed: noisy(1.0, seed, 2.0))
+    other = agreement.decide(noisy(1.0, 301, 2.0), noisy(1.0, 302, 2.0), lambda seed: noisy(1.0, 300 + seed, 2.0),
+                             lambda seed: noisy(1.0, 300 + seed, 2.0))
     assert other["word"] == "undecided" and "noise" in other["text"]
 
 

@@ -41,17 +41,20 @@ class Ending:
         return lines[-1] if lines else ""
 
 
-def run(command, environment=None, seconds=60.0, gigabytes=8.0):
+def run(command, environment=None, seconds=60.0, gigabytes=8.0, folder=None):
     """:param gigabytes: of addresses, beyond which memory is refused
+    :param folder: to run in: stages may name files that are written
     :returns: an Ending"""
     with tempfile.TemporaryFile() as error:
         start = time.monotonic()
         process = subprocess.Popen([str(word) for word in command], env=environment, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=error, start_new_session=True)
+                                   stdout=subprocess.DEVNULL, stderr=error, cwd=folder,
+                                   start_new_session=True)
         _limit(process.pid, int(gigabytes * (1 << 30)))
-        timed_out = False
+        timed_out, peak = False, 0
         while True:
-            ended, state, usage = os.wait4(process.pid, os.WNOHANG)
+            peak = _peak(process.pid) or peak
+            ended, state = os.waitpid(process.pid, os.WNOHANG)
             if ended:
                 break
             if not timed_out and time.monotonic() - start > seconds:
@@ -61,8 +64,20 @@ def run(command, environment=None, seconds=60.0, gigabytes=8.0):
         process.returncode = os.waitstatus_to_exitcode(state)  # it is waited for: Popen has nothing left to do
         size = error.seek(0, os.SEEK_END)
         error.seek(max(0, size - TOLD))
-        return Ending(process.returncode, timed_out, time.monotonic() - start, usage.ru_maxrss * 1024,
+        return Ending(process.returncode, timed_out, time.monotonic() - start, peak,
                       error.read().decode(errors="replace"))
+
+
+def _peak(process):
+    """What wait4() tells begins with the memory of this process, from which the other was started; the system's count does not.
+
+    :returns: the most bytes that were resident so far, 0 where the process has ended"""
+    try:
+        with open(f"/proc/{process}/status", encoding="ascii", errors="replace") as file:
+            found = [line.split()[1] for line in file if line.startswith("VmHWM:")]
+    except OSError:
+        return 0
+    return int(found[0]) << 10 if found else 0
 
 
 def _limit(process, size):

@@ -63,7 +63,7 @@ def draw(way, shot, folder, samples, seed, limits):
     from inProcess import pixels
 
     image, told = (os.path.join(folder, f"{way.name}.{seed}.{kind}") for kind in ("exr", "json"))
-    ending = watched.run(way.command(shot, image, told, samples, seed), way.environment(), **limits)
+    ending = watched.run(way.command(shot, image, told, samples, seed), way.environment(), folder=folder, **limits)
     status, drawn = ending.word(), None
     if status == "ok":
         try:

@@ -75,7 +75,8 @@ def test_endings_of_a_way(program, word, reason):
     ending = watched.run([sys.executable, "-c", program], seconds=1.0 if word == "timeout" else 60.0, gigabytes=4.0)
     assert ending.word() == word
     assert reason is None or ending.reason() == reason
-    assert ending.seconds < 30.0 and ending.peak > 0
+    assert ending.seconds < 30.0
+    assert word != "timeout" or ending.peak > 1 << 20  # others may have ended before their memory is seen
 
 
 def test_pictures_with_values_that_are_no_numbers_are_told(tmp_path, monkeypatch):

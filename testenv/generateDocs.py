@@ -280,8 +280,8 @@ def conformance():
 
 
 PAGES = {"nodes": nodes, "flags": flags, "limits": limits, "methods": methods, "aovs": aovs, "marks": marks, "cameras": cameras,
-         "library": library, "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page, "conformance": conformance,
-         "trust": trust}
+         "library": library, "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page,
+         "conformance": conformance, "trust": trust}
 PLACES = {"trust": os.path.join(ROOT, "docs", "trust.md")}  # of pages that are not in docs/generated
 NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"
 

@@ -8,6 +8,7 @@ import numpy as np
 from patina.regression import welch
 
 MARGIN = 0.01  # of a tile's value
+COARSE = 0.25  # of a picture's mean: coarse meshes of round shapes change less
 LOOKS = (4, 12)  # renders of each way
 FIRST_SEED, OTHER_SEEDS = 1, 100001  # the two ways share no random numbers
 
@@ -22,6 +23,14 @@ def at_once(found, wanted):
         return 0.0
     a, b = welch.tiles([found])[0], welch.tiles([wanted])[0]
     return float((np.abs(a - b) / (np.abs(b) + welch.FLOOR * np.abs(b).mean() + 1e-12)).max())
+
+
+def is_coarse(found, wanted):
+    """:returns: whether tiles differ, and the means of the pictures hardly do, as where shapes are a little smaller"""
+    if not MARGIN < at_once(found, wanted) < float("inf"):
+        return False
+    means = [image.mean(axis=(0, 1)) for image in (found, wanted)]
+    return bool((np.abs(means[0] - means[1]) <= COARSE * means[1] + 1e-6).all())
 
 
 def decide(found, wanted, draw_found, draw_wanted):

@@ -2,8 +2,29 @@
 """Why stages of others fail, or look otherwise through Hydra: one row for each cause that is known."""
 import fnmatch
 
-SETS = {}  # name of a set -> a sentence that says what it is
-CAUSES = ()  # (set, pattern of stages, pattern of ways, the cause)
+SETS = {"usdImaging": "OpenUSD's own tests of usdview, usdrecord, UsdImaging and UsdImagingGL (`pxr/usdImaging`)."}
+_CUSTOM = "Hydra names nodes of the stage's own MaterialX document by a hash, and the delegate has no definition of them"
+_CARDS = "the two sides of a cross of cards lie in one place in Hydra, and a renderer without culling shows either"
+CAUSES = (  # (set, pattern of stages, pattern of ways, the cause)
+    ("usdImaging", "*FileArguments/*", "read", "the file is meant to be invalid"),
+    ("usdImaging", "*testUsdviewMaterialEdits/*", "sceneIndex",
+     "MaterialBindingAPI is not applied, and scene indices bind nothing"),
+    ("usdImaging", "*testUsdImagingDelegate/indexedPrimvars.usda", "*", "two meshes lie in the same place"),
+    ("usdImaging", "*testUsdImagingDelegate/unvarying.usda", "*",
+     "the command line moves points to the frame by their velocities; Hydra has no time of the sample"),
+    ("usdImaging", "*GLCards/*", "*", _CARDS),
+    ("usdImaging", "*GLInstancing/instancedCubes2NoInstancing.usda", "*",
+     "shapes that are instances themselves, of which OpenUSD warns"),
+    ("usdImaging", "*/ni_ni_material_binding_resolution_3.usda", "sceneIndex",
+     "OpenUSD loses the binding, as the stage's own comment says"),
+    ("usdImaging", "*/ni_ni_material_binding_resolution*", "delegate",
+     "UsdImagingDelegate binds materials of the first instance to all of nested instances"),
+    ("usdImaging", "*/invalid_universal_surface.usda", "delegate",
+     "UsdImagingDelegate takes a displayColor that the Material has"),
+    ("usdImaging", "*CustomNodes/*", "*", _CUSTOM),
+    ("usdImaging", "*MaterialXvsNative/materialX*", "sceneIndex",
+     "scene indices do not enter a Material for the materials below it"),
+)
 
 
 def of(name, stage, way):

@@ -45,8 +45,12 @@ def lines(rows):
                 found.append([name, way, told["status"]])
         for way, pair in row["pairs"].items():
             if pair["word"] in ("differs", "undecided", "failed"):
-                found.append([name, way, pair["word"] + (f", {100 * pair['worst']:.2g} %" if pair["worst"] >= 0 else "")])
+                found.append([name, way, pair["word"] + (f", {percent(pair['worst'])}" if pair["worst"] >= 0 else "")])
     return found
+
+
+def percent(part):
+    return f"{100 * part:.0f} %" if part > 0.1 else f"{100 * part:.2g} %"
 
 
 def table(rows):
@@ -98,8 +102,8 @@ def page():
             "Hydra's pictures are compared with those of the path tracer, tile by tile, by Welch's test with a margin of 1 %.",
             "The percentage is the largest difference of a tile.", "",
             "- *same*: all bits are equal. *agrees*: no tile differs by more than the margin.",
-            "- *coarse*: they differ, and the stage has spheres, cubes or the like, of which UsdImagingDelegate makes coarse",
-            "  meshes.",
+            "- *coarse*: tiles differ, the picture's mean does not by more than 25 %, and the stage has spheres, cubes or the",
+            "  like, of which UsdImagingDelegate makes coarse meshes.",
             "- *undecided*: noise hides what the test is asked to see."]
     for name, of in sorted(read().items()):
         counts = of["counts"]

@@ -68,7 +68,7 @@ def _word(pair):
     if pair is None:
         return ""
     bad = " class=bad" if pair["word"] in ("differs", "failed") else ""
-    worst = f" {100 * pair['worst']:.2g} %" if pair["worst"] > 0 else ""
+    worst = " " + conformanceResults.percent(pair["worst"]) if pair["worst"] > 0 else ""
     return f"<span{bad}>{pair['word']}</span>{worst}"
 
 

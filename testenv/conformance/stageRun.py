@@ -79,9 +79,9 @@ def _draw(row, shot, folder, options):
             row["pictures"][name] = _keep(images[name], row["name"], name, options["pictures"])
     for name in ways.COMPARED:
         if all(way in images and row["ways"][way]["status"] == "ok" for way in (name, "embree")):
-            worst = agreement.at_once(images[name], images["embree"])
             # UsdImagingDelegate makes coarse meshes of spheres, cubes and the like: more renders would only say so again.
-            if name == "delegate" and "Implicit" in shot["shapes"] and agreement.MARGIN < worst < float("inf"):
+            if name == "delegate" and "Implicit" in shot["shapes"] and agreement.is_coarse(images[name], images["embree"]):
+                worst = agreement.at_once(images[name], images["embree"])
                 row["pairs"][name] = {"word": "coarse", "worst": worst, "text": ""}
                 continue
             row["pairs"][name] = agreement.decide(images[name], images["embree"], functools.partial(again, name),

@@ -108,6 +108,13 @@ def test_agreement():
     assert other["word"] == "undecided" and "noise" in other["text"]
 
 
+def test_a_coarse_mesh_keeps_the_mean():
+    ball, smaller, other = (np.full((16, 16, 3), 0.5) for _ in range(3))
+    ball[4:12, 4:12], smaller[4:12, 5:12], other[4:12, 4:12] = 1.0, 1.0, (1.0, 0.0, 0.0)
+    assert agreement.is_coarse(smaller, ball)
+    assert not agreement.is_coarse(ball, ball) and not agreement.is_coarse(other, ball)
+
+
 def test_pictures_of_peers_are_found(tmp_path):
     tests = tmp_path / "testenv" / "testA"
     for folder in ("baseline", "sub"):

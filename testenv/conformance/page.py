@@ -104,6 +104,8 @@ def peer(path):
         return None
     pixels = np.asarray(image.pixels, np.float32)
     pixels = pixels[..., :3] if pixels.shape[2] >= 3 else np.repeat(pixels[..., :1], 3, axis=2)
+    if not path.lower().endswith(".exr"):  # other files hold what a display shows
+        pixels = np.where(pixels <= 0.04045, pixels / 12.92, ((np.maximum(pixels, 0.0) + 0.055) / 1.055) ** 2.4)
     step = max(1, -(-pixels.shape[1] // WIDTH))
     height, width = (size // step * step for size in pixels.shape[:2])
     small = pixels[:height, :width].reshape(height // step, step, width // step, step, 3).mean(axis=(1, 3))

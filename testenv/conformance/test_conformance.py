@@ -13,6 +13,7 @@ import agreement
 import conformanceResults
 import found
 import hydraBuild
+import page
 import peers
 import run
 import watched
@@ -126,6 +127,15 @@ def test_pictures_of_peers_are_found(tmp_path):
         (tests / name).write_bytes(b"")
     assert peers.of(str(tests / "sub" / "a.usda")) == [str(tests / "baseline" / name) for name in ("out.png", "a.png")]
     assert peers.of(str(tests / "b.usda")) == []
+
+
+def test_pictures_of_peers_keep_their_colours(tmp_path):
+    import _patina
+    from patina.chart import png
+
+    _patina.write_image(str(tmp_path / "peer.png"), np.full((480, 640, 3), 0.2, np.float32))
+    assert page.peer(str(tmp_path / "peer.png")) == png.encode(np.full((120, 160, 3), 0.2))
+    assert page.peer(str(tmp_path / "none.png")) is None
 
 
 def test_counts_of_one_set_replace_its_own(tmp_path):

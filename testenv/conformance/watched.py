@@ -2,7 +2,6 @@
 """Runs a program with limits of time and memory, and says how it ended."""
 import dataclasses
 import os
-import resource
 import signal
 import subprocess
 import tempfile
@@ -10,6 +9,7 @@ import time
 
 TOLD = 20000  # last bytes of standard error that are kept
 POLL = 0.01  # seconds
+LIMITED = ("/bin/sh", "-c", 'ulimit -v "$0" && ulimit -c 0 && exec "$@"')  # kB, then the program
 
 
 @dataclasses.dataclass
@@ -47,10 +47,9 @@ def run(command, environment=None, seconds=60.0, gigabytes=8.0, folder=None):
     :returns: an Ending"""
     with tempfile.TemporaryFile() as error:
         start = time.monotonic()
-        process = subprocess.Popen([str(word) for word in command], env=environment, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=error, cwd=folder,
+        process = subprocess.Popen([*LIMITED, str(int(gigabytes * (1 << 20))), *map(str, command)], env=environment,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=error, cwd=folder,
                                    start_new_session=True)
-        _limit(process.pid, int(gigabytes * (1 << 30)))
         timed_out, peak = False, 0
         while True:
             peak = _peak(process.pid) or peak
@@ -78,12 +77,3 @@ def _peak(process):
     except OSError:
         return 0
     return int(found[0]) << 10 if found else 0
-
-
-def _limit(process, size):
-    """A process that has ended already needs no limit."""
-    try:
-        resource.prlimit(process, resource.RLIMIT_AS, (size, size))
-        resource.prlimit(process, resource.RLIMIT_CORE, (0, 0))
-    except ProcessLookupError:
-        pass

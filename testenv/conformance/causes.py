@@ -19,6 +19,8 @@ CAUSES = (  # (set, pattern of stages, pattern of ways, the cause)
      "OpenUSD loses the binding, as the stage's own comment says"),
     ("usdImaging", "*/ni_ni_material_binding_resolution*", "delegate",
      "UsdImagingDelegate binds materials of the first instance to all of nested instances"),
+    *(("usdImaging", stages, "delegate", "coarse meshes of small balls, or of one that fills the picture")
+      for stages in ("*MaterialXvsNative/native*", "*/pi_ni_material2.usda", "*/ni_ni_material_outside_prototype.usda")),
     ("usdImaging", "*GLNurbsCurves/*", "*",
      "curves without knots are lines in Hydra; the command line draws them with even knots, and none whose order does not fit"),
     ("usdImaging", "*/invalid_universal_surface.usda", "delegate",

@@ -3,7 +3,8 @@
 
     ./patina python testenv/generateDocs.py [--check] [PAGE ...]
 
-Pages: nodes, flags, limits, methods, aovs, marks, cameras, library, byDesign, messages, benchmarks, trust (docs/trust.md).
+Pages: nodes, flags, limits, methods, aovs, marks, cameras, library, byDesign, messages, benchmarks, conformance, trust
+(docs/trust.md).
 testenv/lint/test_generatedDocs.py fails where one is stale.
 """
 import argparse
@@ -271,8 +272,16 @@ def trust():
     return results.page()
 
 
+def conformance():
+    sys.path.append(os.path.join(ROOT, "testenv", "conformance"))
+    import conformanceResults
+
+    return conformanceResults.page()
+
+
 PAGES = {"nodes": nodes, "flags": flags, "limits": limits, "methods": methods, "aovs": aovs, "marks": marks, "cameras": cameras,
-         "library": library, "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page, "trust": trust}
+         "library": library, "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page,
+         "conformance": conformance, "trust": trust}
 PLACES = {"trust": os.path.join(ROOT, "docs", "trust.md")}  # of pages that are not in docs/generated
 NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"
 

@@ -41,6 +41,7 @@ FOLDERS = {  # folder: tier, rooms
     "plugin/": ("full", "cli"),
     "testenv/bench/": ("full", "testenv"),
     "testenv/cli/": ("full", "cli"),
+    "testenv/conformance/": ("full", "testenv hydra cli"),
     "testenv/farm/": ("smoke", "farm cli film"),
     "testenv/film/": ("smoke", "film python"),
     "testenv/fuzz/": ("full", "cli stage materialNetwork film image"),

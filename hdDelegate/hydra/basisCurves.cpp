@@ -5,9 +5,13 @@
 
 #include <pxr/imaging/hd/basisCurvesTopology.h>
 
+#include <algorithm>
+
 namespace patina {
 
 namespace {
+
+constexpr float lineWidth = 0.005f; // of the diagonal; plugin/patina/stage/drawModes.py has it too
 
 CurveBasis basisOf(const HdBasisCurvesTopology& topology, HdPatinaRenderParam& param,
                    const SdfPath& id) {
@@ -26,6 +30,27 @@ CurveWrap wrapOf(const HdBasisCurvesTopology& topology) {
     return CurveWrap::Nonperiodic;
 }
 
+/// Lines that hosts draw in place of a model (its box, its axes): each is a pair of points. Their
+/// width of 1 is a pixel's to a rasterizer. Here it follows from their size.
+std::shared_ptr<const Curves> linesOf(const Curves& curves) {
+    auto lines = std::make_shared<Curves>(curves);
+    if (curves.points.values.empty() || curves.points.values.front().empty()) return lines;
+    const std::vector<vec3>& points = curves.points.values.front();
+    vec3 low = points.front(), high = low;
+    for (const vec3& point : points) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    lines->curveVertexCounts.assign(points.size() / 2, 2);
+    auto& primvars = lines->primvars;
+    primvars.erase(std::remove_if(primvars.begin(), primvars.end(),
+                                  [](const Primvar& p) { return p.name == "widths"; }),
+                   primvars.end());
+    primvars.push_back(
+        {"widths", Interpolation::Constant, 1, {lineWidth * glm::length(high - low)}, {}});
+    return lines;
+}
+
 } // namespace
 
 void HdPatinaBasisCurves::syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
@@ -37,6 +62,7 @@ void HdPatinaBasisCurves::syncShape(HdSceneDelegate& delegate, HdPatinaRenderPar
         curves.curveVertexCounts = toVector(topology.GetCurveVertexCounts());
         curves.basis = basisOf(topology, param, id);
         curves.wrap = wrapOf(topology);
+        _isLines = topology.GetCurveWrap() == HdTokens->segmented;
         _indices = toVector(topology.GetCurveIndices());
         _isStale = true;
     }
@@ -47,6 +73,7 @@ void HdPatinaBasisCurves::syncShape(HdSceneDelegate& delegate, HdPatinaRenderPar
 std::shared_ptr<const Geometry>
 HdPatinaBasisCurves::shownAs(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                              const std::shared_ptr<const Curves>& curves) const {
+    if (_isLines) return linesOf(*curves);
     if (curves->basis != CurveBasis::Linear) return curves;
     const auto bezier = bezierOf(delegate, GetId(), *curves, param.scene()->diagnostics());
     return bezier ? std::shared_ptr<const Geometry>(bezier) : curves;

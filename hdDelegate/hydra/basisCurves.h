@@ -26,6 +26,7 @@ private:
 
     std::vector<int> _indices;          ///< into the points; empty: they are in order
     Sampled<std::vector<vec3>> _points; ///< as authored, with _indices
+    bool _isLines = false;              ///< pairs of points, as stand-ins of models have
     bool _isStale = false;              ///< these have changed since the curves were made of them
 };
 

@@ -8,6 +8,7 @@
 #include <pxr/imaging/hd/retainedDataSource.h>
 #include <pxr/imaging/hd/sceneIndexPlugin.h>
 #include <pxr/imaging/hd/sceneIndexPluginRegistry.h>
+#include <pxr/imaging/hdsi/materialPrimvarTransferSceneIndex.h>
 #include <pxr/imaging/hdsi/nurbsApproximatingSceneIndex.h>
 #include <pxr/imaging/hdsi/renderSettingsFilteringSceneIndex.h>
 #if PATINA_HAS_LIGHT_LINKING
@@ -42,7 +43,8 @@ protected:
         scene = HdPatinaRelinkedLightSceneIndex::New(scene);
         scene = HdsiLightLinkingSceneIndex::New(scene, nullptr);
 #endif
-        return scene;
+        // Primvars of a material are those of the prims that it is bound to, where these have none.
+        return HdsiMaterialPrimvarTransferSceneIndex::New(scene);
     }
 };
 

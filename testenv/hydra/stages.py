@@ -26,16 +26,35 @@ def name_of(stage):
             return os.path.relpath(stage, base)
     return os.path.basename(stage)
 
+CAMERA = """def Camera "framingCamera"
+{{
+    float2 clippingRange = ({clipNear}, {clipFar})
+    float focalLength = {focalLength}
+    float focusDistance = {focusDistance}
+    float horizontalAperture = {horizontalAperture}
+    float verticalAperture = {verticalAperture}
+    matrix4d xformOp:transform = ( {rows} )
+    uniform token[] xformOpOrder = ["xformOp:transform"]
+}}
+"""
+LIGHT = """def DomeLight "testDome"
+{
+    color3f inputs:color = (1, 0.9, 0.8)
+    float inputs:intensity = 0.8
+}
+"""
+
 
 class Shot:
     """A stage as both hosts can render it.
 
-    stage: path; a layer over the stage when that has no camera or no light: then with the camera
-        that the stage reader frames it with, and with a dome light
+    stage: path; a layer over the stage when that has no camera or no light, or names render settings: then
+        with the camera that the stage reader frames it with, and with `light`, in which @rows@ is the
+        camera's transform
     camera, frame, size: what to render
     scene: the `_patina.Scene` that the stage reader makes of it, without lights of its own"""
 
-    def __init__(self, path, folder, width=64, purposes=("default", "render")):
+    def __init__(self, path, folder, width=64, purposes=("default", "render"), light=LIGHT):
         import _patina
         from patina import stage as reader
 
@@ -50,9 +69,10 @@ class Shot:
         self.camera = self.info.camera
         lens = self.scene.camera(self.camera)
         text = self.scene.dump()
-        if self.info.framed or "\nLight " not in text:
-            self.stage = _wrapped(opened, path, _lens(text, self.camera) if self.info.framed else None,
-                                  "\nLight " not in text, folder)
+        # Hosts that are not interactive would write a stage's products, and no image.
+        if self.info.framed or "\nLight " not in text or opened.HasAuthoredMetadata("renderSettingsPrimPath"):
+            self.stage = _wrapped(opened, path, _lens(text, self.camera), self.info.framed,
+                                  "" if "\nLight " in text else light, folder)
             self.camera = "/framingCamera" if self.info.framed else self.camera
             with self.scene.edit() as edit:
                 edit.clear()
@@ -76,27 +96,8 @@ def _lens(text, camera):
     return fields
 
 
-CAMERA = """def Camera "framingCamera"
-{{
-    float2 clippingRange = ({clipNear}, {clipFar})
-    float focalLength = {focalLength}
-    float focusDistance = {focusDistance}
-    float horizontalAperture = {horizontalAperture}
-    float verticalAperture = {verticalAperture}
-    matrix4d xformOp:transform = ( {rows} )
-    uniform token[] xformOpOrder = ["xformOp:transform"]
-}}
-"""
-LIGHT = """def DomeLight "testDome"
-{
-    color3f inputs:color = (1, 0.9, 0.8)
-    float inputs:intensity = 0.8
-}
-"""
-
-
-def _wrapped(opened, path, lens, light, folder):
-    """Writes a layer over a stage with a camera, if a lens is given, and a light. :returns: its path"""
+def _wrapped(opened, path, lens, framed, light, folder):
+    """Writes a layer over a stage with a camera, where it is framed, and a light. :returns: its path"""
     root = opened.GetRootLayer().pseudoRoot
     lines = [f'{name} = "{root.GetInfo(name)}"' if isinstance(root.GetInfo(name), str) else f"{name} = {root.GetInfo(name)}"
              for name in ("upAxis", "metersPerUnit", "startTimeCode", "endTimeCode", "timeCodesPerSecond")
@@ -104,10 +105,10 @@ def _wrapped(opened, path, lens, light, folder):
     text = "#usda 1.0\n(\n    " + "\n    ".join(lines + [f"subLayers = [@{os.path.abspath(path)}@]"]) + "\n)\n"
     if opened.GetTimeCodesPerSecond() == 0:  # a sublayer's times would be scaled by 0 / 0, and USD never returns
         text = opened.Flatten().ExportToString()
-    if lens:
-        rows = ", ".join("(" + ", ".join(row.split()) + ")" for row in lens["transform"].split(","))
+    rows = ", ".join("(" + ", ".join(row.split()) + ")" for row in lens["transform"].split(","))
+    if framed:
         text += CAMERA.format(rows=rows, **lens)
     out = os.path.join(str(folder), os.path.basename(path).rsplit(".", 1)[0] + "Wrapped.usda")
     with open(out, "w", encoding="utf-8") as file:
-        file.write(text + (LIGHT if light else ""))
+        file.write(text + light.replace("@rows@", rows))
     return out

@@ -214,6 +214,73 @@ def test_mixed_shaders_and_back_shaders(tmp_path, scene_index):
     assert (np.abs(image - (0.0, 1.0, 0.0)) < 0.01).all(axis=2).sum() > 20
 
 
+MODEL = """#usda 1.0
+def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"])
+{
+    uniform token model:drawMode = "%s"
+    float3 model:drawModeColor = (1, 0.5, 0.1)
+    float3[] extentsHint = [(0, 0, 0), (4, 3, 1)]
+    def Mesh "triangle"
+    {
+        float3[] extent = [(0, 0, 0), (4, 3, 1)]
+        int[] faceVertexCounts = [3]
+        int[] faceVertexIndices = [0, 1, 2]
+        point3f[] points = [(0, 0, 0), (4, 0, 1), (0, 3, 0)]
+    }
+}
+"""
+
+
+@MODES
+@pytest.mark.parametrize("draw_mode", ["bounds", "origin"])
+def test_models_drawn_as_lines(tmp_path, draw_mode, scene_index):
+    """Thin ones, where UsdImaging says that they are 1 wide: it means pixels."""
+    stage = tmp_path / "model.usda"
+    stage.write_text(MODEL % draw_mode)
+    shot = stages.Shot(str(stage), tmp_path)
+    image, _ = render_with_hydra(shot, tmp_path, scene_index)
+    compare(shot, image, scene_index)
+    assert 0 < (np.abs(image - image[0, 0]) > 1e-3).any(axis=2).sum() < 0.3 * image[..., 0].size
+
+
+MATERIAL_PRIMVAR = """#usda 1.0
+def Mesh "triangle" (prepend apiSchemas = ["MaterialBindingAPI"])
+{
+    int[] faceVertexCounts = [3]
+    int[] faceVertexIndices = [0, 1, 2]
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+    rel material:binding = </material>
+}
+def Material "material"
+{
+    color3f primvars:own = (1, 0.2, 0)
+    token outputs:surface.connect = </material/surface.outputs:surface>
+    def Shader "surface"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor.connect = </material/own.outputs:result>
+        token outputs:surface
+    }
+    def Shader "own"
+    {
+        uniform token info:id = "UsdPrimvarReader_float3"
+        string inputs:varname = "own"
+        float3 outputs:result
+    }
+}
+"""
+
+
+def test_primvars_of_a_material_are_those_of_its_prims(tmp_path):
+    """By scene indices alone: UsdImagingDelegate hands on none."""
+    stage = tmp_path / "material.usda"
+    stage.write_text(MATERIAL_PRIMVAR)
+    shot = stages.Shot(str(stage), tmp_path)
+    image, _ = render_with_hydra(shot, tmp_path, True)
+    compare(shot, image, True)
+    assert (image[..., 0] > 2.0 * image[..., 1]).any()
+
+
 @MODES
 def test_forms_that_hydra_has_no_place_for(tmp_path, scene_index):
     """NURBS patches and curves and tetrahedra are what the stage says, not the grids and lines that hosts make of them."""

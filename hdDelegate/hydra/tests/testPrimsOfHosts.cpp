@@ -48,6 +48,21 @@ TEST_F(PrimsOfHosts, PrimvarsWithoutNumbersAreToldOf) {
         }
 }
 
+TEST_F(PrimsOfHosts, StandInsOfModelsAreThinLinesBetweenPairsOfPoints) {
+    scene->curves = HdBasisCurvesTopology(HdTokens->linear, HdTokens->bezier, HdTokens->segmented,
+                                          VtIntArray{4}, VtIntArray{0, 1, 0, 2});
+    set(HdTokens->points,
+        VtValue(VtVec3fArray{GfVec3f(0.0f), GfVec3f(3.0f, 0.0f, 0.0f), GfVec3f(0.0f, 4.0f, 0.0f)}));
+    scene->setPrimvar(path, HdTokens->widths, HdInterpolationConstant,
+                      {{0.0f, VtValue(VtFloatArray{1.0f})}});
+    syncRprim(HdPrimTypeTokens->basisCurves, path);
+    const auto lines = drawn<Curves>();
+    ASSERT_TRUE(lines);
+    EXPECT_EQ(lines->curveVertexCounts, (std::vector<int>{2, 2}));
+    ASSERT_TRUE(lines->primvar("widths"));
+    EXPECT_EQ(lines->primvar("widths")->values, std::vector<float>{0.005f * 5.0f});
+}
+
 TEST_F(PrimsOfHosts, PointsThatAreListedNoMoreAreGone) {
     set(HdTokens->points, VtValue(VtVec3fArray(3, GfVec3f(1.0f))));
     syncRprim(HdPrimTypeTokens->mesh, path);

@@ -98,18 +98,19 @@ def emit(context, found, low, high, common, color, module):
 
 
 def _material(context, path, file, module):
-    """:returns: path of a material that shows a picture and cuts out where it is transparent"""
+    """As UsdImaging makes it. :returns: path of a material that shows a picture and cuts out where it is transparent"""
     network = module.Network(path)
     network.add_node(path + "/surface", "UsdPreviewSurface")
     network.add_node(path + "/texture", "UsdUVTexture")
     network.add_node(path + "/st", "UsdPrimvarReader_float2")
     network.set_input(path + "/st", "varname", "string", "st")
     network.set_input(path + "/texture", "file", "asset", file)
+    for side in ("wrapS", "wrapT"):
+        network.set_input(path + "/texture", side, "token", "clamp")
     network.connect(path + "/texture", "st", path + "/st", "result")
     network.connect(path + "/surface", "diffuseColor", path + "/texture", "rgb")
     network.connect(path + "/surface", "opacity", path + "/texture", "a")
     network.set_input(path + "/surface", "opacityThreshold", "float", 0.1)
-    network.set_input(path + "/surface", "roughness", "float", 1.0)
     network.set_terminal("surface", path + "/surface", "surface")
     context.edit.set_material(path, network)
     return path

@@ -7,7 +7,9 @@ from . import cards, marks
 from .context import get, vector
 from .transforms import transform_of
 
-_EDGES = [(0, 1), (2, 3), (4, 5), (6, 7), (0, 2), (1, 3), (4, 6), (5, 7), (0, 4), (1, 5), (2, 6), (3, 7)]
+# Of a box whose corner i has the high x, y, z where bits 4, 2, 1 of i are set; in the order that UsdImaging has them.
+_EDGES = [(0, 4), (4, 6), (6, 2), (2, 0), (1, 5), (5, 7), (7, 3), (3, 1), (0, 1), (4, 5), (6, 7), (2, 3)]
+_WIDTH = 0.005  # of the lines' diagonal; hdDelegate/hydra/basisCurves.cpp has it too
 
 
 def of(prim, inherited):
@@ -22,18 +24,15 @@ def of(prim, inherited):
 
 
 def emit(context, found, module):
-    """Draws a model's extents as lines or as cards, or the axes of its origin.
+    """Draws a model's extents as lines or as cards, or the unit axes of its origin.
 
     :param module: `_patina`"""
     prim, mode = found.prim, found.state.draw_mode
     if context.cyclic:
         return
-    box = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)
-    extent = box.ComputeUntransformedBound(prim).ComputeAlignedRange()
-    if extent.IsEmpty():
+    low, high = _extent(context, prim)
+    if low is None and mode != "origin":
         return
-    low, high = np.array(extent.GetMin()), np.array(extent.GetMax())
-    size = float(np.linalg.norm(high - low)) or 1.0
     color = vector(context, prim, "model:drawModeColor", (0.18, 0.18, 0.18))
     common = {"group": found.state.group.name, "transform": transform_of(context, prim, found.state.group.anchor),
               **marks.fields(found)}
@@ -42,12 +41,20 @@ def emit(context, found, module):
         cards.emit(context, found, low, high, common, color, module)
         return
     if mode == "origin":
-        points = [p for axis in np.eye(3) * size * 0.5 for p in ((0.0, 0.0, 0.0), axis)]
+        points = [p for axis in np.eye(3) for p in ((0.0, 0.0, 0.0), axis)]
     else:
-        corners = [[(low, high)[i >> a & 1][a] for a in range(3)] for i in range(8)]
+        corners = [[(low, high)[i >> (2 - a) & 1][a] for a in range(3)] for i in range(8)]
         points = [corners[i] for edge in _EDGES for i in edge]
+    width = _WIDTH * float(np.linalg.norm(np.ptp(points, axis=0)))
     context.edit.set_curves(
         found.path, basis="linear", points=np.array(points, dtype=np.float32),
         curve_vertex_counts=np.full(len(points) // 2, 2, np.int32),
-        primvars=[("widths", "constant", np.array([size * 0.005], np.float32)),
+        primvars=[("widths", "constant", np.array([width], np.float32)),
                   ("displayColor", "constant", np.array([color], np.float32))], **common)
+
+
+def _extent(context, prim):
+    """:returns: the lowest and the highest corner of a model's box; None, None where it is empty"""
+    box = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)
+    extent = box.ComputeUntransformedBound(prim).ComputeAlignedRange()
+    return (None, None) if extent.IsEmpty() else (np.array(extent.GetMin()), np.array(extent.GetMax()))

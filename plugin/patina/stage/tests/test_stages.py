@@ -66,6 +66,17 @@ def test_models_drawn_as_boxes(read):
     assert not reading.has("/model/s") and reading.has("/plain/s")
 
 
+def test_models_drawn_as_their_basis_vectors(read, numbers):
+    """Of unit length, whatever the model's size, and where it has none."""
+    reading = read("""def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"]) {
+        uniform token model:drawMode = "origin"  %s }""" % 'def Sphere "s" { double radius = 9 }')
+    axes = reading.prim("/model")
+    assert numbers(axes["points"]) == [0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1]
+    empty = read("""def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"]) {
+        uniform token model:drawMode = "origin" }""")
+    assert empty.prim("/model")["points"] == axes["points"]
+
+
 def test_models_drawn_as_cards(read, numbers, tmp_path):
     (tmp_path / "x.png").write_bytes(b"png")
     text = """def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"]) {
@@ -75,6 +86,8 @@ def test_models_drawn_as_cards(read, numbers, tmp_path):
     assert numbers(box.prim("/model/cardXPos")["points"]) == [1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1]
     assert box.prim("/model/cardXNeg")["material"] == '"/model/cardXNeg/material"'
     assert box.prim("/model/cardXPos/material")["filename file"] == f'"{tmp_path}/x.png"'
+    made = box.prim("/model/cardXPos/material")  # with the roughness that UsdPreviewSurface has, as in UsdImaging
+    assert not any("roughness" in field for field in made) and sum(value == '"clamp"' for value in made.values()) == 2, made
     assert not box.has("/model/cardYPos") and not box.has("/model/c")
     cross = read(text % ("cross", "asset model:cardTextureXPos = @./none.png@"))
     assert numbers(cross.prim("/model/cardZPos")["points"])[2::3] == [0, 0, 0, 0]

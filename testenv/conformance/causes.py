@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Why stages of others fail, or look otherwise through Hydra: one row for each cause that is known."""
+import fnmatch
+
+SETS = {  # name of a set -> what it is
+    "usdImaging": "OpenUSD's own tests of usdview, usdrecord, UsdImaging and UsdImagingGL (`pxr/usdImaging`). The run was "
+                  "ended after 355 of 400 stages; the rasterizer drew 13 of them."}
+_CUSTOM = "Hydra names nodes of the stage's own MaterialX document by a hash, and the delegate has no definition of them"
+_CARDS = "the two sides of a cross of cards lie in one place in Hydra, and a renderer without culling shows either"
+CAUSES = (  # (set, pattern of stages, pattern of ways, the cause)
+    ("usdImaging", "*FileArguments/*", "read", "the file is meant to be invalid"),
+    ("usdImaging", "*testUsdviewMaterialEdits/*", "sceneIndex",
+     "MaterialBindingAPI is not applied, and scene indices bind nothing"),
+    ("usdImaging", "*testUsdImagingDelegate/indexedPrimvars.usda", "*", "two meshes lie in the same place"),
+    ("usdImaging", "*testUsdImagingDelegate/unvarying.usda", "*",
+     "the command line moves points to the frame by their velocities; Hydra has no time of the sample"),
+    ("usdImaging", "*GLCards/*", "*", _CARDS),
+    ("usdImaging", "*GLInstancing/instancedCubes2NoInstancing.usda", "*",
+     "shapes that are instances themselves, of which OpenUSD warns"),
+    ("usdImaging", "*/ni_ni_material_binding_resolution_3.usda", "sceneIndex",
+     "OpenUSD loses the binding, as the stage's own comment says"),
+    ("usdImaging", "*/ni_ni_material_binding_resolution*", "delegate",
+     "UsdImagingDelegate binds materials of the first instance to all of nested instances"),
+    *(("usdImaging", stages, "delegate", "coarse meshes of small balls, or of one that fills the picture")
+      for stages in ("*MaterialXvsNative/native*", "*/pi_ni_material2.usda", "*/ni_ni_material_outside_prototype.usda")),
+    ("usdImaging", "*GLNurbsCurves/*", "*",
+     "curves without knots are lines in Hydra; the command line draws them with even knots, and none whose order does not fit"),
+    ("usdImaging", "*/invalid_universal_surface.usda", "delegate",
+     "UsdImagingDelegate takes a displayColor that the Material has"),
+    ("usdImaging", "*CustomNodes/*", "*", _CUSTOM),
+    ("usdImaging", "*MaterialXvsNative/materialX*", "sceneIndex",
+     "scene indices do not enter a Material for the materials below it"),
+)
+
+
+def of(name, stage, way):
+    """:returns: the cause, or an empty text"""
+    return next((text for known, stages, ways, text in CAUSES if known == name and fnmatch.fnmatchcase(stage, stages)
+                 and fnmatch.fnmatchcase(way, ways)), "")

@@ -73,6 +73,10 @@ def test_asset(tmp_path, stage):
         process = hydraBuild.run_usdrecord(stage, image, check=False)
         assert process.returncode > 0 and "framesPerSecond" in process.stderr
         return
+    if int(hydraBuild.folder("version")) < 2505:
+        process = hydraBuild.run_usdrecord(stage, image, check=False)
+        if "Unsupported type VtDictionary" in process.stderr:
+            pytest.skip("this OpenUSD cannot pass on MaterialXConfigAPI, and its usdrecord ends")
     record(stage, image)
     assert shown(image) != (stages.name_of(stage) in EMPTY)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes what Houdini reads beside the plugin, from the table of settings: `./patina python -m patina.cli.houdiniFiles`.
 
-UsdRenderers.json names the renderer in Solaris' menus; in soho/parameters RENDERER_Viewport.ds holds the settings of the viewport
-and RENDERER_Global.ds those of the node Render Settings (HDK, "USD Hydra: Customizing for Houdini"). All are found on
+UsdRenderers.json names the renderer in Solaris' menus; in soho/parameters RENDERER_Viewport.ds holds the settings of the
+viewport and RENDERER_Global.ds those of the node Render Settings (HDK, "USD Hydra: Customizing for Houdini"). All are found on
 HOUDINI_PATH.
 """
 import json
@@ -30,8 +30,8 @@ def _quoted(text):
 
 def encoded(name):
     """:param name: of an attribute, with one colon
-    :returns: it as names of parameters have it (hou.text.encode): Punycode (RFC 3492) in which all but letters, digits and _ are
-        the special characters, from code 1 on"""
+    :returns: it as names of parameters have it (hou.text.encode): Punycode (RFC 3492) in which all but letters, digits and _
+        are the special characters, from code 1 on"""
     plain, digits, text = name.replace(":", ""), "abcdefghijklmnopqrstuvwxyz0123456789", ""
     number = (ord(":") - 1) * (len(plain) + 1) + name.index(":")
     for least in (1, 1, 26, 26, 26):  # thresholds of the first character's digits

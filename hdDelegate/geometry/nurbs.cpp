@@ -6,6 +6,18 @@
 
 namespace patina {
 
+void fillKnots(NurbsDirection& d) {
+    if (!d.knots.empty() || d.order < 1 || d.order > highestOrder || d.vertexCount < d.order)
+        return;
+    const bool ranged = d.low < d.high;
+    const double low = ranged ? d.low : 0.0, high = ranged ? d.high : 1.0;
+    const int segments = d.vertexCount - d.order + 1;
+    d.knots.assign(size_t(d.order), low);
+    for (int i = 1; i < segments; ++i)
+        d.knots.push_back(low + (high - low) * i / segments);
+    d.knots.insert(d.knots.end(), size_t(d.order), high);
+}
+
 NurbsBasis::Problem NurbsBasis::problem(const NurbsDirection& d, const std::string& prefix) {
     const auto named = [&](const char* upper, const char* lower) {
         return prefix.empty() ? std::string(lower) : prefix + upper;

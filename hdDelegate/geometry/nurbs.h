@@ -8,6 +8,10 @@ namespace patina {
 /// Highest order of NURBS that are drawn.
 inline constexpr int highestOrder = 32;
 
+/// Gives a direction without knots even ones, so that it begins and ends at its outer points. They
+/// span what is drawn of it, or 0 to 1.
+void fillKnots(NurbsDirection& direction);
+
 /// The basis of one direction: order functions are not zero between two knots.
 class NurbsBasis {
 public:

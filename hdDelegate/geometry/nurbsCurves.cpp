@@ -181,6 +181,7 @@ Authored takeApart(const NurbsCurves& curves, size_t points, Diagnostics& diagno
             d.low = curves.ranges[2 * c];
             d.high = curves.ranges[2 * c + 1];
         }
+        if (curves.knots.empty()) fillKnots(d);
         NurbsBasis::Problem problem = NurbsBasis::problem(d, "");
         if (!problem && point + size_t(d.vertexCount) > points)
             problem = {"curveVertexCounts", "go beyond the end of the points"};

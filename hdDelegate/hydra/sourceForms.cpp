@@ -53,13 +53,14 @@ NurbsDirection directionOf(HdSceneDelegate& delegate, const SdfPath& id, const s
         direction.low = range.UncheckedGet<GfVec2d>()[0];
         direction.high = range.UncheckedGet<GfVec2d>()[1];
     }
+    fillKnots(direction);
     return direction;
 }
 
 } // namespace
 
 bool readPatch(HdSceneDelegate& delegate, const SdfPath& id, Diagnostics& diagnostics, Mesh& mesh) {
-    if (doublesOf(sourceOf(delegate, id, "uKnots")).empty()) return false;
+    if (integerOf(sourceOf(delegate, id, "uOrder")) == 0) return false;
     auto patch = std::make_shared<NurbsPatch>();
     patch->u = directionOf(delegate, id, "u");
     patch->v = directionOf(delegate, id, "v");
@@ -83,12 +84,11 @@ bool readTets(HdSceneDelegate& delegate, const SdfPath& id, std::vector<int>& te
 std::shared_ptr<const Curves> bezierOf(HdSceneDelegate& delegate, const SdfPath& id,
                                        const Curves& curves, Diagnostics& diagnostics) {
     const std::vector<int> orders = intsOf(sourceOf(delegate, id, "order"));
-    const std::vector<double> knots = doublesOf(sourceOf(delegate, id, "knots"));
-    if (!orders.empty() && !knots.empty() && !curves.primvar("order") && !curves.primvar("knots")) {
+    if (!orders.empty() && !curves.primvar("order") && !curves.primvar("knots")) {
         NurbsCurves nurbs;
         static_cast<Curves&>(nurbs) = curves;
         nurbs.orders = orders;
-        nurbs.knots = knots;
+        nurbs.knots = doublesOf(sourceOf(delegate, id, "knots"));
         nurbs.ranges = doublesOf(sourceOf(delegate, id, "ranges"));
         nurbs.weights = doublesOf(sourceOf(delegate, id, "pointWeights"));
         return toBezier(nurbs, diagnostics);

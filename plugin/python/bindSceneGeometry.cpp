@@ -90,6 +90,8 @@ void setNurbsPatch(PythonEdit& edit, const std::string& path, const py::kwargs& 
         .finish();
     if (rangeU.size() == 2) patch->u.low = rangeU[0], patch->u.high = rangeU[1];
     if (rangeV.size() == 2) patch->v.low = rangeV[0], patch->v.high = rangeV[1];
+    for (NurbsDirection* direction : {&patch->u, &patch->v})
+        fillKnots(*direction);
     mesh->patch = std::move(patch);
     setNurbsCage(*mesh);
     edit.set(std::shared_ptr<const Geometry>(std::move(mesh)));

@@ -14,6 +14,7 @@ CAUSES = (  # (set, pattern of stages, pattern of ways, the cause)
     ("usdImaging", "*testUsdImagingDelegate/indexedPrimvars.usda", "*", "two meshes lie in the same place"),
     ("usdImaging", "*testUsdImagingDelegate/unvarying.usda", "*",
      "the command line moves points to the frame by their velocities; Hydra has no time of the sample"),
+    ("usdImaging", "*GLCards/testCards.usda", "sceneIndex", "scene indices know a model's box by its extentsHint alone"),
     ("usdImaging", "*GLCards/*", "*", _CARDS),
     ("usdImaging", "*GLInstancing/instancedCubes2NoInstancing.usda", "*",
      "shapes that are instances themselves, of which OpenUSD warns"),
@@ -23,8 +24,6 @@ CAUSES = (  # (set, pattern of stages, pattern of ways, the cause)
      "UsdImagingDelegate binds materials of the first instance to all of nested instances"),
     *(("usdImaging", stages, "delegate", "coarse meshes of small balls, or of one that fills the picture")
       for stages in ("*MaterialXvsNative/native*", "*/pi_ni_material2.usda", "*/ni_ni_material_outside_prototype.usda")),
-    ("usdImaging", "*GLNurbsCurves/*", "*",
-     "curves without knots are lines in Hydra; the command line draws them with even knots, and none whose order does not fit"),
     ("usdImaging", "*/invalid_universal_surface.usda", "delegate",
      "UsdImagingDelegate takes a displayColor that the Material has"),
     ("usdImaging", "*CustomNodes/*", "*", _CUSTOM),

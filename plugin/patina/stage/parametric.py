@@ -16,10 +16,8 @@ def emit_patch(context, found, common, points):
     for side in "uv":
         for name, key in _DIRECTION.items():
             fields[f"{side}_{key}"] = _integer(context, prim, side + name)
-        knots, ends = _doubles(context, prim, f"{side}Knots"), _range(context, prim, f"{side}Range")
-        if not len(knots):
-            knots = _open_uniform(fields[f"{side}_vertex_count"], fields[f"{side}_order"], ends)
-        fields[f"{side}_knots"], fields[f"{side}_range"] = knots, ends
+        fields[f"{side}_knots"] = _doubles(context, prim, f"{side}Knots")
+        fields[f"{side}_range"] = _range(context, prim, f"{side}Range")
     if len(array(context, prim, "trimCurve:counts", get(prim, "trimCurve:counts", time), 1, np.int32)):
         context.warn(prim.GetPath(), "trimCurve:counts", "is not supported: nothing is cut out of the patch")
     context.edit.set_nurbs_patch(found.path, points=points, weights=_doubles(context, prim, "pointWeights"),
@@ -54,25 +52,10 @@ def emit_nurbs_curves(context, found, common, points):
     """UsdGeomNurbsCurves."""
     prim, time = found.prim, context.time
     counts, orders = _counts(context, prim), array(context, prim, "order", get(prim, "order", time), 1, np.int32)
-    knots = _doubles(context, prim, "knots")
     ranges = array(context, prim, "ranges", get(prim, "ranges", time), 2, np.float64)
-    if not len(knots) and len(orders) == len(counts):
-        ends = ranges if len(ranges) == len(counts) else [None] * len(counts)
-        knots = np.concatenate([np.zeros(0), *map(_open_uniform, counts.tolist(), orders.tolist(), ends)])
-    context.edit.set_nurbs_curves(found.path, points=points, curve_vertex_counts=counts, orders=orders, knots=knots,
-                                  ranges=ranges.ravel(), weights=_doubles(context, prim, "pointWeights"), **common)
-
-
-def _open_uniform(count, order, ends):
-    """Knots where none are authored: evenly spaced, and so that the curve begins and ends at its outer points.
-
-    :param ends: two ascending numbers that the knots span; any other, or None, for 0 and 1
-    :returns: `count + order` knots; none for numbers of which there is no curve"""
-    if not 1 <= order <= count:
-        return np.zeros(0)
-    low, high = ends if ends is not None and ends[0] < ends[1] else (0.0, 1.0)
-    inner = np.linspace(low, high, count - order + 2)
-    return np.concatenate([np.full(order - 1, low), inner, np.full(order - 1, high)])
+    context.edit.set_nurbs_curves(
+        found.path, points=points, curve_vertex_counts=counts, orders=orders, knots=_doubles(context, prim, "knots"),
+        ranges=ranges.ravel(), weights=_doubles(context, prim, "pointWeights"), **common)
 
 
 def _counts(context, prim):

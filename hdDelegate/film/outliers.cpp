@@ -2,6 +2,7 @@
 #include "hdDelegate/film/outliers.h"
 
 #include "hdDelegate/parallel.h"
+#include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,10 +18,17 @@ constexpr float neighbourNoise = 3.0f; // standard errors of the neighbours, whi
 constexpr float ownNoise = 4.0f;       // and of the pixel itself
 constexpr float share = 0.05f;         // of the light around that a pixel may get in addition
 constexpr int passes = 2; // of two outliers side by side the second shows when the first is gone
-constexpr int smallest = 2, largest = 32; // radius of the area, in pixels
+constexpr float smallest = 2.0f; // radius of the area, in pixels
 
 float luminanceOf(const float* c) {
     return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+}
+
+/// Falls smoothly to 0 at the radius, so that the area has no edge (the biweight of Beaton and
+/// Tukey 1974).
+float falloff(int x, int y, float radius) {
+    const float rest = std::max(1.0f - float(x * x + y * y) / (radius * radius), 0.0f);
+    return rest * rest;
 }
 
 struct Neighbours {
@@ -132,15 +140,20 @@ int spreadOutliers(const Film& film, std::vector<float>& color) {
     for (const Outlier& found : outliers) {
         const float excess = luminanceOf(found.excess);
         const float around = std::max(luminanceOf(found.mean), 1e-4f);
-        const int radius =
-            std::clamp(int(0.5f * std::sqrt(excess / (share * around))), smallest, largest);
-        const int left = std::max(found.x - radius, 0), top = std::max(found.y - radius, 0);
-        const int right = std::min(found.x + radius, width - 1);
-        const int bottom = std::min(found.y + radius, height - 1);
+        // The area's mean weight is a third of its middle's.
+        const float radius = std::clamp(std::sqrt(3.0f / pi * excess / (share * around)), smallest,
+                                        std::hypot(float(width), float(height)));
+        const int reach = int(radius);
+        const int left = std::max(found.x - reach, 0), top = std::max(found.y - reach, 0);
+        const int right = std::min(found.x + reach, width - 1);
+        const int bottom = std::min(found.y + reach, height - 1);
+        const auto part = [&](int x, int y) {
+            return weight(x, y) * falloff(x - found.x, y - found.y, radius);
+        };
         double sum = 0.0;
         for (int y = top; y <= bottom; ++y)
             for (int x = left; x <= right; ++x)
-                sum += weight(x, y);
+                sum += part(x, y);
         if (!(sum > 0.0)) { // nothing is there that could carry it
             for (int c = 0; c < 3; ++c)
                 pixel(found.x, found.y)[c] += found.excess[c];
@@ -149,7 +162,7 @@ int spreadOutliers(const Film& film, std::vector<float>& color) {
         for (int y = top; y <= bottom; ++y)
             for (int x = left; x <= right; ++x)
                 for (int c = 0; c < 3; ++c)
-                    pixel(x, y)[c] += float(found.excess[c] * weight(x, y) / sum);
+                    pixel(x, y)[c] += float(found.excess[c] * part(x, y) / sum);
     }
     return int(outliers.size());
 }

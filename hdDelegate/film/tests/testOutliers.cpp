@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 using namespace patina;
@@ -49,6 +50,30 @@ TEST_F(OutliersOfAWall, TheLightOfAFireflyGoesToThePixelsAround) {
     EXPECT_NEAR(meanOf(color), meanOf(before), 1e-5 * meanOf(before));
     for (size_t i = 0; i < color.size(); ++i)
         EXPECT_LT(color[i], 0.5f) << "no spot shows at " << i / 3 % size << " " << i / 3 / size;
+}
+
+TEST(Outliers, TheLightOfAnyFireflyHasNoEdge) {
+    constexpr int wide = 400;
+    Film film;
+    film.reset(wide, wide, {});
+    film.addColor(120, 90, glm::vec3(9e4f), 1.0f);
+    std::minstd_rand random(7);
+    for (int y = 0; y < wide; ++y)
+        for (int x = 0; x < wide; ++x)
+            addWall(film, x, y, 0.2f, random);
+    std::vector<float> color = film.resolve("color");
+    const std::vector<float> before = color;
+    EXPECT_EQ(spreadOutliers(film, color), 1);
+    EXPECT_NEAR(meanOf(color), meanOf(before), 1e-5 * meanOf(before));
+    // 14,000 times the wall's light on 160,000 pixels. A step to the next pixel is some noise: of a
+    // mean 0.058 / sqrt(32), so that six standard errors of a difference are 0.09.
+    const float step = 0.09f * 0.2f * 1.5f;
+    for (int y = 0; y < wide; ++y)
+        for (int x = 1; x < wide; ++x) {
+            const size_t i = size_t(y * wide + x) * 3;
+            EXPECT_LT(color[i], 0.2f * 1.5f);
+            EXPECT_LT(std::abs(color[i] - color[i - 3]), step) << x << " " << y;
+        }
 }
 
 TEST_F(OutliersOfAWall, HighlightsWhoseSamplesAgreeStay) {

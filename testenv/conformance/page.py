@@ -11,7 +11,8 @@ import ways
 from patina.chart import look
 
 WIDTH = 160  # pixels of a peer's picture
-STYLE = """figure{width:min-content}figcaption{overflow-wrap:anywhere}img{display:block}td,th{text-align:left}
+STYLE = """td:first-child{min-width:18em;max-width:24em}figure{width:min-content}img{display:block}td,th{text-align:left}
+td:first-child,figcaption{overflow-wrap:anywhere}
 td.n{text-align:right}section{border-top:1px solid var(--line);margin-top:18px}"""
 ORDER = ("crash", "timeout", "memory", "NaN", "message", "differs", "failed", "undecided", "coarse", "agrees", "same", "ok")
 

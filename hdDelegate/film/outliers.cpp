@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace patina {
@@ -19,6 +20,7 @@ constexpr float ownNoise = 4.0f;       // and of the pixel itself
 constexpr float share = 0.05f;         // of the light around that a pixel may get in addition
 constexpr int passes = 2; // of two outliers side by side the second shows when the first is gone
 constexpr float smallest = 2.0f; // radius of the area, in pixels
+constexpr int finest = 32;       // largest radius in steps of nodes
 
 float luminanceOf(const float* c) {
     return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
@@ -30,6 +32,72 @@ float falloff(int x, int y, float radius) {
     const float rest = std::max(1.0f - float(x * x + y * y) / (radius * radius), 0.0f);
     return rest * rest;
 }
+
+/// Light that goes to the pixels of areas, on nodes some pixels apart between which it is linear:
+/// so the time of an area does not depend on its size. The sum over the pixels is exact.
+class Spread {
+public:
+    /// @param weights of the pixels, in proportion to which they get light
+    Spread(const std::vector<float>& weights, int width, int height, int step)
+        : _width(width), _height(height), _step(step), _columns((width - 1) / step + 2),
+          _rows((height - 1) / step + 2), _weights(size_t(_columns) * size_t(_rows)),
+          _light(3 * _weights.size()) {
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                corners(x, y, [&](size_t node, float part) {
+                    _weights[node] += part * weights[size_t(y) * size_t(width) + size_t(x)];
+                });
+    }
+
+    /// @param light three floats
+    /// @returns false where no pixel of the area has a weight
+    bool add(int x, int y, float radius, const float* light) {
+        const int reach = int(radius);
+        const int left = std::max(x - reach, 0) / _step, top = std::max(y - reach, 0) / _step;
+        const int right = std::min((x + reach) / _step, _columns - 1);
+        const int bottom = std::min((y + reach) / _step, _rows - 1);
+        const auto each = [&](const auto& visit) {
+            for (int j = top; j <= bottom; ++j)
+                for (int i = left; i <= right; ++i)
+                    visit(size_t(j) * size_t(_columns) + size_t(i),
+                          falloff(i * _step - x, j * _step - y, radius));
+        };
+        double sum = 0.0;
+        each([&](size_t node, float part) { sum += double(part) * _weights[node]; });
+        if (!(sum > 0.0)) return false;
+        each([&](size_t node, float part) {
+            for (size_t c = 0; c < 3; ++c)
+                _light[3 * node + c] += float(double(light[c]) * part / sum);
+        });
+        return true;
+    }
+
+    void show(const std::vector<float>& weights, std::vector<float>& color) const {
+        parallelFor(0, _height, [&](int y) {
+            for (int x = 0; x < _width; ++x) {
+                const size_t pixel = size_t(y) * size_t(_width) + size_t(x);
+                corners(x, y, [&](size_t node, float part) {
+                    for (size_t c = 0; c < 3; ++c)
+                        color[3 * pixel + c] += weights[pixel] * part * _light[3 * node + c];
+                });
+            }
+        });
+    }
+
+private:
+    /// The four nodes around a pixel, with their parts of it.
+    template <class Visit> void corners(int x, int y, const Visit& visit) const {
+        const float u = float(x % _step) / float(_step), v = float(y % _step) / float(_step);
+        const size_t node = size_t(y / _step) * size_t(_columns) + size_t(x / _step);
+        visit(node, (1.0f - u) * (1.0f - v));
+        visit(node + 1, u * (1.0f - v));
+        visit(node + size_t(_columns), (1.0f - u) * v);
+        visit(node + size_t(_columns) + 1, u * v);
+    }
+
+    int _width, _height, _step, _columns, _rows;
+    std::vector<float> _weights, _light;
+};
 
 struct Neighbours {
     int count = 0;
@@ -131,39 +199,31 @@ int spreadOutliers(const Film& film, std::vector<float>& color) {
                 outliers.push_back(found);
             }
     }
+    if (outliers.empty()) return 0;
     // In proportion to what is there without outliers, not to what others have added.
-    const std::vector<float> before = outliers.empty() ? std::vector<float>() : color;
-    const auto weight = [&](int x, int y) {
-        const float* c = &before[(size_t(y) * size_t(width) + size_t(x)) * 3];
-        return film.sampleCount(x, y) ? std::max(luminanceOf(c), 0.0f) : 0.0f;
-    };
+    std::vector<float> weights(size_t(width) * size_t(height));
+    for (size_t i = 0; i < weights.size(); ++i)
+        if (film.sampleCount(int(i) % width, int(i) / width))
+            weights[i] = std::max(luminanceOf(&color[3 * i]), 0.0f);
+    std::map<int, Spread> spreads; // by the step of their nodes
     for (const Outlier& found : outliers) {
         const float excess = luminanceOf(found.excess);
         const float around = std::max(luminanceOf(found.mean), 1e-4f);
         // The area's mean weight is a third of its middle's.
         const float radius = std::clamp(std::sqrt(3.0f / pi * excess / (share * around)), smallest,
                                         std::hypot(float(width), float(height)));
-        const int reach = int(radius);
-        const int left = std::max(found.x - reach, 0), top = std::max(found.y - reach, 0);
-        const int right = std::min(found.x + reach, width - 1);
-        const int bottom = std::min(found.y + reach, height - 1);
-        const auto part = [&](int x, int y) {
-            return weight(x, y) * falloff(x - found.x, y - found.y, radius);
-        };
-        double sum = 0.0;
-        for (int y = top; y <= bottom; ++y)
-            for (int x = left; x <= right; ++x)
-                sum += part(x, y);
-        if (!(sum > 0.0)) { // nothing is there that could carry it
+        int step = 1;
+        while (radius > float(finest * step))
+            step *= 2;
+        auto place = spreads.find(step);
+        if (place == spreads.end())
+            place = spreads.emplace(step, Spread(weights, width, height, step)).first;
+        if (!place->second.add(found.x, found.y, radius, found.excess)) // nothing could carry it
             for (int c = 0; c < 3; ++c)
                 pixel(found.x, found.y)[c] += found.excess[c];
-            continue;
-        }
-        for (int y = top; y <= bottom; ++y)
-            for (int x = left; x <= right; ++x)
-                for (int c = 0; c < 3; ++c)
-                    pixel(x, y)[c] += float(found.excess[c] * part(x, y) / sum);
     }
+    for (const auto& item : spreads)
+        item.second.show(weights, color);
     return int(outliers.size());
 }
 

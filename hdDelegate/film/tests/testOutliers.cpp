@@ -76,6 +76,27 @@ TEST(Outliers, TheLightOfAnyFireflyHasNoEdge) {
         }
 }
 
+TEST(Outliers, ThousandsOfThemKeepTheMean) {
+    constexpr int wide = 400;
+    Film film;
+    film.reset(wide, wide, {});
+    std::minstd_rand random(7);
+    int fireflies = 0;
+    for (int y = 0; y < wide; ++y)
+        for (int x = 0; x < wide; ++x) {
+            if (x % 9 == 4 &&
+                y % 9 == 4) { // areas of every width, from a few pixels to all of them
+                film.addColor(x, y, glm::vec3(std::exp2(float(5 + fireflies % 13))), 1.0f);
+                ++fireflies;
+            }
+            addWall(film, x, y, 0.2f, random);
+        }
+    std::vector<float> color = film.resolve("color");
+    const double mean = meanOf(color);
+    EXPECT_EQ(spreadOutliers(film, color), fireflies);
+    EXPECT_NEAR(meanOf(color), mean, 1e-4 * mean);
+}
+
 TEST_F(OutliersOfAWall, HighlightsWhoseSamplesAgreeStay) {
     for (int i = 0; i < samples; ++i)
         film.addColor(20, 30, glm::vec3(30.0f), 1.0f);

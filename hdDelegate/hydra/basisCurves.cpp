@@ -11,8 +11,6 @@ namespace patina {
 
 namespace {
 
-constexpr float lineWidth = 0.005f; // of the diagonal; plugin/patina/stage/drawModes.py has it too
-
 CurveBasis basisOf(const HdBasisCurvesTopology& topology, HdPatinaRenderParam& param,
                    const SdfPath& id) {
     if (topology.GetCurveType() == HdTokens->linear) return CurveBasis::Linear;
@@ -47,7 +45,7 @@ std::shared_ptr<const Curves> linesOf(const Curves& curves) {
                                   [](const Primvar& p) { return p.name == "widths"; }),
                    primvars.end());
     primvars.push_back(
-        {"widths", Interpolation::Constant, 1, {lineWidth * glm::length(high - low)}, {}});
+        {"widths", Interpolation::Constant, 1, {standInWidth * glm::length(high - low)}, {}});
     return lines;
 }
 

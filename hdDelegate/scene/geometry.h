@@ -121,6 +121,9 @@ struct Mesh : Geometry {
 enum class CurveBasis { Linear, Bezier, Bspline, CatmullRom };
 enum class CurveWrap { Nonperiodic, Periodic, Pinned };
 
+/// Width of lines that stand in for a model (its box, its axes), of the diagonal of their bounds.
+inline constexpr float standInWidth = 0.005f;
+
 /// UsdGeomBasisCurves. With a primvar `normals` the curves are ribbons, else tubes.
 /// Widths (diameters) come as primvar `widths`, any interpolation.
 struct Curves : Geometry {

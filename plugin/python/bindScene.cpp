@@ -155,6 +155,7 @@ void bindScene(py::module_& m) {
             return inputs;
         },
         "Numbers of UsdGeomCamera: (attribute, keyword of set_camera(), fallback).");
+    m.attr("STAND_IN_WIDTH") = standInWidth;
     m.def(
         "light_filter_types", [] { return wordsBySchemas(lightFilterRows); },
         "Types of light filters, separated by blanks where several are read alike -> word.");

@@ -9,7 +9,6 @@ from .transforms import transform_of
 
 # Of a box whose corner i has the high x, y, z where bits 4, 2, 1 of i are set; in the order that UsdImaging has them.
 _EDGES = [(0, 4), (4, 6), (6, 2), (2, 0), (1, 5), (5, 7), (7, 3), (3, 1), (0, 1), (4, 5), (6, 7), (2, 3)]
-_WIDTH = 0.005  # of the lines' diagonal; hdDelegate/hydra/basisCurves.cpp has it too
 
 
 def of(prim, inherited):
@@ -45,7 +44,7 @@ def emit(context, found, module):
     else:
         corners = [[(low, high)[i >> (2 - a) & 1][a] for a in range(3)] for i in range(8)]
         points = [corners[i] for edge in _EDGES for i in edge]
-    width = _WIDTH * float(np.linalg.norm(np.ptp(points, axis=0)))
+    width = module.STAND_IN_WIDTH * float(np.linalg.norm(np.ptp(points, axis=0)))
     context.edit.set_curves(
         found.path, basis="linear", points=np.array(points, dtype=np.float32),
         curve_vertex_counts=np.full(len(points) // 2, 2, np.int32),

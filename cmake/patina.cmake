@@ -47,8 +47,8 @@ if(PATINA_PRECOMPILED)
     endif()
 endif()
 
-# patina_unity(targets...): their files are compiled six at once, since headers of OpenUSD take most of the time of
-# each. Names in anonymous namespaces have to differ within a room.
+# patina_unity(targets...): their files are compiled six at once, since OpenUSD's headers take most of the time of each.
+# Names in anonymous namespaces have to differ within a target.
 function(patina_unity)
     foreach(target ${ARGN})
         if(PATINA_UNITY AND TARGET ${target})

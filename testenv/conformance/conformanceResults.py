@@ -8,6 +8,7 @@ import datetime
 import json
 import os
 
+import agreement
 import causes
 
 FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "results.json")
@@ -102,8 +103,8 @@ def page():
             "Hydra's pictures are compared with those of the path tracer, tile by tile, by Welch's test with a margin of 1 %.",
             "The percentage is the largest difference of a tile.", "",
             "- *same*: all bits are equal. *agrees*: no tile differs by more than the margin.",
-            "- *coarse*: tiles differ, the picture's mean does not by more than 25 %, and the stage has spheres, cubes or the",
-            "  like, of which UsdImagingDelegate makes coarse meshes.",
+            "- *coarse*: tiles differ, and the stage has spheres or other shapes of which UsdImagingDelegate makes coarse",
+            f"  meshes. The picture's mean differs by at most {percent(agreement.COARSE)}, by which such a ball is too small.",
             "- *undecided*: noise hides what the test is asked to see."]
     for name, of in sorted(read().items()):
         counts = of["counts"]

@@ -5,7 +5,7 @@ import mmap
 import os
 import re
 import subprocess
-import sysconfig
+import sys
 from typing import NamedTuple
 
 from patina.cli.errors import CommandError
@@ -48,11 +48,11 @@ def prefix_of(host, headers, folder):
     usdrecord = os.path.join(headers, "pxr", "usdImaging", "bin", "usdrecord", "usdrecord.py")
     _link({"usdrecord": usdrecord} if os.path.exists(usdrecord) else {}, os.path.join(prefix, "bin"))
     tbb = sorted(glob.glob(os.path.join(prefix, "lib", "libtbb.so*")))
-    values = sysconfig.get_config_var
+    python = _python(host)
+    include, own = _python_paths(python)
     _write(os.path.join(prefix, "pxrConfig.cmake"), _CONFIG.format(
-        host=host, version=_number(version), python=_python(host), prefix=prefix, library=os.path.basename(library),
-        headers=headers, pythonInclude=sysconfig.get_path("include"), tbb=tbb[0] if tbb else "tbb",
-        pythonLibrary=os.path.join(values("LIBDIR") or "", values("LDLIBRARY") or "")))
+        host=host, version=_number(version), python=python, prefix=prefix, library=os.path.basename(library),
+        headers=headers, pythonInclude=include, tbb=tbb[0] if tbb else "tbb", pythonLibrary=own))
     return name, prefix
 
 
@@ -153,6 +153,17 @@ def _python(host):
         folder = os.path.dirname(folder)
     own = sorted(glob.glob(os.path.join(glob.escape(host), "**", "python", "bin", "python3*"), recursive=True))
     return own[0] if own else ""
+
+
+def _python_paths(python):
+    """:returns: (folder of the headers of a host's Python, its library); this Python's where the host's has no headers"""
+    code = ("import sysconfig as s; v = s.get_config_var; "
+            "print(s.get_path('include'), (v('LIBDIR') or '') + '/' + (v('LDLIBRARY') or ''), sep='\\n')")
+    for executable in filter(None, (python, sys.executable)):
+        found = subprocess.run([executable, "-I", "-c", code], capture_output=True, text=True, check=False).stdout.splitlines()
+        if found and os.path.exists(os.path.join(found[0], "Python.h")):
+            return found
+    raise CommandError("Python's headers are missing: OpenUSD's include them (package python3-dev)")
 
 
 class Built(NamedTuple):

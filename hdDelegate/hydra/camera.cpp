@@ -73,12 +73,7 @@ void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
                           HdDirtyBits* dirtyBits) {
     auto& param = *static_cast<HdPatinaRenderParam*>(renderParam);
     HdCamera::Sync(delegate, renderParam, dirtyBits);
-    if (param.widenShutter(GetShutterOpen(), GetShutterClose())) {
-        // What is no rprim is sampled again by readAgain().
-        HdChangeTracker& tracker = delegate->GetRenderIndex().GetChangeTracker();
-        tracker.MarkAllRprimsDirty(HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyPoints |
-                                   HdChangeTracker::DirtyPrimvar | HdChangeTracker::DirtyInstancer);
-    }
+    param.widenShutter(GetShutterOpen(), GetShutterClose());
     auto camera = std::make_shared<Camera>();
     camera->path = GetId().GetString();
     camera->transform = placeOf(*delegate, param, GetId());

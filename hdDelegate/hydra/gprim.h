@@ -52,6 +52,8 @@ public:
         HdInstancer::_SyncInstancerAndParents(delegate->GetRenderIndex(), this->GetInstancerId());
 
         const bool all = !_prim;
+        _repr = reprToken;
+        if (all) _shutter = param.shutter();
         auto prim = all ? std::make_shared<Prim>() : std::make_shared<Prim>(*_prim);
         prim->path = id.GetString();
         prim->id = this->GetPrimId();
@@ -105,6 +107,19 @@ public:
         if (this->IsVisible()) param.set(shownAs(delegate, param, _prim));
     }
 
+    void updateBits(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                    HdDirtyBits bits) override {
+        if (_prim) Sync(&delegate, &param, &bits, _repr);
+    }
+
+    void updateSamples(HdSceneDelegate& delegate, HdPatinaRenderParam& param) override {
+        if (_shutter == param.shutter()) return;
+        _shutter = param.shutter();
+        updateBits(delegate, param,
+                   HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyPoints |
+                       HdChangeTracker::DirtyPrimvar | HdChangeTracker::DirtyInstancer);
+    }
+
 protected:
     /// Reads what only this kind of prim has.
     virtual void syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
@@ -121,6 +136,8 @@ protected:
 
 private:
     std::shared_ptr<const Prim> _prim; ///< as Hydra has it
+    TfToken _repr;                     ///< of the last sync
+    GfVec2f _shutter{0.0f};            ///< over which it was sampled
     bool _hasPoints = false;           ///< Hydra lists points of it
 };
 

@@ -2,6 +2,7 @@
 #include "hdDelegate/hydra/light.h"
 
 #include "hdDelegate/hydra/instances.h"
+#include "hdDelegate/hydra/lightFilter.h"
 #include "hdDelegate/hydra/lightParams.h"
 #include "hdDelegate/hydra/sampling.h"
 
@@ -41,9 +42,6 @@ void HdPatinaLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     // Hosts mark params dirty for visibility, collections and resources alike.
     if (all || (*dirtyBits & ~HdDirtyBits(DirtyTransform)))
         readLightParams(*delegate, param, id, _type, *light);
-    for (const LightFilter& filter : light->filters) // edits of one reach the light
-        delegate->GetRenderIndex().GetChangeTracker().AddSprimSprimDependency(SdfPath(filter.path),
-                                                                              id);
     if (GetInstancerId().IsEmpty()) {
         param.instances().leave(id);
         light->group.clear();
@@ -69,6 +67,14 @@ void HdPatinaLight::updateTransform(HdPatinaRenderParam& param) {
     _shutter = param.shutter();
     auto light = std::make_shared<Light>(*_light);
     light->transform = placeOf(*_delegate, param, GetId());
+    _light = light;
+    if (_light->visible) param.set(_light);
+}
+
+void HdPatinaLight::updateFilters(HdPatinaRenderParam& param) {
+    if (!_light) return;
+    auto light = std::make_shared<Light>(*_light);
+    light->filters = readLightFilters(*_delegate, param, GetId());
     _light = light;
     if (_light->visible) param.set(_light);
 }

@@ -184,6 +184,7 @@ std::vector<LightFilter> readLightFilters(HdSceneDelegate& delegate, HdPatinaRen
     const VtValue paths = delegate.GetLightParamValue(light, HdTokens->filters);
     if (!paths.IsHolding<SdfPathVector>()) return filters;
     for (const SdfPath& path : paths.UncheckedGet<SdfPathVector>()) {
+        param.use(path, light);
         const Inputs inputs(delegate, param, light, path);
         const LightFilterRow* row = rowOf(inputs.type());
         if (!row) {
@@ -199,8 +200,6 @@ std::vector<LightFilter> readLightFilters(HdSceneDelegate& delegate, HdPatinaRen
                                "'; it is left out");
             continue;
         }
-        // Edits of a filter reach the light by a dependency. Of a light on itself, or of lights on
-        // each other, it would have no end.
         if (!delegate.GetRenderIndex().GetSprim(HdPrimTypeTokens->lightFilter, path)) {
             param.warn(light, "light:filters",
                        path.GetString() + " is no light filter; it is left out");

@@ -16,8 +16,12 @@ class HdPatinaLightFilter final : public HdSprim {
 public:
     explicit HdPatinaLightFilter(const SdfPath& id) : HdSprim(id) {}
 
-    void Sync(HdSceneDelegate*, HdRenderParam*, HdDirtyBits* dirtyBits) override {
+    void Sync(HdSceneDelegate*, HdRenderParam* renderParam, HdDirtyBits* dirtyBits) override {
+        if (*dirtyBits != HdChangeTracker::Clean) Finalize(renderParam);
         *dirtyBits = HdChangeTracker::Clean;
+    }
+    void Finalize(HdRenderParam* renderParam) override {
+        static_cast<HdPatinaRenderParam*>(renderParam)->setChanged(GetId());
     }
     HdDirtyBits GetInitialDirtyBitsMask() const override {
         return HdChangeTracker::AllSceneDirtyBits;

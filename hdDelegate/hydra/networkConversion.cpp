@@ -3,6 +3,7 @@
 
 #include "hdDelegate/hydra/values.h"
 
+#include "materialNetwork/graph/expand.h"
 #include "materialNetwork/network/translate.h"
 #include "materialNetwork/nodes/models.h"
 
@@ -79,12 +80,46 @@ void refineType(const NodeDef* def, const std::string& input, Value& value) {
         value.type = wanted;
 }
 
+/// Since 26.03 scene indices give a texture's sourceColorSpace as the colour space of its file.
+void moveColorSpace(NetworkNode& node) {
+    const auto file = node.inputs.find("file");
+    if (node.id != "UsdUVTexture" || file == node.inputs.end()) return;
+    std::string& space = file->second.colorSpace;
+    if ((space != "raw" && space != "sRGB" && space != "auto") ||
+        !node.inputs.emplace("sourceColorSpace", Value::makeString(space)).second)
+        return;
+    space.clear();
+}
+
+/// The nodes that are not Patina's own, while one network is read.
+class OtherNodes {
+public:
+    explicit OtherNodes(HdPatinaDocumentNodes& nodes) : _nodes(nodes) {}
+    const NodeDef* definitionOf(const std::string& id) {
+        if (const NodeDef* def = findNodeDef(id)) return def;
+        const ShadingModel* model = _nodes.find(id, diagnostics);
+        _areUsed |= model != nullptr;
+        return model ? &model->def : nullptr;
+    }
+    void expandIn(Network& network) {
+        if (!_areUsed) return;
+        network = expand(
+            network, [&](const std::string& id) { return _nodes.find(id, diagnostics); },
+            diagnostics);
+    }
+    Diagnostics diagnostics;
+
+private:
+    HdPatinaDocumentNodes& _nodes;
+    bool _areUsed = false;
+};
+
 void addNode(const HdMaterialNode& given, const SdfPath& material, HdPatinaRenderParam& param,
-             Network& network) {
+             OtherNodes& others, Network& network) {
     NetworkNode node;
     node.path = nodePath(given.path, material);
     node.id = given.identifier.GetString();
-    const NodeDef* def = findNodeDef(node.id);
+    const NodeDef* def = others.definitionOf(node.id);
     for (const auto& item : given.parameters) {
         const std::string& name = item.first.GetString();
         if (describesAnother(name)) continue;
@@ -97,6 +132,7 @@ void addNode(const HdMaterialNode& given, const SdfPath& material, HdPatinaRende
                        "values of type " + item.second.GetTypeName() +
                            " cannot be used; the default is used");
     }
+    moveColorSpace(node);
     network.nodes.push_back(std::move(node));
 }
 
@@ -141,6 +177,7 @@ Network networkOf(const VtValue& resource, const SdfPath& material, HdPatinaRend
         return network;
     }
     const HdMaterialNetworkMap& map = resource.UncheckedGet<HdMaterialNetworkMap>();
+    OtherNodes others(param.documentNodes());
     std::unordered_map<std::string, size_t> places; // in network.nodes, by path
     for (const auto& terminal : map.map) {
         const HdMaterialNetwork& part = terminal.second;
@@ -148,7 +185,7 @@ Network networkOf(const VtValue& resource, const SdfPath& material, HdPatinaRend
         // Terminals may share nodes.
         for (const HdMaterialNode& node : part.nodes)
             if (places.emplace(nodePath(node.path, material), network.nodes.size()).second)
-                addNode(node, material, param, network);
+                addNode(node, material, param, others, network);
         for (const HdMaterialRelationship& relation : part.relationships) {
             const auto place = places.find(nodePath(relation.outputId, material));
             if (place == places.end()) continue;
@@ -158,18 +195,17 @@ Network networkOf(const VtValue& resource, const SdfPath& material, HdPatinaRend
         }
         // The last node is the terminal's. Which of its outputs is not told.
         const std::string name = terminal.first.GetString();
-        const NodeDef* def = findNodeDef(part.nodes.back().identifier.GetString());
+        const NodeDef* def = others.definitionOf(part.nodes.back().identifier.GetString());
         std::string output = name;
         if (def && !def->outputs.empty())
             output = def->outputs[size_t(std::max(def->findOutput(name), 0))].name;
         network.terminals[name] = {nodePath(part.nodes.back().path, material), output};
     }
-    if (isBefore139(map)) {
-        Diagnostics diagnostics;
-        upgradeNetwork(network, diagnostics);
-        for (const Diagnostic& d : diagnostics.all())
-            param.warn(SdfPath(d.prim), d.input, d.message);
-    }
+    if (isBefore139(map)) upgradeNetwork(network, others.diagnostics);
+    others.expandIn(network);
+    for (const Diagnostic& d : others.diagnostics.all())
+        param.warn(SdfPath::IsValidPathString(d.prim) ? SdfPath(d.prim) : material, d.input,
+                   d.message);
     if (network.terminals.empty())
         param.warn(
             material, "",

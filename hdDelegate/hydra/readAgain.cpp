@@ -7,6 +7,7 @@
 #include "hdDelegate/hydra/linkedPrim.h"
 #include "hdDelegate/scene/light.h"
 
+#include <pxr/base/work/loops.h>
 #include <pxr/imaging/hd/rprim.h>
 
 namespace patina {
@@ -21,19 +22,25 @@ void forInstancers(HdRenderIndex& index, HdPatinaRenderParam& param, const F& re
             read(*static_cast<HdPatinaInstancer*>(instancer));
 }
 
+/// @param read is called where there is such a prim
+template <class F> void forRprim(HdRenderIndex& index, const SdfPath& path, const F& read) {
+    auto* prim = dynamic_cast<HdPatinaLinkedPrim*>(const_cast<HdRprim*>(index.GetRprim(path)));
+    HdSceneDelegate* delegate = index.GetSceneDelegateForRprim(path);
+    if (prim && delegate) read(*prim, *delegate);
+}
+
 /// Neither UsdImagingDelegate nor Hydra's light linking tells all prims whose links have changed.
 void readLinks(HdRenderIndex& index, HdPatinaRenderParam& param) {
     forInstancers(index, param,
                   [&](HdPatinaInstancer& instancer) { instancer.updateCategories(param); });
-    for (const SdfPath& path : index.GetRprimIds()) {
-        auto* prim = dynamic_cast<HdPatinaLinkedPrim*>(const_cast<HdRprim*>(index.GetRprim(path)));
-        HdSceneDelegate* delegate = index.GetSceneDelegateForRprim(path);
-        if (prim && delegate) prim->updateCategories(*delegate, param);
-    }
+    for (const SdfPath& path : index.GetRprimIds())
+        forRprim(index, path, [&](HdPatinaLinkedPrim& prim, HdSceneDelegate& delegate) {
+            prim.updateCategories(delegate, param);
+        });
 }
 
-/// Rprims are marked dirty by the camera. Of lights that come from scene indices the change tracker
-/// takes no mark, and an instancer that only lights ask for syncs with none of them.
+/// The change tracker takes no mark of prims that come from scene indices, and an instancer that
+/// only lights ask for syncs with none of them.
 void readSamples(HdRenderIndex& index, HdPatinaRenderParam& param) {
     forInstancers(index, param,
                   [&](HdPatinaInstancer& instancer) { instancer.updateTransforms(param); });
@@ -43,6 +50,22 @@ void readSamples(HdRenderIndex& index, HdPatinaRenderParam& param) {
             if (HdSprim* light = index.GetSprim(type, path))
                 static_cast<HdPatinaLight*>(light)->updateTransform(param);
     }
+    const SdfPathVector& rprims = index.GetRprimIds();
+    WorkParallelForN(rprims.size(), [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i)
+            forRprim(index, rprims[i], [&](HdPatinaLinkedPrim& prim, HdSceneDelegate& delegate) {
+                prim.updateSamples(delegate, param);
+            });
+    });
+}
+
+void readOthers(HdRenderIndex& index, HdPatinaRenderParam& param, const SdfPath& reader) {
+    forRprim(index, reader, [&](HdPatinaLinkedPrim& volume, HdSceneDelegate& delegate) {
+        volume.updateBits(delegate, param, HdChangeTracker::DirtyVolumeField);
+    });
+    for (const LightRow& row : lightRows)
+        if (HdSprim* light = index.GetSprim(TfToken(row.hydra), reader))
+            static_cast<HdPatinaLight*>(light)->updateFilters(param);
 }
 
 } // namespace
@@ -50,6 +73,8 @@ void readSamples(HdRenderIndex& index, HdPatinaRenderParam& param) {
 void readAgain(HdRenderIndex& index, HdPatinaRenderParam& param) {
     if (param.takeLinksChanged()) readLinks(index, param);
     if (param.takeShutterWidened()) readSamples(index, param);
+    for (const SdfPath& reader : param.takeReadersOfChanged())
+        readOthers(index, param, reader);
 }
 
 } // namespace patina

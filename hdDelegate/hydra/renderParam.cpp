@@ -6,6 +6,7 @@
 #include <pxr/base/tf/diagnostic.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace patina {
 
@@ -40,16 +41,24 @@ void HdPatinaRenderParam::removeMaterial(const std::string& path) {
     _edit.remove(path, PrimKind::Material);
 }
 
-void HdPatinaRenderParam::useField(const SdfPath& field, const SdfPath& volume) {
+void HdPatinaRenderParam::use(const SdfPath& read, const SdfPath& reader) {
     std::lock_guard<std::mutex> lock(_mutex);
-    _volumes[field].insert(volume);
+    _readers[read].insert(reader);
 }
 
-std::vector<SdfPath> HdPatinaRenderParam::volumesOf(const SdfPath& field) const {
+void HdPatinaRenderParam::setChanged(const SdfPath& read) {
     std::lock_guard<std::mutex> lock(_mutex);
-    const auto found = _volumes.find(field);
-    if (found == _volumes.end()) return {};
-    return {found->second.begin(), found->second.end()};
+    _changed.insert(read);
+}
+
+std::set<SdfPath> HdPatinaRenderParam::takeReadersOfChanged() {
+    std::lock_guard<std::mutex> lock(_mutex);
+    std::set<SdfPath> readers;
+    for (const SdfPath& read : std::exchange(_changed, {})) {
+        const auto found = _readers.find(read);
+        if (found != _readers.end()) readers.insert(found->second.begin(), found->second.end());
+    }
+    return readers;
 }
 
 void HdPatinaRenderParam::setMetersPerUnit(double metersPerUnit) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hdDelegate/hydra/compat.h"
+#include "hdDelegate/hydra/documentNodes.h"
 #include "hdDelegate/scene/scene.h"
 
 #include <pxr/base/gf/vec2f.h>
@@ -44,9 +45,9 @@ public:
     /// When some camera's shutter is open: (first open, last close), in time codes relative to the
     /// frame. (0, 0) while none ever moves it.
     GfVec2f shutter() const;
-    /// @returns whether that made the interval longer, so that prims have to be sampled anew
+    /// @returns whether that made the interval longer: readAgain() samples prims anew then
     bool widenShutter(double open, double close);
-    /// @returns whether it did since the last call, so that readAgain() has to
+    /// @returns whether it did since the last call
     bool takeShutterWidened() { return _shutterWidened.exchange(false); }
 
     /// The links of a light changed: those of all prims are to be read again. Any thread.
@@ -60,10 +61,14 @@ public:
     /// Instances of rprims, gathered while prims sync.
     HdPatinaInstances& instances() { return *_instances; }
 
-    /// Remembers that a volume reads a field. Any thread.
-    void useField(const SdfPath& field, const SdfPath& volume);
-    /// @returns paths of the volumes that read a field, or once did
-    std::vector<SdfPath> volumesOf(const SdfPath& field) const;
+    HdPatinaDocumentNodes& documentNodes() { return _documentNodes; }
+
+    /// Remembers that a prim reads another: a volume a field, a light a filter. Any thread.
+    void use(const SdfPath& read, const SdfPath& reader);
+    /// A prim that others read changed, came or went: readAgain() asks its readers. Any thread.
+    void setChanged(const SdfPath& read);
+    /// @returns paths of those that read, or once did, what changed since the last call
+    std::set<SdfPath> takeReadersOfChanged();
 
     /// Hands warnings that came up since the last call to the host, through TF_WARN. Host's thread.
     void reportWarnings();
@@ -76,9 +81,11 @@ private:
     mutable std::mutex _mutex;
     SceneEdit _edit;
     std::unique_ptr<HdPatinaInstances> _instances;
+    HdPatinaDocumentNodes _documentNodes;
     GfVec2f _shutter{0.0f};
     std::atomic<bool> _shutterWidened{false}, _linksChanged{false};
-    std::map<SdfPath, std::set<SdfPath>> _volumes; ///< by field
+    std::map<SdfPath, std::set<SdfPath>> _readers; ///< by what they read
+    std::set<SdfPath> _changed;                    ///< of what is read
     size_t _reported = 0;                          ///< diagnostics that the host was told
 };
 

@@ -13,16 +13,8 @@ const TfTokenVector& fieldTypes() {
     return types;
 }
 
-void HdPatinaField::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
-                         HdDirtyBits* dirtyBits) {
-    if (_known && *dirtyBits != Clean) {
-        auto& param = *static_cast<HdPatinaRenderParam*>(renderParam);
-        HdChangeTracker& tracker = delegate->GetRenderIndex().GetChangeTracker();
-        for (const SdfPath& volume : param.volumesOf(GetId()))
-            if (delegate->GetRenderIndex().HasRprim(volume))
-                tracker.MarkRprimDirty(volume, HdChangeTracker::DirtyVolumeField);
-    }
-    _known = true;
+void HdPatinaField::Sync(HdSceneDelegate*, HdRenderParam* renderParam, HdDirtyBits* dirtyBits) {
+    if (*dirtyBits != Clean) static_cast<HdPatinaRenderParam*>(renderParam)->setChanged(GetId());
     *dirtyBits = Clean;
 }
 
@@ -44,7 +36,7 @@ void HdPatinaVolume::syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& p
         volume.fields.push_back({field.fieldName.GetString(),
                                  textOf(delegate.Get(field.fieldId, HdFieldTokens->filePath)),
                                  name.empty() ? field.fieldName.GetString() : name, nullptr});
-        param.useField(field.fieldId, GetId());
+        param.use(field.fieldId, GetId());
     }
     std::sort(volume.fields.begin(), volume.fields.end(),
               [](const VolumeField& a, const VolumeField& b) { return a.name < b.name; });

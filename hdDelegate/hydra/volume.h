@@ -20,9 +20,6 @@ public:
     void Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
               HdDirtyBits* dirtyBits) override;
     HdDirtyBits GetInitialDirtyBitsMask() const override { return AllDirty; }
-
-private:
-    bool _known = false;
 };
 
 /// A volume of OpenVDB fields.

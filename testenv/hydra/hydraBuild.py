@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The OpenUSD that the plugin was built for: where it is, and how to run programs of it."""
+import functools
 import glob
 import json
 import os
@@ -42,16 +43,20 @@ def unreadable(stage):
     """:param stage: an opened Usd.Stage
     :returns: one line that names a layer whose file format this OpenUSD has no plugin for, as it has none for
         MaterialX documents when it was built without MaterialX; else None"""
-    formats = _formats()
     for layer in stage.GetUsedLayers():
         for asset in layer.GetCompositionAssetDependencies():
-            if asset and os.path.splitext(asset)[1][1:].lower() not in formats:
+            if asset and not reads(os.path.splitext(asset)[1][1:].lower()):
                 return f"this OpenUSD does not read {asset}, which {os.path.basename(layer.realPath)} composes"
     return None
 
 
+def reads(extension):
+    """:returns: whether a plugin of this OpenUSD says that it reads files with this extension"""
+    return extension in _formats()
+
+
+@functools.cache
 def _formats():
-    """:returns: the file extensions that the plugins of this OpenUSD say they read"""
     found = set()
     for base in ("lib", "plugin"):
         for path in glob.glob(os.path.join(folder("root"), base, "usd", "*", "resources", "plugInfo.json")):
@@ -76,6 +81,7 @@ def environment(scene_index=False, **more):
     if os.path.isdir(definitions):  # a program tells its OpenUSD where they are
         values["PXR_MTLX_STDLIB_SEARCH_PATHS"] = definitions
     values["USDIMAGINGGL_ENGINE_ENABLE_SCENE_INDEX"] = "1" if scene_index else "0"
+    values["USDIMAGINGGL_ENGINE_ENABLE_SCENE_INDEX_DEPRECATION_WARNING"] = "0"  # since 26.03, of the delegate's way
     values.update(more)
     return values
 

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Nodes that a MaterialX document of the stage defines, which Hydra names by identifiers that OpenUSD makes up."""
+import numpy as np
+import pytest
+
+import hydraBuild
+import stages
+from rendering import color
+from test_oneTruth import MODES, render_with_reader
+
+# Two documents give one name to nodes that differ: one tints, the other takes a fifth. The first one's node is made of
+# another one, is a surface, and uses a model of MaterialX's library.
+TINT = """<?xml version="1.0"?>
+<materialx version="1.39">
+  <nodedef name="ND_change" node="change">
+    <input name="in" type="color3" value="0.5, 0.5, 0.5" />
+    <output name="out" type="color3" />
+  </nodedef>
+  <nodegraph name="NG_change" nodedef="ND_change">
+    <multiply name="tinted" type="color3">
+      <input name="in1" type="color3" interfacename="in" />
+      <input name="in2" type="color3" value="1, 0.25, 0" />
+    </multiply>
+    <output name="out" type="color3" nodename="tinted" />
+  </nodegraph>
+  <nodedef name="ND_paint" node="paint">
+    <input name="paintColor" type="color3" value="1, 1, 1" />
+    <output name="out" type="surfaceshader" />
+  </nodedef>
+  <nodegraph name="NG_paint" nodedef="ND_paint">
+    <change name="changed" type="color3">
+      <input name="in" type="color3" interfacename="paintColor" />
+    </change>
+    <standard_surface name="body" type="surfaceshader">
+      <input name="base" type="float" value="1" />
+      <input name="base_color" type="color3" nodename="changed" />
+      <input name="specular" type="float" value="0" />
+    </standard_surface>
+    <output name="out" type="surfaceshader" nodename="body" />
+  </nodegraph>
+  <paint name="painted" type="surfaceshader">
+    <input name="paintColor" type="color3" value="0.8, 0.8, 0.8" />
+  </paint>
+  <surfacematerial name="left" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="painted" />
+  </surfacematerial>
+</materialx>
+"""
+FIFTH = """<?xml version="1.0"?>
+<materialx version="1.39">
+  <nodedef name="ND_change" node="change">
+    <input name="in" type="color3" value="0.5, 0.5, 0.5" />
+    <output name="out" type="color3" />
+  </nodedef>
+  <nodegraph name="NG_change" nodedef="ND_change">
+    <multiply name="less" type="color3">
+      <input name="in1" type="color3" interfacename="in" />
+      <input name="in2" type="float" value="0.2" />
+    </multiply>
+    <output name="out" type="color3" nodename="less" />
+  </nodegraph>
+  <change name="changed" type="color3">
+    <input name="in" type="color3" value="0.5, 0.5, 1" />
+  </change>
+  <oren_nayar_diffuse_bsdf name="bsdf" type="BSDF">
+    <input name="color" type="color3" nodename="changed" />
+  </oren_nayar_diffuse_bsdf>
+  <surface name="plain" type="surfaceshader">
+    <input name="bsdf" type="BSDF" nodename="bsdf" />
+  </surface>
+  <surfacematerial name="right" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="plain" />
+  </surfacematerial>
+</materialx>
+"""
+# In a dome of light without shadows a diffuse surface shows its colour.
+EXPECTED = {"left": (0.8, 0.2, 0.0), "right": (0.1, 0.1, 0.2)}
+
+
+def stage_of():
+    squares = "".join(f"""
+def Mesh "{name}Square" (prepend apiSchemas = ["MaterialBindingAPI"])
+{{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [({x}, -1, 0), ({x + 2}, -1, 0), ({x + 2}, 1, 0), ({x}, 1, 0)]
+    rel material:binding = </{name}/Materials/{name}>
+}}
+def Scope "{name}" (references = @./{name}.mtlx@</MaterialX>)
+{{
+}}""" for name, x in (("left", -2), ("right", 0)))
+    return f"""#usda 1.0
+def Camera "camera"
+{{
+    token projection = "orthographic"
+    float horizontalAperture = 40
+    float verticalAperture = 20
+    float2 clippingRange = (1, 100)
+    double3 xformOp:translate = (0, 0, 20)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}}
+def DomeLight "dome"
+{{
+}}
+{squares}
+"""
+
+
+@MODES
+def test_each_document_has_its_own(tmp_path, scene_index):
+    if not hydraBuild.reads("mtlx"):
+        pytest.skip("this OpenUSD does not read MaterialX documents")
+    for name, text in (("left.mtlx", TINT), ("right.mtlx", FIFTH), ("stage.usda", stage_of())):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    shot = stages.Shot(str(tmp_path / "stage.usda"), tmp_path)
+    hydra = tmp_path / "hydra.exr"
+    process = hydraBuild.run_host(shot.stage, hydra, *shot.host_flags(), "--set", "samples=4", scene_index=scene_index)
+    assert not hydraBuild.warnings_of(process) and not shot.scene.warnings()
+    for host, image in (("reader", render_with_reader(shot)), ("hydra", color(hydra))):
+        half = image.shape[1] // 2
+        for name, part in (("left", image[:, :half]), ("right", image[:, half:])):
+            np.testing.assert_allclose(part[8:-8, 8:-8].mean(axis=(0, 1)), EXPECTED[name], atol=1e-4,
+                                       err_msg=f"{host}: {name}")

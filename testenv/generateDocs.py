@@ -3,8 +3,8 @@
 
     ./patina python testenv/generateDocs.py [--check] [PAGE ...]
 
-Pages: nodes, flags, limits, methods, aovs, marks, cameras, library, byDesign, messages, benchmarks, conformance, trust
-(docs/trust.md).
+Pages: nodes, flags, limits, methods, aovs, marks, cameras, library, byDesign, messages, benchmarks, conformance, openUSD,
+trust (docs/trust.md).
 testenv/lint/test_generatedDocs.py fails where one is stale.
 """
 import argparse
@@ -279,9 +279,16 @@ def conformance():
     return conformanceResults.page()
 
 
+def open_usd():
+    sys.path.append(os.path.join(ROOT, "testenv", "hydra"))
+    import versions
+
+    return versions.page()
+
+
 PAGES = {"nodes": nodes, "flags": flags, "limits": limits, "methods": methods, "aovs": aovs, "marks": marks, "cameras": cameras,
          "library": library, "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page,
-         "conformance": conformance, "trust": trust}
+         "conformance": conformance, "openUSD": open_usd, "trust": trust}
 PLACES = {"trust": os.path.join(ROOT, "docs", "trust.md")}  # of pages that are not in docs/generated
 NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"
 

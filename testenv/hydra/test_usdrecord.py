@@ -81,6 +81,46 @@ def test_asset(tmp_path, stage):
     assert shown(image) != (stages.name_of(stage) in EMPTY)
 
 
+# What others read: scene -> how it changes from frame 1 to frame 2.
+CHANGES = {
+    "lightFilters.usda": """over "gobo"
+    {
+        float inputs:ri:lightFilter:width.timeSamples = { 1: 0.5, 2: 1.5 }
+    }""",
+    "volume.usda": """over "puff"
+    {
+        over "density"
+        {
+            token fieldName.timeSamples = { 1: "density", 2: "heat" }
+        }
+    }""",
+    "motionBlur.usda": """over "camera"
+    {
+        double shutter:open.timeSamples = { 1: 0, 2: -1 }
+        double shutter:close.timeSamples = { 1: 0, 2: 1 }
+    }""",
+}
+
+
+@pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
+@pytest.mark.parametrize("scene", CHANGES)
+def test_next_frame_is_as_a_first_one(tmp_path, scene, scene_index):
+    stage = tmp_path / "changes.usda"
+    stage.write_text(f"""#usda 1.0
+( subLayers = [@{os.path.join(stages.SCENES, scene)}@] )
+over "World"
+{{
+    {CHANGES[scene]}
+}}
+""", encoding="utf-8")
+    for name, frames in (("both", "1:2"), ("alone", "2:2")):
+        process = hydraBuild.run_usdrecord(stage, tmp_path / f"{name}.#.exr", "--imageWidth", WIDTH, "--frames", frames,
+                                           "--camera", "/World/camera", scene_index=scene_index)
+        assert not hydraBuild.warnings_of(process)
+    first, second, alone = (color(tmp_path / name) for name in ("both.1.exr", "both.2.exr", "alone.2.exr"))
+    assert np.array_equal(second, alone) and not np.array_equal(first, second)
+
+
 def test_camera_that_is_not_there(tmp_path):
     process = hydraBuild.run_usdrecord(os.path.join(stages.SCENES, "furnace.usda"), tmp_path / "image.exr",
                                        "--camera", "/nowhere", "--imageWidth", WIDTH, check=False)

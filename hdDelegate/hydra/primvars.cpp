@@ -113,6 +113,12 @@ bool isLeftOut(const std::string& name) {
            name == "accelerations";
 }
 
+/// Whether a primvar is there already.
+bool has(const Geometry& prim, const std::string& name) {
+    return std::any_of(prim.primvars.begin(), prim.primvars.end(),
+                       [&](const Primvar& primvar) { return primvar.name == name; });
+}
+
 bool isText(const VtValue& value) {
     return value.IsHolding<std::string>() || value.IsHolding<TfToken>() ||
            value.IsHolding<SdfAssetPath>() || value.IsHolding<VtStringArray>() ||
@@ -132,7 +138,8 @@ void warnOfType(HdPatinaRenderParam& param, const SdfPath& id, const std::string
 PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                              const SdfPath& id, HdDirtyBits dirtyBits, bool all, Geometry& prim) {
     PrimvarUpdate update;
-    std::set<std::string> listed;
+    std::set<std::string> listed, named;
+    const bool areNamed = param.dirtiedPrimvars().take(id, named) && !all;
     HdExtComputationPrimvarDescriptorVector computed;
     for (const HdInterpolation interpolation : interpolations) {
         for (const auto& descriptor :
@@ -150,6 +157,7 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
             if (fromComputations.count(name.GetString())) continue;
             listed.insert(name.GetString());
             if (!all && !HdChangeTracker::IsPrimvarDirty(dirtyBits, id, name)) continue;
+            if (areNamed && !named.count(name.GetString()) && has(prim, name.GetString())) continue;
             if (name == HdTokens->points) {
                 ValueSamples samples;
                 samplePrimvar(delegate, param, id, name, samples);

@@ -16,6 +16,8 @@
 #include <pxr/imaging/hd/tokens.h>
 
 #include <memory>
+#include <set>
+#include <string>
 
 namespace patina {
 
@@ -109,6 +111,8 @@ public:
 
     void updateBits(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                     HdDirtyBits bits) override {
+        std::set<std::string> others; // which this reads as well
+        param.dirtiedPrimvars().take(this->GetId(), others);
         if (_prim) Sync(&delegate, &param, &bits, _repr);
     }
 

@@ -5,9 +5,12 @@
 #include "hdDelegate/hydra/sampling.h"
 #include "hdDelegate/hydra/sourceForms.h"
 #include "hdDelegate/hydra/values.h"
+#include "materialNetwork/color/colorSpaces.h"
 
 #include <pxr/base/tf/stringUtils.h>
 #include <pxr/imaging/hd/changeTracker.h>
+#include <pxr/imaging/hd/primvarsSchema.h>
+#include <pxr/imaging/hd/sceneIndex.h>
 #include <pxr/imaging/hd/tokens.h>
 #include <pxr/usd/sdf/assetPath.h>
 
@@ -50,9 +53,25 @@ void erase(Geometry& prim, const std::string& name) {
         list.end());
 }
 
+/// Empty where the host tells none.
+std::string colorSpaceOf(HdSceneDelegate& delegate, const SdfPath& id,
+                         const HdPrimvarDescriptor& primvar) {
+#if PATINA_HAS_PRIMVAR_COLOR_SPACES
+    const HdSceneIndexBaseRefPtr scene = delegate.GetRenderIndex().GetTerminalSceneIndex();
+    if (scene && primvar.role == HdPrimvarRoleTokens->color) {
+        HdPrimvarsSchema primvars = HdPrimvarsSchema::GetFromParent(scene->GetPrim(id).dataSource);
+        if (const HdTokenDataSourceHandle space = primvars.GetPrimvar(primvar.name).GetColorSpace())
+            return space->GetTypedValue(0.0f).GetString();
+    }
+#else
+    (void)delegate, (void)id, (void)primvar;
+#endif
+    return {};
+}
+
 void setPrimvar(HdPatinaRenderParam& param, const SdfPath& id, const TfToken& name,
                 HdInterpolation interpolation, const VtValue& value, const VtIntArray& indices,
-                Geometry& prim) {
+                Geometry& prim, const std::string& colorSpace = {}) {
     Primvar primvar;
     primvar.name = name.GetString();
     primvar.interpolation = interpolationOf(interpolation);
@@ -62,6 +81,12 @@ void setPrimvar(HdPatinaRenderParam& param, const SdfPath& id, const TfToken& na
         erase(prim, primvar.name);
         return;
     }
+    if ((primvar.components == 3 || primvar.components == 4) &&
+        !ColorSpaces::shared().valueToRendering(colorSpace, primvar.values.data(),
+                                                primvar.values.size() / size_t(primvar.components),
+                                                primvar.components))
+        param.warn(id, "primvars:" + primvar.name,
+                   "unknown colour space '" + colorSpace + "'; the values are used as they are");
     primvar.indices = toVector(indices);
     const int count = int(primvar.values.size()) / primvar.components;
     for (int& index : primvar.indices)
@@ -113,6 +138,12 @@ bool isLeftOut(const std::string& name) {
            name == "accelerations";
 }
 
+/// Whether a primvar is there already.
+bool has(const Geometry& prim, const std::string& name) {
+    return std::any_of(prim.primvars.begin(), prim.primvars.end(),
+                       [&](const Primvar& primvar) { return primvar.name == name; });
+}
+
 bool isText(const VtValue& value) {
     return value.IsHolding<std::string>() || value.IsHolding<TfToken>() ||
            value.IsHolding<SdfAssetPath>() || value.IsHolding<VtStringArray>() ||
@@ -132,7 +163,8 @@ void warnOfType(HdPatinaRenderParam& param, const SdfPath& id, const std::string
 PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                              const SdfPath& id, HdDirtyBits dirtyBits, bool all, Geometry& prim) {
     PrimvarUpdate update;
-    std::set<std::string> listed;
+    std::set<std::string> listed, named;
+    const bool areNamed = param.dirtiedPrimvars().take(id, named) && !all;
     HdExtComputationPrimvarDescriptorVector computed;
     for (const HdInterpolation interpolation : interpolations) {
         for (const auto& descriptor :
@@ -150,6 +182,7 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
             if (fromComputations.count(name.GetString())) continue;
             listed.insert(name.GetString());
             if (!all && !HdChangeTracker::IsPrimvarDirty(dirtyBits, id, name)) continue;
+            if (areNamed && !named.count(name.GetString()) && has(prim, name.GetString())) continue;
             if (name == HdTokens->points) {
                 ValueSamples samples;
                 samplePrimvar(delegate, param, id, name, samples);
@@ -162,7 +195,8 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
                 const VtValue value = descriptor.indexed
                                           ? delegate.GetIndexedPrimvar(id, name, &indices)
                                           : delegate.Get(id, name);
-                setPrimvar(param, id, name, interpolation, value, indices, prim);
+                setPrimvar(param, id, name, interpolation, value, indices, prim,
+                           colorSpaceOf(delegate, id, descriptor));
             }
         }
     if (!computed.empty()) {

@@ -22,6 +22,7 @@
 #include <pxr/base/tf/diagnostic.h>
 #include <pxr/imaging/hd/coordSys.h>
 #include <pxr/imaging/hd/extComputation.h>
+#include <pxr/imaging/hd/sceneIndex.h>
 #include <pxr/imaging/hd/tokens.h>
 
 #include <algorithm>
@@ -231,6 +232,11 @@ HdBprim* HdPatinaRenderDelegate::CreateFallbackBprim(const TfToken& type) {
 
 void HdPatinaRenderDelegate::DestroyBprim(HdBprim* prim) {
     delete prim;
+}
+
+void HdPatinaRenderDelegate::SetTerminalSceneIndex(const HdSceneIndexBaseRefPtr& sceneIndex) {
+    if (sceneIndex)
+        sceneIndex->AddObserver(HdSceneIndexObserverPtr(&_state->param.dirtiedPrimvars()));
 }
 
 void HdPatinaRenderDelegate::CommitResources(HdChangeTracker*) {

@@ -55,6 +55,7 @@ public:
     HdBprim* CreateFallbackBprim(const TfToken& type) override;
     void DestroyBprim(HdBprim* prim) override;
     void CommitResources(HdChangeTracker* tracker) override;
+    void SetTerminalSceneIndex(const HdSceneIndexBaseRefPtr& sceneIndex) override;
 
     /// What plugins of newer releases tell before there is a delegate.
     static TfToken materialBindingPurpose();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hdDelegate/hydra/compat.h"
+#include "hdDelegate/hydra/dirtiedPrimvars.h"
 #include "hdDelegate/hydra/documentNodes.h"
 #include "hdDelegate/scene/scene.h"
 
@@ -61,6 +62,7 @@ public:
     /// Instances of rprims, gathered while prims sync.
     HdPatinaInstances& instances() { return *_instances; }
 
+    HdPatinaDirtiedPrimvars& dirtiedPrimvars() { return _dirtiedPrimvars; }
     HdPatinaDocumentNodes& documentNodes() { return _documentNodes; }
 
     /// Remembers that a prim reads another: a volume a field, a light a filter. Any thread.
@@ -81,6 +83,7 @@ private:
     mutable std::mutex _mutex;
     SceneEdit _edit;
     std::unique_ptr<HdPatinaInstances> _instances;
+    HdPatinaDirtiedPrimvars _dirtiedPrimvars;
     HdPatinaDocumentNodes _documentNodes;
     GfVec2f _shutter{0.0f};
     std::atomic<bool> _shutterWidened{false}, _linksChanged{false};

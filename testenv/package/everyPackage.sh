@@ -80,6 +80,7 @@ say "the wheel with libraries: $(du -h "$wheel" | cut -f1)"
 loudly python3 -m venv --clear "$folder/wholeWheel"
 loudly "$folder/wholeWheel/bin/pip" install "$wheel"
 render whole "$folder/wholeWheel/bin/patina"
+loudly "$folder/wholeWheel/bin/patina" record texturedDiffuse.usda "$folder/denoised.exr" -w 96 --samples 1 --denoise --quiet
 same wheel whole
 outside=$("$folder/wholeWheel/bin/python" -c '
 import _patina, os, sys

@@ -26,6 +26,8 @@ def run(build):
         report = os.path.join(folder, "report.xml")
         command = [os.path.join(HERE, "..", "..", "patina"), "test", "--room", "hydra", "--tier", "full", "--", "--junitxml", report]
         subprocess.run(command, env={**os.environ, "PATINA_BUILD_DIR": os.path.abspath(build)}, check=False)
+        if not os.path.exists(report):
+            sys.exit(f"{build}: the tests did not run; the reason is above")
         return outcomes(ElementTree.parse(report))
 
 

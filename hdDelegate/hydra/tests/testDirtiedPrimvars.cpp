@@ -13,7 +13,7 @@ using namespace patina;
 
 namespace {
 
-const SdfPath prim("/prim");
+const SdfPath edited("/edited");
 
 /// A value that counts how often it is fetched.
 class Counted : public HdSampledDataSource {
@@ -42,7 +42,7 @@ protected:
                                                    described(a, HdPrimvarSchemaTokens->constant),
                                                    described(b, HdPrimvarSchemaTokens->constant)};
         stage->AddPrims(
-            {{prim, HdPrimTypeTokens->points,
+            {{edited, HdPrimTypeTokens->points,
               HdRetainedContainerDataSource::New(
                   HdPrimvarsSchema::GetSchemaToken(),
                   HdRetainedContainerDataSource::New(std::size(names), names, primvars))}});
@@ -58,18 +58,18 @@ protected:
             .Build();
     }
     void sync(HdDirtyBits bits) {
-        auto* rprim = const_cast<HdRprim*>(index->GetRprim(prim));
-        rprim->Sync(index->GetSceneDelegateForRprim(prim), &param(), &bits, TfToken());
+        auto* rprim = const_cast<HdRprim*>(index->GetRprim(edited));
+        rprim->Sync(index->GetSceneDelegateForRprim(edited), &param(), &bits, TfToken());
     }
     /// Syncs as Hydra does after an edit of what a locator names.
     void edit(const HdDataSourceLocator& locator) {
-        stage->DirtyPrims({{prim, locator}});
-        sync(index->GetChangeTracker().GetRprimDirtyBits(prim) & HdChangeTracker::DirtyPrimvar);
-        index->GetChangeTracker().MarkRprimClean(prim);
+        stage->DirtyPrims({{edited, locator}});
+        sync(index->GetChangeTracker().GetRprimDirtyBits(edited) & HdChangeTracker::DirtyPrimvar);
+        index->GetChangeTracker().MarkRprimClean(edited);
     }
     float valueOf(const std::string& name) {
         const auto drawn = state();
-        for (const Primvar& primvar : drawn->geometry.at(prim.GetString())->primvars)
+        for (const Primvar& primvar : drawn->geometry.at(edited.GetString())->primvars)
             if (primvar.name == name) return primvar.values.at(0);
         return -1.0f;
     }
@@ -102,7 +102,7 @@ TEST_F(DirtiedPrimvars, AllAreWhereNoneIsNamed) {
 TEST_F(DirtiedPrimvars, TwoEditsAddUp) {
     a->value = VtValue(3.0f);
     b->value = VtValue(4.0f);
-    stage->DirtyPrims({{prim, HdPrimvarsSchema::GetDefaultLocator().Append(TfToken("b"))}});
+    stage->DirtyPrims({{edited, HdPrimvarsSchema::GetDefaultLocator().Append(TfToken("b"))}});
     edit(HdPrimvarsSchema::GetDefaultLocator().Append(TfToken("a")));
     EXPECT_EQ(valueOf("a"), 3.0f);
     EXPECT_EQ(valueOf("b"), 4.0f);

@@ -160,7 +160,10 @@ def _python_paths(python):
     code = ("import sysconfig as s; v = s.get_config_var; "
             "print(s.get_path('include'), (v('LIBDIR') or '') + '/' + (v('LDLIBRARY') or ''), sep='\\n')")
     for executable in filter(None, (python, sys.executable)):
-        found = subprocess.run([executable, "-I", "-c", code], capture_output=True, text=True, check=False).stdout.splitlines()
+        try:
+            found = subprocess.run([executable, "-I", "-c", code], capture_output=True, text=True, check=False).stdout.splitlines()
+        except OSError:
+            continue
         if found and os.path.exists(os.path.join(found[0], "Python.h")):
             return found
     raise CommandError("Python's headers are missing: OpenUSD's include them (package python3-dev)")

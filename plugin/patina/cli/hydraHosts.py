@@ -161,9 +161,10 @@ def _python_paths(python):
             "print(s.get_path('include'), (v('LIBDIR') or '') + '/' + (v('LDLIBRARY') or ''), sep='\\n')")
     for executable in filter(None, (python, sys.executable)):
         try:
-            found = subprocess.run([executable, "-I", "-c", code], capture_output=True, text=True, check=False).stdout.splitlines()
+            asked = subprocess.run([executable, "-I", "-c", code], capture_output=True, text=True, check=False)
         except OSError:
             continue
+        found = asked.stdout.splitlines()
         if found and os.path.exists(os.path.join(found[0], "Python.h")):
             return found
     raise CommandError("Python's headers are missing: OpenUSD's include them (package python3-dev)")

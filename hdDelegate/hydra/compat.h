@@ -32,6 +32,8 @@
 #define PATINA_HAS_SDR_ONLY (PXR_VERSION >= 2508)
 /// HdsiLegacyDisplayStyleOverrideSceneIndex::SetRefineLevelFallback replaces SetRefineLevel.
 #define PATINA_HAS_REFINE_FALLBACK (PXR_VERSION >= 2605)
+/// HdxPrimOriginInfo::ComputeInstancerContext.
+#define PATINA_HAS_INSTANCER_CONTEXT (PXR_VERSION >= 2408)
 /// Scene indices tell the colour space of a primvar: HdPrimvarSchema::GetColorSpace.
 #define PATINA_HAS_PRIMVAR_COLOR_SPACES (PXR_VERSION >= 2603)
 /// Scene indices tell light and prims of a collection that is authored late.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "materialNetwork/nodes/models.h"
+#include "materialNetwork/mtlx/document.h"
 
 #include <map>
 #include <mutex>
-#include <set>
 #include <string>
 
 namespace patina {
@@ -18,14 +17,13 @@ public:
     /// @returns its definition, null where no document of MaterialX has it. It lives as long as
     /// this.
     const ShadingModel* find(const std::string& identifier, Diagnostics& diagnostics);
+    /// Replaces nodes that have the id of such a definition by its graph.
+    Network expandIn(const Network& network, Diagnostics& diagnostics);
 
 private:
-    void read(const std::string& file, Diagnostics& diagnostics);
-
     std::mutex _mutex;
-    std::set<std::string> _read;                 ///< files
-    std::map<std::string, ShadingModel> _models; ///< by "file#definition"
-    std::map<std::string, std::string> _names;   ///< keys of _models by identifier; "" for none
+    MtlxDefinitions _definitions;
+    std::map<std::string, const ShadingModel*> _known; ///< by identifier
 };
 
 } // namespace patina

@@ -3,7 +3,6 @@
 
 #include "hdDelegate/hydra/values.h"
 
-#include "materialNetwork/graph/expand.h"
 #include "materialNetwork/network/translate.h"
 #include "materialNetwork/nodes/models.h"
 
@@ -102,10 +101,7 @@ public:
         return model ? &model->def : nullptr;
     }
     void expandIn(Network& network) {
-        if (!_areUsed) return;
-        network = expand(
-            network, [&](const std::string& id) { return _nodes.find(id, diagnostics); },
-            diagnostics);
+        if (_areUsed) network = _nodes.expandIn(network, diagnostics);
     }
     Diagnostics diagnostics;
 
@@ -120,6 +116,7 @@ void addNode(const HdMaterialNode& given, const SdfPath& material, HdPatinaRende
     node.path = nodePath(given.path, material);
     node.id = given.identifier.GetString();
     const NodeDef* def = others.definitionOf(node.id);
+    if (def && !findNodeDef(node.id)) node.id = def->id;
     for (const auto& item : given.parameters) {
         const std::string& name = item.first.GetString();
         if (describesAnother(name)) continue;

@@ -68,6 +68,38 @@ std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics,
     return std::move(document.materials);
 }
 
+const ShadingModel* MtlxDefinitions::find(const std::string& file, const std::string& name,
+                                          Diagnostics& diagnostics) {
+    const auto idOf = [&](const std::string& definition) { return file + "#" + definition; };
+    MtlxDocument document;
+    std::string text, problem;
+    if (_read.insert(file).second) {
+        if (!readRegularFile(file, Limit::documentBytes, text, problem))
+            diagnostics.warn(file, "", "the file " + problem);
+        else
+            parseMtlx(text, file, true, document, diagnostics); // so that they may use the library
+    }
+    std::set<std::string> own;
+    for (const ShadingModel& model : document.models)
+        own.insert(model.def.id);
+    for (ShadingModel& model : document.models) {
+        for (NetworkNode& node : model.nodes)
+            if (own.count(node.id)) node.id = idOf(node.id);
+        model.def.id = idOf(model.def.id);
+        _models.emplace(model.def.id, std::move(model));
+    }
+    const auto found = _models.find(idOf(name));
+    return found == _models.end() ? nullptr : &found->second;
+}
+
+Network MtlxDefinitions::expandIn(const Network& network, Diagnostics& diagnostics) const {
+    const auto find = [&](const std::string& id) -> const ShadingModel* {
+        const auto found = _models.find(id);
+        return found == _models.end() ? nullptr : &found->second;
+    };
+    return expand(network, find, diagnostics);
+}
+
 std::vector<std::string> documentFiles(const std::string& path) {
     std::vector<std::string> files = {path};
     std::string text, problem;

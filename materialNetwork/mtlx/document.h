@@ -4,6 +4,8 @@
 #include "materialNetwork/network/units.h"
 #include "materialNetwork/nodes/models.h"
 
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,21 @@ bool parseMtlx(const std::string& text, const std::string& path, bool wantMateri
 /// materials gives one network per surface shader. Empty, after a warning, when unreadable.
 std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics,
                               double metersPerUnit = 1.0);
+
+/// Node definitions of documents whose materials come by another way.
+class MtlxDefinitions {
+public:
+    /// @param file is read once
+    /// @returns the definition, whose id is unlike those of other files; null when there is none
+    const ShadingModel* find(const std::string& file, const std::string& name,
+                             Diagnostics& diagnostics);
+    /// Replaces nodes that have the id of a definition by its graph, as readMtlx() does.
+    Network expandIn(const Network& network, Diagnostics& diagnostics) const;
+
+private:
+    std::set<std::string> _read; ///< files
+    std::map<std::string, ShadingModel> _models;
+};
 
 /// The files that readMtlx() looks at: a document and all that it includes, readable or not.
 std::vector<std::string> documentFiles(const std::string& path);

@@ -57,6 +57,20 @@ def test_a_program_gets_what_it_lacks(program, source, tmp_path):
     assert os.stat(os.path.join(prefix, "include/pxr/pxr.h")).st_mtime_ns == before
 
 
+def test_headers_of_its_own_python(program, source, tmp_path):
+    folder, headers = program(), source()
+    (folder / "include").mkdir()
+    (folder / "include/Python.h").write_text("")
+    python = folder / "python/bin/python3.11"
+    python.write_text(f"#!/bin/sh\nprintf '%s\\n' {folder}/include {folder}/libpython3.99.so\n")
+    for mode, own in ((0o644, False), (0o755, True)):  # one that does not run, and one that does
+        python.chmod(mode)
+        _, prefix = hydraHosts.prefix_of(str(folder), str(headers), str(tmp_path / "made"))
+        with open(os.path.join(prefix, "pxrConfig.cmake"), encoding="utf-8") as file:
+            text = file.read()
+        assert (f"{folder}/include" in text, f"{folder}/libpython3.99.so" in text) == (own, own)
+
+
 def test_an_installed_one_is_taken_as_it_is(tmp_path):
     for place in ("", "lib/cmake/pxr"):
         folder = tmp_path / f"usd{len(place)}"

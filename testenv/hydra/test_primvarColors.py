@@ -10,24 +10,24 @@ from test_oneTruth import MODES, render_with_reader
 
 STAGE = """#usda 1.0
 def Camera "camera"
-{
+{{
     token projection = "orthographic"
     float horizontalAperture = 20
     float verticalAperture = 20
     float2 clippingRange = (1, 100)
     double3 xformOp:translate = (0, 0, 20)
     uniform token[] xformOpOrder = ["xformOp:translate"]
-}
+}}
 def DomeLight "dome"
-{
-}
+{{
+}}
 def Mesh "square"
-{
+{{
     int[] faceVertexCounts = [4]
     int[] faceVertexIndices = [0, 1, 2, 3]
     point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
-    color3f[] primvars:displayColor = [(0.5, 0.5, 0.25)] ( %s )
-}
+    color3f[] primvars:displayColor = [{values}] ( {space} )
+}}
 """
 SIGNAL = np.array([0.5, 0.5, 0.25])
 LINEAR = ((SIGNAL + 0.055) / 1.055) ** 2.4  # IEC 61966-2-1
@@ -35,15 +35,19 @@ LINEAR = ((SIGNAL + 0.055) / 1.055) ** 2.4  # IEC 61966-2-1
 
 @MODES
 def test_display_color(tmp_path, scene_index):
+    """A colour in a space shows as its linear value where the host tells spaces, and else as its signal."""
     told = scene_index and int(hydraBuild.folder("version")) >= 2603
-    for space, wanted in (("", SIGNAL), ('colorSpace = "srgb_rec709_scene"', LINEAR if told else SIGNAL)):
-        path = tmp_path / "colors.usda"
-        path.write_text(STAGE % space, encoding="utf-8")
-        shot = stages.Shot(str(path), tmp_path)
-        hydra = tmp_path / "hydra.exr"
-        process = hydraBuild.run_host(shot.stage, hydra, *shot.host_flags(), "--set", "samples=4", scene_index=scene_index)
-        assert not hydraBuild.warnings_of(process) and not shot.scene.warnings()
-        shown, read = color(hydra), render_with_reader(shot)
-        middle = (slice(8, -8), slice(8, -8))
-        ratio = shown[middle].mean(axis=(0, 1)) / read[middle].mean(axis=(0, 1))
-        np.testing.assert_allclose(ratio, wanted / (LINEAR if space else SIGNAL), rtol=0.02)
+    path = tmp_path / "colors.usda"
+
+    def shot_of(values, space=""):
+        path.write_text(STAGE.format(values=tuple(values.tolist()), space=space), encoding="utf-8")
+        return stages.Shot(str(path), tmp_path)
+
+    wanted = render_with_reader(shot_of(LINEAR if told else SIGNAL))
+    shot = shot_of(SIGNAL, 'colorSpace = "srgb_rec709_scene"')
+    hydra = tmp_path / "hydra.exr"
+    process = hydraBuild.run_host(shot.stage, hydra, *shot.host_flags(), "--set", "samples=4", scene_index=scene_index)
+    assert not hydraBuild.warnings_of(process) and not shot.scene.warnings()
+    np.testing.assert_allclose(color(hydra), wanted, rtol=1e-4)
+    linear = render_with_reader(shot_of(LINEAR))
+    np.testing.assert_allclose(render_with_reader(shot_of(SIGNAL, 'colorSpace = "srgb_rec709_scene"')), linear, rtol=1e-4)

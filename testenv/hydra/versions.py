@@ -24,7 +24,8 @@ def run(build):
     """:returns: outcomes of all tests: list of (file, "passed" | "failed" | "skipped")"""
     with tempfile.TemporaryDirectory() as folder:
         report = os.path.join(folder, "report.xml")
-        command = [os.path.join(HERE, "..", "..", "patina"), "test", "--room", "hydra", "--tier", "full", "--", "--junitxml", report]
+        command = [os.path.join(HERE, "..", "..", "patina"), "test", "--room", "hydra", "--tier", "full", "--",
+                   "--junitxml", report]
         subprocess.run(command, env={**os.environ, "PATINA_BUILD_DIR": os.path.abspath(build)}, check=False)
         if not os.path.exists(report):
             sys.exit(f"{build}: the tests did not run; the reason is above")
@@ -50,9 +51,10 @@ def counted(found):
 
 def page():
     """:returns: lines of docs/generated/openUSD.md"""
-    lines = ["# Versions of OpenUSD", "", "The plugin was built for each of these, and `./patina test --room hydra --tier full` "
-             "was run in it. Numbers are tests, those of a", "program among all. A test is skipped where its host lacks "
-             "what it needs: usdview's Python files, say.", "",
+    lines = ["# Versions of OpenUSD", "",
+             "The plugin was built for each of these, and `./patina test --room hydra --tier full` was run in it. Numbers are",
+             "tests, those of a program among all. A test is skipped where its host lacks what it needs: usdview's Python",
+             "files, say.", "",
              "| OpenUSD | of | date | all | " + " | ".join(PROGRAMS) + " |", "|---|---|---|" + "---|" * (1 + len(PROGRAMS))]
     for row in _rows():
         cells = [", ".join(f"{number} {kind}" for kind, number in row["counts"].get(name, {}).items())

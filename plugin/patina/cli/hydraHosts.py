@@ -160,7 +160,11 @@ def _python_paths(python):
     code = ("import sysconfig as s; v = s.get_config_var; "
             "print(s.get_path('include'), (v('LIBDIR') or '') + '/' + (v('LDLIBRARY') or ''), sep='\\n')")
     for executable in filter(None, (python, sys.executable)):
-        found = subprocess.run([executable, "-I", "-c", code], capture_output=True, text=True, check=False).stdout.splitlines()
+        try:
+            asked = subprocess.run([executable, "-I", "-c", code], capture_output=True, text=True, check=False)
+        except OSError:
+            continue
+        found = asked.stdout.splitlines()
         if found and os.path.exists(os.path.join(found[0], "Python.h")):
             return found
     raise CommandError("Python's headers are missing: OpenUSD's include them (package python3-dev)")

@@ -57,11 +57,20 @@ public:
         pick.instanceIndex = instanceId;
         const HdxPrimOriginInfo origin = HdxPrimOriginInfo::FromPickHit(_index, pick);
         hit.path = origin.GetFullPath();
+#if PATINA_HAS_INSTANCER_CONTEXT
         const HdInstancerContext context = origin.ComputeInstancerContext();
         if (!context.empty()) {
             hit.instancer = context.front().first;
             hit.index = context.front().second;
         }
+#else // the instancers are not told as paths of the stage
+        if (!origin.instancerContexts.empty()) {
+            const HdxInstancerContext& context = origin.instancerContexts.front();
+            const auto scene = HdPrimOriginSchema(context.instancerPrimOrigin);
+            hit.instancer = scene.GetOriginPath(HdPrimOriginSchemaTokens->scenePath);
+            hit.index = context.instanceId;
+        }
+#endif
         return hit;
     }
 

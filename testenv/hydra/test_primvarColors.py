@@ -6,7 +6,7 @@ import pytest
 import hydraBuild
 import stages
 from rendering import color
-from test_oneTruth import MODES, render_with_reader
+from test_oneTruth import MODES, SAMPLES, SEED, render_with_reader
 
 STAGE = """#usda 1.0
 def Camera "camera"
@@ -46,7 +46,8 @@ def test_display_color(tmp_path, scene_index):
     wanted = render_with_reader(shot_of(LINEAR if told else SIGNAL))
     shot = shot_of(SIGNAL, 'colorSpace = "srgb_rec709_scene"')
     hydra = tmp_path / "hydra.exr"
-    process = hydraBuild.run_host(shot.stage, hydra, *shot.host_flags(), "--set", "samples=4", scene_index=scene_index)
+    process = hydraBuild.run_host(shot.stage, hydra, *shot.host_flags(), "--set", f"samples={SAMPLES}",
+                                  "--set", f"seed={SEED}", scene_index=scene_index)
     assert not hydraBuild.warnings_of(process) and not shot.scene.warnings()
     np.testing.assert_allclose(color(hydra), wanted, rtol=1e-4)
     linear = render_with_reader(shot_of(LINEAR))

@@ -74,7 +74,7 @@ def test_asset(tmp_path, stage):
         assert process.returncode > 0 and "framesPerSecond" in process.stderr
         return
     if int(hydraBuild.folder("version")) < 2505:
-        process = hydraBuild.run_usdrecord(stage, image, check=False)
+        process = hydraBuild.run_usdrecord(stage, image, "--imageWidth", WIDTH, check=False)
         if "Unsupported type VtDictionary" in process.stderr:
             pytest.skip("this OpenUSD cannot pass on MaterialXConfigAPI, to any renderer, and its usdrecord ends")
     record(stage, image)

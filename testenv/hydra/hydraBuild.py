@@ -131,11 +131,20 @@ def has_usdrecord():
 
 
 def has_qt():
-    """:returns: whether the Python of this OpenUSD can open windows, as usdview needs"""
+    """:returns: whether the Python of this OpenUSD can open windows"""
+    return _imports("PySide6.QtWidgets")
+
+
+def has_usdview():
+    """:returns: whether this OpenUSD has usdview, and a Python that can open its window"""
+    return has_qt() and _imports("pxr.Usdviewq")
+
+
+def _imports(module):
     build = _read()
     if not os.path.exists(build["python"]):  # it was built without Python
         return False
-    return subprocess.run([build["python"], "-c", "import PySide6.QtWidgets"], env=environment(),
+    return subprocess.run([build["python"], "-c", f"import {module}"], env=environment(),
                           capture_output=True, check=False).returncode == 0
 
 

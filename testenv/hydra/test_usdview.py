@@ -21,8 +21,8 @@ DRIVER = os.path.join(os.path.dirname(__file__), "usdview", "drive.py")
     ("Patina GL", "HdPatinaRasterRendererPlugin", False),
 ], ids=["delegate", "sceneIndex", "raster"])
 def test_turn_pick_edit(tmp_path, renderer, plugin, scene_index):
-    if not hydraBuild.xvfb() or not hydraBuild.has_qt():
-        pytest.skip("Xvfb, or an OpenUSD with Python and PySide, not found: usdview needs them")
+    if not hydraBuild.xvfb() or not hydraBuild.has_usdview():
+        pytest.skip("Xvfb, or an OpenUSD with usdview and PySide, not found")
     stage = os.path.join(stages.SCENES, "diffuseBox.usda")
     environment = hydraBuild.environment(
         scene_index, PATINA_DRIVE_SHADER="/World/materials/white/diffuse", PATINA_DRIVE_INPUT="color",

@@ -66,8 +66,10 @@ class Driver:
         ratio = self.view.devicePixelRatioF()
         x, y = SIZE[0] / 2 * ratio, SIZE[1] / 2 * ratio
         found = self.view.pick(self.view.computePickFrustum(x, y)[1])
-        first = found[0] if found else None  # since 26.08 a list of hits, before that the parts of one
-        self.result["picked"] = str(getattr(first, "hitPrimPath", found[2] if len(found) > 2 else ""))
+        if found and hasattr(found[0], "hitPrimPath"):  # since 26.08 a list of hits, before that the parts of one
+            self.result["picked"] = str(found[0].hitPrimPath)
+        else:
+            self.result["picked"] = str(found[2]) if found else ""
         self.view.pickObject(x, y, QtCore.Qt.LeftButton, QtCore.Qt.NoModifier)
         self.events()
         self.result["selected"] = str(self.controller._dataModel.selection.getFocusPrim().GetPath())

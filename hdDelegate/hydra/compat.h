@@ -34,6 +34,8 @@
 #define PATINA_HAS_REFINE_FALLBACK (PXR_VERSION >= 2605)
 /// HdxPrimOriginInfo::ComputeInstancerContext.
 #define PATINA_HAS_INSTANCER_CONTEXT (PXR_VERSION >= 2408)
+/// Scene indices give a texture's sourceColorSpace as the colour space of its file.
+#define PATINA_HAS_FILE_COLOR_SPACES (PXR_VERSION >= 2603)
 /// Scene indices tell the colour space of a primvar: HdPrimvarSchema::GetColorSpace.
 #define PATINA_HAS_PRIMVAR_COLOR_SPACES (PXR_VERSION >= 2603)
 /// Scene indices tell light and prims of a collection that is authored late.

@@ -111,8 +111,8 @@ public:
 
     void updateBits(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                     HdDirtyBits bits) override {
-        std::set<std::string> others; // which this reads as well
-        param.dirtiedPrimvars().take(this->GetId(), others);
+        std::set<std::string> named; // forgotten: all that is dirty is read, named or not
+        param.dirtiedPrimvars().take(this->GetId(), named);
         if (_prim) Sync(&delegate, &param, &bits, _repr);
     }
 

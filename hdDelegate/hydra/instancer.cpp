@@ -124,8 +124,10 @@ void HdPatinaInstancer::readPrimvars(HdSceneDelegate& delegate, HdPatinaRenderPa
             param.warn(GetId(), "primvars:" + primvar.name,
                        "has " + std::to_string(count) + " values for " + std::to_string(instances) +
                            " instances; it is left out");
-        else
+        else {
+            toRenderingSpace(delegate, param, GetId(), descriptor, primvar);
             data.primvars.push_back(std::move(primvar));
+        }
     }
 }
 

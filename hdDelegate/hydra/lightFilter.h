@@ -17,14 +17,17 @@ public:
     explicit HdPatinaLightFilter(const SdfPath& id) : HdSprim(id) {}
 
     void Sync(HdSceneDelegate*, HdRenderParam* renderParam, HdDirtyBits* dirtyBits) override {
-        if (*dirtyBits != HdChangeTracker::Clean) Finalize(renderParam);
+        if (*dirtyBits != HdChangeTracker::Clean) tellReaders(renderParam);
         *dirtyBits = HdChangeTracker::Clean;
     }
-    void Finalize(HdRenderParam* renderParam) override {
-        static_cast<HdPatinaRenderParam*>(renderParam)->setChanged(GetId());
-    }
+    void Finalize(HdRenderParam* renderParam) override { tellReaders(renderParam); }
     HdDirtyBits GetInitialDirtyBitsMask() const override {
         return HdChangeTracker::AllSceneDirtyBits;
+    }
+
+private:
+    void tellReaders(HdRenderParam* renderParam) {
+        static_cast<HdPatinaRenderParam*>(renderParam)->setChanged(GetId());
     }
 };
 

@@ -79,8 +79,8 @@ void refineType(const NodeDef* def, const std::string& input, Value& value) {
         value.type = wanted;
 }
 
-/// Since 26.03 scene indices give a texture's sourceColorSpace as the colour space of its file.
-void moveColorSpace(NetworkNode& node) {
+/// A texture's sourceColorSpace, where the host gives it as the colour space of the file.
+[[maybe_unused]] void moveColorSpace(NetworkNode& node) {
     const auto file = node.inputs.find("file");
     if (node.id != "UsdUVTexture" || file == node.inputs.end()) return;
     std::string& space = file->second.colorSpace;
@@ -129,7 +129,9 @@ void addNode(const HdMaterialNode& given, const SdfPath& material, HdPatinaRende
                        "values of type " + item.second.GetTypeName() +
                            " cannot be used; the default is used");
     }
+#if PATINA_HAS_FILE_COLOR_SPACES
     moveColorSpace(node);
+#endif
     network.nodes.push_back(std::move(node));
 }
 

@@ -69,9 +69,10 @@ std::string colorSpaceOf(HdSceneDelegate& delegate, const SdfPath& id,
     return {};
 }
 
-void setPrimvar(HdPatinaRenderParam& param, const SdfPath& id, const TfToken& name,
-                HdInterpolation interpolation, const VtValue& value, const VtIntArray& indices,
-                Geometry& prim, const std::string& colorSpace = {}) {
+/// @param descriptor of what is authored; null for what was computed
+void setPrimvar(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
+                const TfToken& name, HdInterpolation interpolation, const VtValue& value,
+                const VtIntArray& indices, const HdPrimvarDescriptor* descriptor, Geometry& prim) {
     Primvar primvar;
     primvar.name = name.GetString();
     primvar.interpolation = interpolationOf(interpolation);
@@ -81,12 +82,7 @@ void setPrimvar(HdPatinaRenderParam& param, const SdfPath& id, const TfToken& na
         erase(prim, primvar.name);
         return;
     }
-    if ((primvar.components == 3 || primvar.components == 4) &&
-        !ColorSpaces::shared().valueToRendering(colorSpace, primvar.values.data(),
-                                                primvar.values.size() / size_t(primvar.components),
-                                                primvar.components))
-        param.warn(id, "primvars:" + primvar.name,
-                   "unknown colour space '" + colorSpace + "'; the values are used as they are");
+    if (descriptor) toRenderingSpace(delegate, param, id, *descriptor, primvar);
     primvar.indices = toVector(indices);
     const int count = int(primvar.values.size()) / primvar.components;
     for (int& index : primvar.indices)
@@ -160,6 +156,17 @@ void warnOfType(HdPatinaRenderParam& param, const SdfPath& id, const std::string
                "is of type " + value.GetTypeName() + ", which holds no numbers; it is left out");
 }
 
+void toRenderingSpace(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
+                      const HdPrimvarDescriptor& descriptor, Primvar& primvar) {
+    if (primvar.components != 3 && primvar.components != 4) return;
+    const std::string space = colorSpaceOf(delegate, id, descriptor);
+    if (!ColorSpaces::shared().valueToRendering(space, primvar.values.data(),
+                                                primvar.values.size() / size_t(primvar.components),
+                                                primvar.components))
+        param.warn(id, "primvars:" + primvar.name,
+                   "unknown colour space '" + space + "'; the values are used as they are");
+}
+
 PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                              const SdfPath& id, HdDirtyBits dirtyBits, bool all, Geometry& prim) {
     PrimvarUpdate update;
@@ -195,8 +202,8 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
                 const VtValue value = descriptor.indexed
                                           ? delegate.GetIndexedPrimvar(id, name, &indices)
                                           : delegate.Get(id, name);
-                setPrimvar(param, id, name, interpolation, value, indices, prim,
-                           colorSpaceOf(delegate, id, descriptor));
+                setPrimvar(delegate, param, id, name, interpolation, value, indices, &descriptor,
+                           prim);
             }
         }
     if (!computed.empty()) {
@@ -212,8 +219,9 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
                 update.points = pointsFrom(samples, param, id);
                 update.pointsChanged = true;
             } else {
-                setPrimvar(param, id, descriptor.name, descriptor.interpolation,
-                           samples.count > 0 ? samples.values[0] : VtValue(), VtIntArray(), prim);
+                setPrimvar(delegate, param, id, descriptor.name, descriptor.interpolation,
+                           samples.count > 0 ? samples.values[0] : VtValue(), VtIntArray(), nullptr,
+                           prim);
             }
         }
     }

@@ -22,6 +22,11 @@ struct PrimvarUpdate {
 void warnOfType(HdPatinaRenderParam& param, const SdfPath& id, const std::string& primvar,
                 const VtValue& value);
 
+/// Converts a primvar whose colour space the host tells into the rendering space; warns of a space
+/// that is unknown.
+void toRenderingSpace(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
+                      const HdPrimvarDescriptor& descriptor, Primvar& primvar);
+
 /// Brings the primvars of a scene prim up to date: removes those that Hydra no longer lists, and
 /// fetches the dirty ones, authored or computed (skinning), indexed or not. They are kept sorted by
 /// name. `points` come with their motion samples, including those from velocities. Primvars that

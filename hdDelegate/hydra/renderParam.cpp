@@ -48,7 +48,7 @@ void HdPatinaRenderParam::use(const SdfPath& read, const SdfPath& reader) {
 
 void HdPatinaRenderParam::setChanged(const SdfPath& read) {
     std::lock_guard<std::mutex> lock(_mutex);
-    _changed.insert(read);
+    if (_readers.count(read)) _changed.insert(read);
 }
 
 std::set<SdfPath> HdPatinaRenderParam::takeReadersOfChanged() {

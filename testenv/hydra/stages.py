@@ -37,12 +37,33 @@ CAMERA = """def Camera "framingCamera"
     uniform token[] xformOpOrder = ["xformOp:transform"]
 }}
 """
+# An orthographic look along -z, @width@ by @height@ units around the origin, under a white sky.
+FRONT = """#usda 1.0
+def Camera "camera"
+{
+    token projection = "orthographic"
+    float horizontalAperture = @width@0
+    float verticalAperture = @height@0
+    float2 clippingRange = (1, 100)
+    double3 xformOp:translate = (0, 0, 20)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def DomeLight "dome"
+{
+}
+"""
 LIGHT = """def DomeLight "testDome"
 {
     color3f inputs:color = (1, 0.9, 0.8)
     float inputs:intensity = 0.8
 }
 """
+
+
+def front(width, height):
+    """:param width: in whole units of the stage, as `height`
+    :returns: the head of a stage, with a camera and a light"""
+    return FRONT.replace("@width@", str(width)).replace("@height@", str(height))
 
 
 class Shot:

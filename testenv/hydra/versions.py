@@ -52,9 +52,9 @@ def counted(found):
 def page():
     """:returns: lines of docs/generated/openUSD.md"""
     lines = ["# Versions of OpenUSD", "",
-             "The plugin was built for each of these, and `./patina test --room hydra --tier full` was run in it. The column *all*",
-             "counts every test, those to its right the tests of one program. A test is skipped where its host lacks what it",
-             "needs, as usdview's Python files.", "",
+             "The plugin was built for each of these, and `./patina test --room hydra --tier full` was run in it. The column",
+             "*all* counts every test, those to its right the tests of one program. A test is skipped where its host lacks",
+             "what it needs, as usdview's Python files.", "",
              "| OpenUSD | of | date | all | " + " | ".join(PROGRAMS) + " |", "|---|---|---|" + "---|" * (1 + len(PROGRAMS))]
     for row in _rows():
         cells = [", ".join(f"{number} {kind}" for kind, number in row["counts"].get(name, {}).items())

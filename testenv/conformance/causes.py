@@ -5,7 +5,7 @@ import fnmatch
 SETS = {  # name of a set -> what it is
     "usdImaging": "OpenUSD's own tests of usdview, usdrecord, UsdImaging and UsdImagingGL (`pxr/usdImaging`). The "
                   "rasterizer drew 13 of the stages."}
-_CUSTOM = "Hydra names nodes of the stage's own MaterialX document by a hash, of which the delegate found no definition; mended since"
+_CUSTOM = "Hydra named nodes of the stage's own MaterialX document by a hash, which the delegate did not know; mended since"
 _CARDS = "the two sides of a cross of cards lie in one place in Hydra, and a renderer without culling shows either"
 CAUSES = (  # (set, pattern of stages, pattern of ways, the cause)
     ("usdImaging", "*FileArguments/*", "read", "the file is meant to be invalid"),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the build of a package does beside compiling, step by step."""
+import email
 import os
 import shutil
 import subprocess
@@ -103,3 +104,16 @@ def test_the_command_is_installed(tmp_path):
     done = subprocess.run([tmp_path / "bin" / "patina", "bsdf", "eval", "library:gold", "--wo", "0,0,1", "--wi", "0,0,1"],
                           env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+def test_a_wheel_with_its_libraries_asks_for_the_denoiser(tmp_path):
+    from patina.cli import wholeWheel
+
+    info = tmp_path / "hdPatina-0.1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: hdPatina\nVersion: 0.1.0\nProvides-Extra: denoise\n"
+                                   "Requires-Dist: pyoidn; extra == \"denoise\"\n\nText.\nName: no header\n")
+    wholeWheel.require_denoiser(str(tmp_path))
+    metadata = email.message_from_string((info / "METADATA").read_text())
+    assert metadata.get_all("Requires-Dist") == ["pyoidn", 'pyoidn; extra == "denoise"']
+    assert metadata["Name"] == "hdPatina" and metadata.get_payload() == "Text.\nName: no header\n"

@@ -29,7 +29,7 @@ def make(wheel, folder):
         _run("unpack", "--dest", place, wheel)
         (tree,) = glob.glob(os.path.join(place, "*"))
         files = [path for path in glob.glob(os.path.join(glob.escape(tree), "**", "*"), recursive=True) if _is_elf(path)]
-        _require_denoiser(tree)
+        require_denoiser(tree)
         bundledLibraries.bundle(files, os.path.join(tree, _FOLDER), [tree])
         _run("pack", "--dest-dir", place, tree)
         (packed,) = glob.glob(os.path.join(place, "*.whl"))
@@ -41,7 +41,7 @@ def make(wheel, folder):
     return target
 
 
-def _require_denoiser(tree):
+def require_denoiser(tree):
     """Asks pip for what pyproject.toml has as an extra, since `--denoise` cannot find a library of the system."""
     (path,) = glob.glob(os.path.join(tree, "*.dist-info", "METADATA"))
     with open(path, encoding="utf-8") as file:

@@ -12,16 +12,18 @@ std::shared_ptr<const VolumeMedium>
 CompiledVolumes::medium(const std::shared_ptr<const Volume>& prim, const SceneState& state,
                         const RenderSettings& settings) {
     Request request{prim, nullptr};
-    if (!prim->material.empty() && settings.enableSceneMaterials) {
+    if (settings.enableSceneMaterials) {
         const auto found = state.materials.find(prim->material);
         if (found != state.materials.end())
             request.program =
                 _materials.program(found->second, settings.methods, settings.tolerance);
         if (!request.program || !request.program->hasInterior()) {
+            const std::string why =
+                prim->material.empty()
+                    ? "no material is bound"
+                    : "material " + prim->material + " does not exist or is not a volume";
             _diagnostics.warn(prim->path, "material:binding",
-                              "material " + prim->material +
-                                  " does not exist or is not a volume; a grey one is shown that "
-                                  "scatters 0.8 of the light");
+                              why + "; a grey one is shown that scatters 0.8 of the light");
             request.program = nullptr;
         }
     }

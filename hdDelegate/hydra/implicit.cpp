@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/implicit.h"
 
+#include "hdDelegate/hydra/sourceForms.h"
 #include "hdDelegate/hydra/values.h"
 
 #include <cmath>
@@ -39,7 +40,7 @@ void HdPatinaImplicit::syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam&
     const Implicit fallback;
     const auto size = [&](const char* name, float initial) {
         double value = initial;
-        const VtValue given = delegate.Get(id, TfToken(name));
+        const VtValue given = sourceOf(delegate, id, name);
         if (!given.IsEmpty() && (!numberOf(given, value) || !std::isfinite(value))) {
             param.warn(id, name, "is not a number; the fallback is used");
             value = initial;
@@ -56,7 +57,7 @@ void HdPatinaImplicit::syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam&
         shape.radius = size("radiusBottom", shape.radius);
         shape.radiusTop = size("radiusTop", shape.radius);
     }
-    const std::string axis = textOf(delegate.Get(id, TfToken("axis")));
+    const std::string axis = textOf(sourceOf(delegate, id, "axis"));
     shape.axis = axis == "X" ? 0 : axis == "Y" ? 1 : 2;
 }
 

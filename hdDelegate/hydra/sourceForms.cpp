@@ -11,12 +11,12 @@
 
 namespace patina {
 
-namespace {
-
 VtValue sourceOf(HdSceneDelegate& delegate, const SdfPath& id, const std::string& name) {
     const VtValue handedOn = delegate.Get(id, TfToken(sourcePrefix + name));
     return handedOn.IsEmpty() ? delegate.Get(id, TfToken(name)) : handedOn;
 }
+
+namespace {
 
 std::vector<double> doublesOf(const VtValue& value) {
     if (value.IsHolding<VtArray<double>>()) return toVector(value.UncheckedGet<VtArray<double>>());

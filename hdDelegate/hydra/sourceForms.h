@@ -13,6 +13,9 @@ namespace patina {
 /// Hydra's own prims have no place. They are no primvars of the prim.
 inline constexpr const char* sourcePrefix = "patina:source:";
 
+/// An attribute of the stage's prim, as it was handed on or as the delegate gives it.
+VtValue sourceOf(HdSceneDelegate& delegate, const SdfPath& id, const std::string& name);
+
 /// The type of the stage's prim before UsdImaging made a mesh or linear curves of its points: the
 /// plugin's scene index hands its attributes on, UsdImagingDelegate gives any attribute by name.
 ///

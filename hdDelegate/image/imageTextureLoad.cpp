@@ -212,7 +212,7 @@ ImageRGB loadImageLinear(const std::string& file, const std::string& colorSpace,
                          const std::string& input) {
     ImageRGB result;
     std::shared_ptr<ImageTexture> texture;
-    const ImageSource source{file, colorSpace, prim, input};
+    const ImageSource source{file, colorSpace.empty() ? "auto" : colorSpace, prim, input};
     const std::string problem = tooLargeForALight(file);
     if (problem.empty())
         texture = loadImageTexture(source, ColorSpaces::shared(), diagnostics);

@@ -59,7 +59,7 @@ struct ImageRGB {
 };
 
 /// Reads an environment or a light's texture; warns and gives magenta when it cannot.
-/// @param colorSpace as of loadImageTexture()
+/// @param colorSpace as of loadImageTexture(); empty: "auto"
 ImageRGB loadImageLinear(const std::string& file, const std::string& colorSpace,
                          Diagnostics& diagnostics, const std::string& prim,
                          const std::string& input);

@@ -179,7 +179,8 @@ vec3 LightFilters::texel(const Filter& f, const vec3& at) {
 
 vec3 LightFilters::factorOf(const Filter& f, const vec3& point, const vec3& direction,
                             float distance, float time) const {
-    if (f.type == LightFilterType::Multiplier) return vec3(1.0f + f.density * (f.intensity - 1.0f));
+    if (f.type == LightFilterType::Multiplier)
+        return vec3(1.0f - f.density + f.density * f.intensity);
     const mat4 toFilter = f.transform.moves() ? toFilterAt(f, time) : f.toFilter;
     const vec3 p(toFilter * vec4(point, 1.0f));
     vec3 value(1.0f);

@@ -118,13 +118,21 @@ void MtlxParser::readGeomprops(const Element& root) {
 }
 
 void MtlxParser::readExtras() {
-    for (const auto& [name, def] : _defs)
-        for (const Element& child : def.children()) {
-            const std::string input = child.attribute("name").value();
-            if (const auto unit = child.attribute("unit"))
-                _defExtras[name].units[input] = unit.value();
-            if (!std::strcmp(child.name(), "token")) _defExtras[name].tokens.insert(input);
+    for (const auto& [name, def] : _defs) {
+        auto heir = _defs.end();
+        Element element = def;
+        for (int depth = 0; depth <= mostInherited; ++depth, element = heir->second) {
+            for (const Element& child : element.children()) {
+                const std::string input = child.attribute("name").value();
+                if (const auto unit = child.attribute("unit"))
+                    _defExtras[name].units.emplace(input, unit.value());
+                if (!std::strcmp(child.name(), "token")) _defExtras[name].tokens.insert(input);
+            }
+            const auto parent = element.attribute("inherit");
+            heir = parent ? _defs.find(referenced(element, parent.value(), _defs)) : _defs.end();
+            if (heir == _defs.end()) break;
         }
+    }
 }
 
 /// Resolves a name that an element uses: one of its own namespace before one without.

@@ -37,6 +37,12 @@ std::function<float(const glm::vec3&)> interfaceOf(float roughness) {
         {makeNode("bsdf", "ND_dielectric_bsdf", {{"roughness", pair(roughness * roughness)}})}));
 }
 
+std::function<float(const glm::vec3&)> schlickOf(const Value& color0, const Value& color90) {
+    return albedoOf(bsdfNetwork(
+        {makeNode("bsdf", "ND_generalized_schlick_bsdf",
+                  {{"color0", color0}, {"color90", color90}, {"roughness", pair(0.04f)}})}));
+}
+
 /// Patina's ball, what albedo scaling says, and the mean of Cycles' Principled BSDF with the same
 /// numbers (Blender 5.0.1, 64 x 64 pixels, 256 samples).
 void expectMean(const char* name, Inputs inputs, const char* model,
@@ -85,12 +91,42 @@ TEST(LayerMeans, PlasticCoatSheenAndMetalLookAsInOtherRenderers) {
                     {"fuzz_weight", number(1.0f)},
                     {"fuzz_roughness", number(0.5f)}},
                    "ND_open_pbr_surface_surfaceshader", over(fuzz, uncoated), b.sheen);
-        const auto metal = albedoOf(bsdfNetwork({makeNode(
-            "bsdf", "ND_generalized_schlick_bsdf", {{"color0", c}, {"roughness", pair(0.04f)}})}));
         expectMean("metal",
-                   {{"diffuseColor", c}, {"roughness", number(0.2f)}, {"metallic", number(1.0f)}},
-                   "UsdPreviewSurface", metal, b.metal);
+                   {{"base_color", c},
+                    {"specular_roughness", number(0.2f)},
+                    {"base_metalness", number(1.0f)}},
+                   "ND_open_pbr_surface_surfaceshader", schlickOf(c, grey(1.0f)), b.metal);
     }
+}
+
+// F0 and F90 as OpenUSD's Storm has them (previewSurface.glslfx): a metal reflects its albedo at
+// all angles.
+TEST(LayerMeans, MetalAndClearcoatOfUsdPreviewSurface) {
+    const float albedo = 0.1f, ior = 2.0f, ofIor = 1.0f / 9.0f;
+    for (const float metallic : {0.0f, 0.5f, 1.0f}) {
+        const float edge = 1.0f + metallic * (albedo - 1.0f);
+        const auto interface =
+            schlickOf(grey(edge * (ofIor + metallic * (1.0f - ofIor))), grey(edge));
+        const auto closedForm = [&](const glm::vec3& wo) {
+            return interface(wo) + (1.0f - interface(wo)) * (1.0f - metallic) * albedo;
+        };
+        EXPECT_NEAR(meanOf(albedoOf(makeNetwork({makeNode("surface", "UsdPreviewSurface",
+                                                          {{"diffuseColor", grey(albedo)},
+                                                           {"roughness", number(0.2f)},
+                                                           {"ior", number(ior)},
+                                                           {"metallic", number(metallic)}})}))),
+                    meanOf(closedForm), 2e-3f)
+            << metallic;
+    }
+    const auto coat = albedoOf(makeNetwork({makeNode("surface", "UsdPreviewSurface",
+                                                     {{"diffuseColor", grey(0.0f)},
+                                                      {"useSpecularWorkflow", integer(1)},
+                                                      {"specularColor", grey(0.0f)},
+                                                      {"roughness", number(1.0f)},
+                                                      {"clearcoat", number(1.0f)},
+                                                      {"clearcoatRoughness", number(0.0f)},
+                                                      {"ior", number(ior)}})}));
+    EXPECT_NEAR(coat({0.0f, 0.0f, 1.0f}), ofIor, 1e-3f);
 }
 
 } // namespace patina

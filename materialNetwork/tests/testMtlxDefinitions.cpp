@@ -151,6 +151,14 @@ TEST(MtlxDefinitions, TokensInFileNames) {
     EXPECT_EQ(filesOf(escaped(defs) + R"(<outer name="p" type="color3">
         <token name="o" type="string" value="ash" /></outer>)"),
               Names{"big_ash.<UDIM>.png"});
+    // An heir has the tokens of what it inherits from.
+    const std::string heir = R"(<nodedef name="ND_heir" node="heir" inherit="ND_inner" />
+      <nodegraph name="GH" nodedef="ND_heir"><image name="m" type="color3">
+          <input name="file" type="filename" value="[i].png" /></image>
+        <output name="out" type="color3" nodename="m" /></nodegraph>)";
+    EXPECT_EQ(filesOf(escaped(defs) + heir + R"(<heir name="p" type="color3">
+        <token name="i" type="string" value="elm" /></heir>)"),
+              Names{"elm.png"});
 }
 
 TEST(MtlxDefinitions, Units) {

@@ -40,6 +40,7 @@ const std::map<TfToken, std::vector<Attribute>>& attributes() {
             "trimCurve:counts",
             HdDataSourceLocator(TfToken("nurbsPatch"), TfToken("trimCurve"), TfToken("counts"))));
         plain("nurbsCurves", {"order", "knots", "ranges"});
+        plain("plane", {"width", "length", "axis"});
         for (const char* name : {"tetVertexIndices", "surfaceFaceVertexIndices"})
             map[TfToken("tetMesh")].push_back(attribute(
                 name, HdDataSourceLocator(TfToken("tetMesh"), TfToken("topology"), TfToken(name))));

@@ -10,7 +10,8 @@ PXR_NAMESPACE_OPEN_SCOPE
 TF_DECLARE_REF_PTRS(HdPatinaSourceFormsSceneIndex);
 
 /// Before scene indices make meshes and lines of NURBS and tetrahedra, hands their attributes on as
-/// constant primvars, from which the delegate makes what the stage says (hydra/sourceForms.h).
+/// constant primvars, from which the delegate makes what the stage says (hydra/sourceForms.h). The
+/// same for planes, of whose sizes Hydra's adapter tells nothing.
 class HdPatinaSourceFormsSceneIndex final : public HdSingleInputFilteringSceneIndexBase {
 public:
     static HdPatinaSourceFormsSceneIndexRefPtr New(const HdSceneIndexBaseRefPtr& input) {

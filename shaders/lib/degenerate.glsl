@@ -29,6 +29,9 @@ const float METAL_IOR_MAX = 1000.0f;
 // (ior 63).
 const float F0_MAX = 0.9391f;
 
+// The same of the base under a film (ior 1999), which refracts nothing.
+const float FILM_BASE_F0_MAX = 0.998f;
+
 // A lobe is scaled by at most the inverse of this when an albedo in a denominator vanishes (total
 // internal reflection, table noise).
 const float ALBEDO_MIN = 1e-3f;

@@ -75,8 +75,9 @@ PATINA_FN vec3 schlickBare(vec3 n, float c) {
     return vec3(fresnelDielectric(c, n.x), fresnelDielectric(c, n.y), fresnelDielectric(c, n.z));
 }
 
-// Reflectance from outside at cosine c. A film under Schlick's curve changes it by as much as it
-// changes a dielectric of the same color0: the curve itself knows no phases.
+// Reflectance from outside at cosine c. A film under Schlick's curve scales what is not reflected as
+// it does for a dielectric of the same color0: the curve itself knows no phases, and a base that
+// reflects all does so under any film.
 PATINA_FN vec3 schlickOutside(SchlickLobe l, float c) {
     vec3 curve = min(fresnelSchlick(c, l.fresnel), vec3(1.0f));
     if (!filmIsThere(l.film)) {
@@ -85,7 +86,8 @@ PATINA_FN vec3 schlickOutside(SchlickLobe l, float c) {
     }
     vec3 coated = filmReflectance(l.film, c, l.filmBase, vec3(0.0f));
     if (PATINA_FILM(l.exact)) return coated;
-    return min(max(curve + coated - schlickBare(l.filmBase, c), vec3(0.0f)), vec3(1.0f));
+    vec3 passed = max(vec3(1.0f) - schlickBare(l.filmBase, c), vec3(TINY));
+    return max(vec3(1.0f) - (vec3(1.0f) - curve) * (vec3(1.0f) - coated) / passed, vec3(0.0f));
 }
 
 PATINA_FN vec3 schlickAverage(SchlickLobe l) {
@@ -98,7 +100,7 @@ PATINA_FN vec3 schlickAverage(SchlickLobe l) {
 // The lobe under a film (makeFilm).
 PATINA_FN SchlickLobe schlickFilm(SchlickLobe l, float thickness, float ior) {
     l.film = makeFilm(thickness, ior);
-    vec3 r = sqrt(min(l.fresnel.f0, vec3(F0_MAX)));
+    vec3 r = sqrt(min(l.fresnel.f0, vec3(FILM_BASE_F0_MAX)));
     l.filmBase = (vec3(1.0f) + r) / (vec3(1.0f) - r);
     if (filmIsThere(l.film)) l.favg = schlickAverage(l);
     return l;

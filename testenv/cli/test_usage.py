@@ -79,6 +79,7 @@ def test_bash_completes_commands_flags_and_values(tmp_path):
     assert completed(tmp_path, "rec") == ["record"]
     assert completed(tmp_path, "record", "a.usda", "--tol") == ["--tolerance"]
     assert completed(tmp_path, "record", "--backend", "ra") == ["raster"]
+    assert completed(tmp_path, "bsdf", "al") == ["albedo"] and completed(tmp_path, "completion", "z") == ["zsh"]
     assert completed(tmp_path, "record", "a.u") == []  # files are bash's own
 
 

@@ -283,7 +283,7 @@ def test_primvars_of_a_material_are_those_of_its_prims(tmp_path):
 
 @MODES
 def test_forms_that_hydra_has_no_place_for(tmp_path, scene_index):
-    """NURBS patches and curves and tetrahedra are what the stage says, not the grids and lines that hosts make of them."""
+    """NURBS patches and curves, tetrahedra and planes are what the stage says, not what hosts make of them."""
     shot = stages.Shot(os.path.join(HERE, "otherForms.usda"), tmp_path)
     image, text = render_with_hydra(shot, tmp_path, scene_index)
     assert sceneText.difference(text, shot.scene.dump(), native_shapes=scene_index) == ""

@@ -259,6 +259,17 @@ TEST_F(Textures, ImagesOfLightsAreWithinALimit) {
     EXPECT_TRUE(load());
 }
 
+TEST_F(Textures, ImagesOfLightsAreAsTheirFilesSay) {
+    writeImage(temp.file("half.png"), 1, 1, {0.5f, 0.5f, 0.5f}, OIIO::TypeUInt8);
+    const auto load = [&](const char* space) {
+        return loadImageLinear(temp.file("half.png"), space, diagnostics, "/Rect", "texture")
+            .pixels.at(0)
+            .x;
+    };
+    EXPECT_NEAR(load(""), 0.2159f, 1e-3f); // eight bits of colour are sRGB
+    EXPECT_NEAR(load("raw"), 0.502f, 1e-3f);
+}
+
 TEST_F(Textures, ChannelsBeyondFourAndTwoColourChannels) {
     writeImage(temp.file("many.exr"), 2, 2, {0.1f, 0.2f, 0.3f, 0.4f, 0.5f}, OIIO::TypeFloat,
                {"R", "G", "B", "X", "Y"});

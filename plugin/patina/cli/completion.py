@@ -21,15 +21,19 @@ def run(arguments):
 
 
 def table():
-    """:returns: command -> dict of flag -> (choices, text of --help), from the parsers that --help is made of"""
+    """:returns: command -> dict of flag -> (choices, text of --help), from the parsers that --help is made of; what stands
+    first is listed under the command's own name"""
     from patina.cli import main
 
     found = {}
     for name, module in main.COMMANDS.items():
         parser = argparse.ArgumentParser(prog=f"patina {name}")
         importlib.import_module("patina.cli." + module).add_arguments(parser)
-        found[name] = {flag: (tuple(map(str, action.choices or ())), " ".join((action.help or "").replace("%%", "%").split()))
-                       for action in parser._actions for flag in action.option_strings}
+        found[name] = {}
+        for action in parser._actions:
+            for flag in action.option_strings or [name]:
+                found[name].setdefault(flag, (tuple(map(str, action.choices or ())),
+                                              " ".join((action.help or "").replace("%%", "%").split())))
     return found
 
 
@@ -38,8 +42,13 @@ def _values(commands, line):
                      for name, flags in commands.items() for flag, (choices, _) in flags.items() if choices)
 
 
+def _flags(found):
+    return [(flag, text) for flag, (_, text) in found.items() if flag.startswith("-")]
+
+
 def _bash(commands):
-    flags = "\n".join(f"        {name}) words={shlex.quote(' '.join(flags))} ;;" for name, flags in commands.items())
+    flags = "\n".join(f"        {name}) words={shlex.quote(' '.join(flag for flag, _ in _flags(found)))} ;;"
+                      for name, found in commands.items())
     return f"""_patina() {{
     local current=${{COMP_WORDS[COMP_CWORD]}} words=
     if [ "$COMP_CWORD" -eq 1 ]; then
@@ -64,8 +73,7 @@ def _zsh(commands):
     def listed(pairs):
         return " ".join(shlex.quote(f"{name}:{text}") for name, text in pairs)
 
-    flags = "\n".join(f"        {name}) found=({listed((flag, text) for flag, (_, text) in flags.items())}) ;;"
-                      for name, flags in commands.items())
+    flags = "\n".join(f"        {name}) found=({listed(_flags(found))}) ;;" for name, found in commands.items())
     return f"""#compdef patina
 _patina() {{
     local -a found

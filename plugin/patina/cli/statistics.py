@@ -101,7 +101,7 @@ class Statistics:
             self._frame["plan"] = planText.of_scene(state["plans"], state["sceneChoices"])
         if film.width:
             error = film.relative_error(shared=state["backend"] == "raster")
-            if samples and math.isfinite(error):
+            if counts is not None and counts.max() > 1 and math.isfinite(error):  # one sample tells of no noise
                 self._frame["estimatedError"] = error
                 self._frame["estimatedErrorIs"] = ERROR_IS
 

@@ -120,8 +120,10 @@ class Walk:
                                   f"there is no purpose '{purpose}'; nothing is drawn of the prim")
             state = state.with_(purpose=purpose)
         if any(name.startswith("primvars:") for name in names):
-            inherited = UsdGeom.PrimvarsAPI(prim).FindIncrementallyInheritablePrimvars(state.primvars)
-            if inherited:
+            api = UsdGeom.PrimvarsAPI(prim)
+            inherited = api.FindIncrementallyInheritablePrimvars(state.primvars)
+            # pxr returns an empty list for "as above" and for "none is left"
+            if inherited or any(api.GetPrimvar(above.GetPrimvarName()).HasAuthoredValue() for above in state.primvars):
                 state = state.with_(primvars=tuple(inherited))
             found_marks = marks.authored(self.context, prim, names, state.marks)
             if found_marks is not state.marks:

@@ -58,6 +58,13 @@ const char* const geometryText = R"(
             uniform token[] xformOpOrder = ["xformOp:translate"]
             color3f[] primvars:displayColor = [(0.8, 0.3, 0.1)]
         }
+        def Plane "pane"
+        {
+            double width = 0.5
+            double length = 0.8
+            double3 xformOp:translate = (1, 0.6, 1.2)
+            uniform token[] xformOpOrder = ["xformOp:translate"]
+        }
         def BasisCurves "curves"
         {
             int[] curveVertexCounts = [4, 4]

@@ -4,6 +4,7 @@
 #include <pxr/usd/usdGeom/cube.h>
 #include <pxr/usd/usdGeom/gprim.h>
 #include <pxr/usd/usdGeom/mesh.h>
+#include <pxr/usd/usdGeom/plane.h>
 #include <pxr/usd/usdGeom/primvarsAPI.h>
 #include <pxr/usd/usdGeom/sphere.h>
 #include <pxr/usd/usdGeom/tokens.h>
@@ -122,12 +123,12 @@ void dropColor(const UsdStageRefPtr& stage, Host&, Random& random) {
 }
 
 void changeShape(const UsdStageRefPtr& stage, Host&, Random& random) {
-    if (random.chance(0.5f))
-        UsdGeomSphere(geometryPrim(stage, "sphere"))
-            .GetRadiusAttr()
-            .Set(double(random.real(0.1f, 0.6f)));
-    else
-        UsdGeomCube(geometryPrim(stage, "cube")).GetSizeAttr().Set(double(random.real(0.1f, 0.8f)));
+    const double size = double(random.real(0.1f, 0.8f));
+    switch (random.index(3)) {
+    case 0: UsdGeomSphere(geometryPrim(stage, "sphere")).GetRadiusAttr().Set(size); break;
+    case 1: UsdGeomCube(geometryPrim(stage, "cube")).GetSizeAttr().Set(size); break;
+    default: UsdGeomPlane(geometryPrim(stage, "pane")).GetWidthAttr().Set(size);
+    }
 }
 
 void changeVisibility(const UsdStageRefPtr& stage, Host&, Random& random) {

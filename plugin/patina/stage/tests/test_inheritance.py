@@ -111,6 +111,18 @@ def test_prims_between_an_instancer_and_its_prototypes_are_inherited_from(read):
     assert ball["primvar x constant"] == "1" and ball["primvar y constant"] == "2"
 
 
+def test_a_primvar_by_instance_ends_what_was_inherited(read):
+    """A prim's own primvar that is not constant hides that of the same name above it, be it the only one."""
+    for more, expected in (("", None), ("float primvars:other = 1", "1")):
+        reading = read('def Xform "w" { color3f[] primvars:displayColor = [(0, 0, 0.7)]  ' + more + """
+            def PointInstancer "p" { point3f[] positions = [(0, 0, 0), (3, 0, 0)]  int[] protoIndices = [0, 0]
+                rel prototypes = [</w/p/s>]
+                color3f[] primvars:displayColor = [(0.9, 0.1, 0), (0, 0.1, 0.9)] (interpolation = "vertex")
+                def Sphere "s" { } } }""")
+        ball = reading.prim("/w/p/s")
+        assert "primvar displayColor constant x3" not in ball and ball.get("primvar other constant") == expected
+
+
 PURPOSES = {  # of the instancer, of what is above the prototype, of the prototype -> drawn with those purposes
     ("render", "", ""): {"render"}, ("render", "", "proxy"): {"render", "proxy"}, ("guide", "", ""): {"guide"},
     ("render", "library", ""): set(), ("", "library:guide", ""): {"guide"}, ("render", "library:guide", "proxy"): {"proxy"},

@@ -120,7 +120,7 @@ TEST(LayerMeans, MetalAndClearcoatOfUsdPreviewSurface) {
     }
     const auto coat = albedoOf(makeNetwork({makeNode("surface", "UsdPreviewSurface",
                                                      {{"diffuseColor", grey(0.0f)},
-                                                      {"useSpecularWorkflow", integer(1)},
+                                                      {"useSpecularWorkflow", number(1.0f)},
                                                       {"specularColor", grey(0.0f)},
                                                       {"roughness", number(1.0f)},
                                                       {"clearcoat", number(1.0f)},

@@ -120,7 +120,7 @@ TEST(LayerMeans, MetalAndClearcoatOfUsdPreviewSurface) {
     }
     const auto coat = albedoOf(makeNetwork({makeNode("surface", "UsdPreviewSurface",
                                                      {{"diffuseColor", grey(0.0f)},
-                                                      {"useSpecularWorkflow", number(1.0f)},
+                                                      {"useSpecularWorkflow", Value::makeInt(1)},
                                                       {"specularColor", grey(0.0f)},
                                                       {"roughness", number(1.0f)},
                                                       {"clearcoat", number(1.0f)},

@@ -35,15 +35,16 @@ def folder(tmp_path, monkeypatch):
 class _Signals:
     """Sends a signal to this process as soon as a render has samples."""
 
-    def __init__(self, renderer, number):
-        self._renderer, self._number = renderer, number
+    def __init__(self, renderer, number, times=1):
+        self._renderer, self._number, self._times = renderer, number, times
 
     def __getattr__(self, name):
         return getattr(self._renderer, name)
 
     def wait(self, seconds):
         if self._number and self._renderer.progress()["samplesDone"] > 0:
-            os.kill(os.getpid(), self._number)
+            for _ in range(self._times):
+                os.kill(os.getpid(), self._number)
             self._number = 0
         return self._renderer.wait(seconds)
 
@@ -205,7 +206,9 @@ for _ in range(1000):
 
 # In the place of a module of Python that the command line imports first.
 ARGPARSE = """import importlib.machinery, os, sys
-os.kill(os.getpid(), int(os.environ["EARLY"]))
+sys.modules["patina.cli.interrupts"].ONE_SECONDS = 3600.0
+for _ in range(2):  # as `timeout` sends it
+    os.kill(os.getpid(), int(os.environ["EARLY"]))
 sys.path.remove(os.path.dirname(__file__))
 spec = importlib.machinery.PathFinder.find_spec("argparse")
 spec.loader.exec_module(sys.modules["argparse"])
@@ -260,6 +263,77 @@ sys.exit(main.main(["explain", "m.mtlx"]))
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
     assert done.returncode in (-signal.SIGINT, -signal.SIGTERM) and done.stderr == ""
+
+
+# A render that is ended by SIGTERM.
+RENDER = f"""
+import os, signal, sys
+sys.path.append({os.path.dirname(os.path.abspath(__file__))!r})
+from test_signals import LONG, _patina, _Signals, interrupts, main, record
+times = 1
+make, write = _patina.make_renderer, record._Job._write
+_patina.make_renderer = lambda backend: _Signals(make(backend), signal.SIGTERM, times)
+%s
+sys.exit(main.main(["record", "stage.usda", "a.exr", *LONG]))
+"""
+
+
+def test_the_second_signal_ends_a_command_whose_render_is_over(folder):
+    """As while it denoises, or writes the image."""
+    program = RENDER % """
+def signalled(*arguments):
+    os.kill(os.getpid(), signal.SIGINT)
+    for _ in range(100000):  # until the signal is handled
+        pass
+    write(*arguments)
+record._Job._write = signalled
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert done.returncode == -signal.SIGINT and done.stderr == "" and not os.path.exists("a.exr")
+
+
+def test_a_signal_that_comes_twice_at_once_saves_the_image(folder):
+    """`timeout` sends it to a process, and then to the group that the process is in."""
+    program = RENDER % "times, interrupts.ONE_SECONDS = 2, 3600.0"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 75 and "--resume continues" in done.stderr
+    assert sorted(os.listdir()) == ["a.exr", "a.exr.checkpoint", "stage.usda"]
+
+
+@pytest.mark.parametrize("compiled", (False, True), ids=("python", "compiled"))
+@pytest.mark.parametrize("seconds, status, said", [(3600.0, 1, "patina: terminated\n"), (0.0, -signal.SIGTERM, "")],
+                         ids=("at once", "later"))
+def test_a_signal_that_comes_again_is_the_second_when_it_is_late(folder, seconds, status, said, compiled):
+    program = f"""
+import os, signal, sys
+from patina.cli import compiled, explain, interrupts, main
+interrupts.ONE_SECONDS = {seconds}
+def run(_):
+    if {compiled}:
+        compiled.load()
+    try:
+        os.kill(os.getpid(), signal.SIGTERM)
+        for _ in range(100000):  # until the signal is handled
+            pass
+    except KeyboardInterrupt:
+        os.kill(os.getpid(), signal.SIGTERM)
+        raise
+explain.run = run
+sys.exit(main.main(["explain", "m.mtlx"]))
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (status, said)
+
+
+def test_a_signal_waits_for_what_is_not_to_be_left_half_way():
+    done = []
+    with interrupts.Endings(), pytest.raises(KeyboardInterrupt):
+        with interrupts.held():
+            os.kill(os.getpid(), signal.SIGTERM)
+            for _ in range(100000):  # until the signal is handled
+                pass
+            done.append("whole")
+    assert done == ["whole"]
 
 
 def test_ignored_signals_stay_ignored(folder):

@@ -1,12 +1,34 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ctrl+C, the end of a batch job and of a terminal: noted, and not resisted twice."""
+import contextlib
 import os
 import signal
 import sys
 import threading
+import time
 
 NUMBERS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+ONE_SECONDS = 0.3  # within which a signal is one with the first: `timeout` sends it to a process, and again to its group
 _early = []  # numbers of signals that came before there was a command
+
+
+class _Count:
+    """Tells the first signal from the second, at which it ends the process."""
+
+    def __init__(self):
+        self._first = None  # (number, when)
+
+    def begins(self, number):
+        """:returns: whether a signal is the first"""
+        now = time.monotonic()
+        if self._first and (number != self._first[0] or now - self._first[1] > ONE_SECONDS):
+            signal.signal(number, signal.SIG_DFL)
+            os.kill(os.getpid(), number)
+        first, self._first = not self._first, self._first or (number, now)
+        return first
+
+
+_count = _Count()  # of those too
 
 
 def begin(command):
@@ -22,9 +44,8 @@ def begin(command):
 
 
 def _note_early(number, _frame):
-    _early.append(number)
-    if number in NUMBERS:
-        signal.signal(number, signal.SIG_DFL)
+    if number not in NUMBERS or _count.begins(number):
+        _early.append(number)
 
 
 def came_early(number):
@@ -39,20 +60,20 @@ def harden():
     while OpenUSD composes a stage. Needs the compiled module."""
     module = sys.modules.get("_patina")
     if module and threading.current_thread() is threading.main_thread():
-        module.end_at_second_signal(NUMBERS)
+        module.end_at_second_signal(NUMBERS, ONE_SECONDS)
 
 
 class _Handlers:
-    """Within the block, signals that are not ignored (as by nohup) come to _note()."""
+    """Within the block, the first signal that is not ignored (as by nohup) comes to _note(); the next ends the process."""
 
     def __init__(self):
-        self._before = {}
+        self._before, self._count = {}, _Count()
 
     def __enter__(self):
         if threading.current_thread() is threading.main_thread():
             for number in NUMBERS:
                 if signal.getsignal(number) not in (signal.SIG_IGN, None):
-                    self._before[number] = signal.signal(number, self._note)
+                    self._before[number] = signal.signal(number, self._hear)
             harden()
         return self
 
@@ -63,17 +84,23 @@ class _Handlers:
             harden()
         return False
 
+    def _hear(self, number, frame):
+        if self._count.begins(number):
+            self._note(number, frame)
+
 
 class Interrupts(_Handlers):
-    """While a render runs: the first signal sets `met`; the next does what it always does."""
+    """While a render runs: the first signal sets `met`. The next ends the process, also after the block."""
 
     def __init__(self):
         super().__init__()
         self.met = False
 
-    def _note(self, number, _frame):
+    def __exit__(self, *problem):
+        return False if self.met else super().__exit__(*problem)
+
+    def _note(self, *_):
         self.met = True
-        signal.signal(number, signal.SIG_DFL)
 
 
 class Endings(_Handlers):
@@ -90,11 +117,15 @@ class Endings(_Handlers):
         self.met = 0
         self._timer = None  # what SIGALRM did before
         self._settled = False
+        self.holds = False  # the first signal waits
 
     def __enter__(self):
+        global _count
         Endings.open = self
         super().__enter__()
         self.met = next(filter(came_early, NUMBERS), 0)
+        if self.met:
+            self._count, _count = _count, _Count()
         return self
 
     def __exit__(self, *problem):
@@ -122,11 +153,10 @@ class Endings(_Handlers):
 
     def _note(self, number, frame):
         self.met = number
-        signal.signal(number, signal.SIG_DFL)
         self._end(number, frame)
 
     def _end(self, _number, frame):
-        if self._settled:
+        if self._settled or self.holds:
             return
         if not _imports(frame):
             raise KeyboardInterrupt
@@ -137,6 +167,21 @@ class Endings(_Handlers):
     def text(self):
         return {"SIGTERM": "terminated", "SIGHUP": "ended with its terminal"}.get(
             signal.Signals(self.met).name if self.met else "", "interrupted")
+
+
+@contextlib.contextmanager
+def held():
+    """Within the block the first signal waits for the end of the block: for a call that leaves half of its work where an
+    exception comes."""
+    endings = Endings.open
+    if endings:
+        endings.holds = True
+    try:
+        yield
+    finally:
+        if endings:
+            endings.holds = False
+    Endings.check()
 
 
 def _imports(frame):

@@ -105,6 +105,17 @@ def test_a_removed_and_an_added_source_are_noticed(checkout):
     assert len(builds(checkout.run("record")[1])) == 1
 
 
+@pytest.mark.parametrize("command, status, name, said", [
+    ("record", 75, "INT", "interrupted"), ("merge", 75, "TERM", "terminated"), ("farm", 75, "HUP", "ended with its terminal"),
+    ("explain", 1, "INT", "interrupted")])
+def test_a_signal_ends_it_as_it_would_end_the_command(checkout, command, status, name, said):
+    """It comes while the launcher waits for a program."""
+    checkout.run("record")
+    write(checkout.tools / "cmp", f'#!/bin/sh\nkill -{name} $PPID\nPATH=/usr/bin:/bin cmp "$@"\n', program=True)
+    process, calls = checkout.run(command)
+    assert (process.returncode, process.stdout, process.stderr) == (status, "", f"patina: {said}\n") and calls == []
+
+
 def test_tests_are_built_for_test_only(checkout):
     checkout.run("record")
     (checkout.root / "hdDelegate" / "scene" / "tests" / "a.txt").write_text("other")

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A process that may die reads headers of images with an ICC profile first, with `--limit untriedBytes=0` stage and images
 (SECURITY.md)."""
+import contextlib
 import glob
 import os
+import select
 import shutil
+import signal
 import stat
 import subprocess
 import sys
@@ -17,6 +20,7 @@ from patina.cli import tryStage
 from test_limits import HEAD, PREVIEW, QUAD, bound
 
 FLAGS = ("-w", 8, "--samples", 1, "--camera", "/camera")
+_OPENS = "stage = Usd.Stage.Open(sys.argv[1])"
 UNTRIED = ("--limit", "untriedBytes=0")
 KILLERS = sorted(glob.glob(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "fuzz", "corpus", "libraries", "*")))
 
@@ -144,10 +148,49 @@ def test_a_stage_that_takes_all_memory_is_refused(stage, monkeypatch, dies):
     """The limit reaches OpenUSD's own threads, too, which end the process."""
     monkeypatch.setattr(tryStage.limits, "value", lambda _: 0)
     monkeypatch.setattr(tryStage, "_READ", tryStage._READ.replace(
-        "stage = Usd.Stage.Open(sys.argv[1])",
-        f"assert resource.getrlimit(resource.RLIMIT_DATA)[0] == int(sys.argv[2]); {dies}"))
+        _OPENS, f"assert resource.getrlimit(resource.RLIMIT_DATA)[0] == int(sys.argv[2]); {dies}"))
     gigabytes = tryStage._MEMORY * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 1e9
-    assert tryStage.why_trial_fails(str(stage)) == f"takes more than {gigabytes:.1f} GB of memory"
+    assert tryStage.why_trial_fails(str(stage)) == f"takes more than {gigabytes:.1f} GB of memory: {tryStage._TOO_MUCH}"
+
+
+def test_a_stage_that_takes_too_long_is_refused(stage, monkeypatch):
+    """Sound ones may, too, by their size."""
+    monkeypatch.setattr(tryStage.limits, "value", lambda _: 0)
+    monkeypatch.setattr(tryStage, "_SECONDS", 0)
+    monkeypatch.setattr(tryStage, "_READ", "import signal\nsignal.pause()")
+    assert tryStage.why_trial_fails(str(stage)) == ("is not read by OpenUSD within 0 s: the file is damaged, or asks for too "
+                                                    "much")
+
+
+def test_the_process_that_tries_a_stage_ends_by_itself(stage, monkeypatch):
+    """Its parent may be gone, or be held."""
+    monkeypatch.setattr(tryStage.limits, "value", lambda _: 0)
+    monkeypatch.setattr(tryStage, "_SECONDS", 1000)
+    monkeypatch.setattr(tryStage, "_READ", tryStage._READ.replace(_OPENS, "assert 900 < signal.alarm(0) <= 1001; os.abort()"))
+    assert "makes OpenUSD fail (Aborted)" in tryStage.why_trial_fails(str(stage))
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="asks Linux for it")
+def test_the_process_that_tries_a_stage_ends_with_its_parent(stage, tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    program = f"""
+from patina.cli import tryStage
+tryStage.limits.value = lambda _: 0
+opens = {_OPENS!r}
+tryStage._READ = tryStage._READ.replace(opens, "import signal; pipe = open({str(tmp_path / 'pipe')!r}, 'w'); "
+                                               "print(os.getpid(), file=pipe, flush=True); signal.pause()")
+tryStage.why_trial_fails({str(stage)!r})
+"""
+    parent = subprocess.Popen([sys.executable, "-c", program])
+    with open(tmp_path / "pipe", encoding="utf-8") as pipe:
+        child = int(pipe.readline())
+        parent.kill()
+        parent.wait()
+        try:
+            assert select.select([pipe], [], [], 30)[0] and pipe.read() == ""  # nobody holds it any more
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(child, signal.SIGKILL)
 
 
 def test_a_broken_stage_gets_its_own_message(tmp_path):

@@ -22,7 +22,7 @@ def check_in_place(output):
     outputs.check(output, EXTENSIONS)
     problem = tryStage.why_trial_fails(output) if os.path.exists(output) else ""
     if problem:
-        raise CommandError(f"{output} {problem}: the file is damaged")
+        raise CommandError(f"{output} {problem}")
 
 
 def write(arguments, name, inputs, warnings):

@@ -30,7 +30,7 @@ def open_stage(path, mask=None, session_layer=None, layers=()):
     inputs.check_regular(path)
     problem = tryStage.why_trial_fails(path)
     if problem:
-        raise StageError(f"{path} {problem}: the file is damaged")
+        raise StageError(f"{path} {problem}")
     with compat.QuietDiagnostics() as quiet:
         try:
             # Names that no layer has beside it are looked for beside the stage, as when USD opens it.
@@ -84,7 +84,7 @@ def _above(layer, what, variables, held):
     inputs.check_regular(layer)
     problem = tryStage.why_trial_fails(layer)
     if problem:
-        raise CommandError(f"{what} {layer} {problem}: the file is damaged")
+        raise CommandError(f"{what} {layer} {problem}")
     found = Sdf.Layer.FindOrOpen(layer)
     if not found:
         raise CommandError(f"{what} {layer} cannot be opened")

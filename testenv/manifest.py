@@ -92,6 +92,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/farm/test_cut.py::*", "unit", None),
     ("testenv/farm/test_simulation.py::*", "unit", None),
     ("testenv/farm/test_work.py::*", "unit", None),
+    ("testenv/farm/test_folders.py::*", "unit", None),
     # Processes of Dask and of Open Job Description's command line.
     ("testenv/farm/test_engines.py::*", "full", None),
     ("testenv/farm/test_jobs.py::*", "full", None),

@@ -32,15 +32,16 @@ namespace {
     failWith("cannot write '" + path + "'", error);
 }
 
-/// Renaming over a device, a pipe or a link would put a file in its place.
-/// @returns the file that the path means, links followed
-fs::path targetOf(const std::string& path) {
+/// Renaming over a device or a pipe would put a file in its place.
+/// @returns the file that is to be replaced
+fs::path targetOf(const std::string& path, Links links) {
     struct stat found;
     if (::lstat(path.c_str(), &found) != 0) {
         if (errno == ENOENT || errno == ENOTDIR) return path;
         fail(path, errno);
     }
     const bool link = S_ISLNK(found.st_mode);
+    if (link && links == Links::replace) return path;
     if (link && ::stat(path.c_str(), &found) != 0)
         fail(path, errno == ENOENT ? std::string("it is a link to nothing")
                                    : "it is a link: " + std::string(std::strerror(errno)));
@@ -67,11 +68,11 @@ fs::path folderOf(const std::string& path, const fs::path& target) {
     return folder;
 }
 
-/// @returns the file that a name leads to
-fs::path checkedTarget(const std::string& path) {
+/// @returns the file that is to be replaced
+fs::path checkedTarget(const std::string& path, Links links = Links::follow) {
     if (path.empty()) throw std::runtime_error("cannot write an image without a name");
     if (path.find('\0') != std::string::npos) fail(path.c_str(), "its name holds a zero byte");
-    return targetOf(path);
+    return targetOf(path, links);
 }
 
 /// The beginning and the end of names of temporaries; between them are process and number.
@@ -118,9 +119,9 @@ void removeLeftOver(const fs::path& folder, const fs::path& target) {
 
 } // namespace
 
-AtomicFile::AtomicFile(const std::string& path) : _path(path) {
+AtomicFile::AtomicFile(const std::string& path, Links links) : _path(path), _links(links) {
     static std::atomic<unsigned> counter{0};
-    const fs::path target = checkedTarget(path);
+    const fs::path target = checkedTarget(path, links);
     const fs::path folder = folderOf(path, target);
     removeLeftOver(folder, target);
     _path = target.string();
@@ -131,7 +132,7 @@ AtomicFile::AtomicFile(const std::string& path) : _path(path) {
     if (_lock < 0) fail(path, errno);
     (void)::flock(_lock, LOCK_EX | LOCK_NB); // where there are no locks, the process says enough
     struct stat existing;
-    if (::stat(_path.c_str(), &existing) == 0) {
+    if (::lstat(_path.c_str(), &existing) == 0 && S_ISREG(existing.st_mode)) {
         if (::fchown(_lock, existing.st_uid, existing.st_gid) != 0) errno = 0; // root alone may
         ::fchmod(_lock, existing.st_mode & 07777);
     }
@@ -163,7 +164,7 @@ void AtomicFile::commit() {
     ::close(file);
     if (problem) fail(_path, problem);
     // Once more: something else may have come there since.
-    if (targetOf(_path).string() != _path) fail(_path, "it has become a link");
+    if (targetOf(_path, _links).string() != _path) fail(_path, "it has become a link");
     if (std::rename(_temporary.c_str(), _path.c_str()) != 0) fail(_path, errno);
     ::close(_lock);
     _lock = -1;

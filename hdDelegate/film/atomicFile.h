@@ -5,17 +5,20 @@
 
 namespace patina {
 
+/// What happens to a link at the path of a file: what it leads to is replaced, or the link.
+enum class Links { follow, replace };
+
 /// A file that appears all at once: writers fill temporaryPath(), commit() renames it. When
 /// commit() was not reached the temporary is removed, and what stood at the path stays as it was.
 ///
-/// Only regular files are replaced, links to them by way of their targets. Temporaries that a
+/// Only regular files and links are replaced. Temporaries that a
 /// killed process has left of the same path are removed.
 class AtomicFile {
 public:
     /// The temporary lies beside the path and keeps its extension, for writers that look at it.
     /// @throws std::runtime_error when the folder does not exist or cannot be written, or when the
-    ///         path is a folder, a device, a pipe, a socket, or a link that leads to no file
-    explicit AtomicFile(const std::string& path);
+    ///         path is a folder, a device, a pipe, a socket, or a link to follow that leads to none
+    explicit AtomicFile(const std::string& path, Links links = Links::follow);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -29,6 +32,7 @@ public:
 
 private:
     std::string _path, _temporary;
+    Links _links;
     int _lock = -1; ///< of the temporary, while it is being written
 };
 

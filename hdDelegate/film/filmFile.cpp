@@ -9,6 +9,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include <fcntl.h>
+
 namespace patina {
 
 namespace {
@@ -19,6 +21,12 @@ uint64_t load(const char* p, size_t bytes) {
     uint64_t word = 0;
     std::memcpy(&word, p, bytes);
     return word;
+}
+
+/// Others may put a link in its place where they may write to the folder.
+FILE* opened(const std::string& temporary) {
+    const int file = ::open(temporary.c_str(), O_WRONLY | O_TRUNC | O_NOFOLLOW | O_CLOEXEC);
+    return file < 0 ? nullptr : ::fdopen(file, "wb");
 }
 
 } // namespace
@@ -37,7 +45,7 @@ void StreamChecksum::mix(uint64_t word) {
 
 FilmFileWriter::FilmFileWriter(const FilmFileKind& kind, const std::string& temporary,
                                const std::string& name)
-    : _kind(kind.name), _name(name), _file(std::fopen(temporary.c_str(), "wb"), &std::fclose) {
+    : _kind(kind.name), _name(name), _file(opened(temporary), &std::fclose) {
     if (!_file) fail();
     bytes(kind.magic, sizeof kind.magic);
     value(kind.version);

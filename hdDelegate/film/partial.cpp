@@ -109,8 +109,8 @@ int PartialErrors::samplesOfWhole(double tolerance, int minSamples) const {
 
 PartialWriter::PartialWriter(const std::string& file, const std::string& description,
                              std::vector<Tile> tiles)
-    : _target(file), _file(partial, _target.temporaryPath(), file), _tiles(std::move(tiles)),
-      _counts(_tiles.size(), UINT32_MAX) {
+    : _target(file, Links::replace), _file(partial, _target.temporaryPath(), file),
+      _tiles(std::move(tiles)), _counts(_tiles.size(), UINT32_MAX) {
     _file.text(description);
     _file.value(uint32_t(_tiles.size()));
     for (const Tile& tile : _tiles)

@@ -21,7 +21,7 @@ class Film;
 /// @throws std::runtime_error with a one-line reason
 class PartialWriter {
 public:
-    /// @param file appears all at once, when commit() is called
+    /// @param file appears all at once, when commit() is called; a link there is replaced
     /// @param description what made the part; its host reads it
     PartialWriter(const std::string& file, const std::string& description, std::vector<Tile> tiles);
     /// @throws std::invalid_argument where a tile lies outside of the film

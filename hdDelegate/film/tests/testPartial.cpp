@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -125,6 +126,26 @@ TEST(Partial, AnyCutAddsUpToTheBitsOfTheWhole) {
             EXPECT_EQ(bytesOf(merged, temp), expected) << samples << " samples";
         }
     }
+}
+
+/// Whoever may write to the folder of parts would lead them to any file of the user's.
+TEST(Partial, LinksInItsPlaceAreReplaced) {
+    const TempFolder temp;
+    const std::string part = temp.file("part"), other = temp.file("other");
+    std::ofstream(other) << "mine";
+    for (const bool early : {true, false})
+        for (const std::string& target : {other, temp.file("none")}) {
+            std::filesystem::remove(part);
+            if (early) std::filesystem::create_symlink(target, part);
+            PartialWriter writer(part, "", {{0, 0, 1, 1}});
+            if (!early) std::filesystem::create_symlink(target, part);
+            writer.commit("report");
+            EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(part)));
+            Film film;
+            EXPECT_EQ(mergePartial(film, part, {}), "report");
+        }
+    EXPECT_EQ(std::filesystem::file_size(other), 4u);
+    EXPECT_FALSE(std::filesystem::exists(temp.file("none")));
 }
 
 /// Sums in one order are not those in another: without spans the test above would pass for nothing.

@@ -19,6 +19,10 @@ class Folder:
     def __init__(self, path, handle):
         self.path, self.handle = path, handle
 
+    @property
+    def user(self):
+        return os.fstat(self.handle).st_uid
+
     def names(self):
         return os.listdir(self.handle)
 
@@ -57,9 +61,10 @@ def opened(path):
 
 
 @contextlib.contextmanager
-def own(path):
+def own(path, others=()):
     """Yields a Folder of this user's.
 
+    :param others: numbers of users whose folder it may be as well
     :raises FileNotFoundError: where there is none
     :raises CommandError: where it is a link, something else, or somebody else's"""
     with contextlib.ExitStack() as stack:
@@ -70,29 +75,23 @@ def own(path):
         except OSError as error:
             reason = "it is a link; remove it" if os.path.islink(path) else error.strerror
             raise CommandError(f"cannot use the folder {path}: {reason}") from error
-        uid = os.fstat(folder.handle).st_uid
-        if uid != os.geteuid() and uid != _maker(folder):
-            raise CommandError(f"cannot use the folder {path}: it belongs to {_user(uid)}; remove it, or name another image")
+        if folder.user not in (os.geteuid(), *others) and folder.user != _maker(path):
+            raise CommandError(f"cannot use the folder {path}: it belongs to {_name(folder.user)}; remove it, or name another "
+                               "image")
         yield folder
 
 
-def _maker(folder):
-    """:returns: whose a new file of the folder is, None where this process makes none there. File systems of others may give
+def _maker(path):
+    """:returns: whose a new file beside a folder is, None where this process makes none there. File systems of others may give
     all files to one user, which is then not the process's"""
-    name = next(tempfile._get_candidate_names())
     try:
-        handle = folder.new(name)
+        with tempfile.TemporaryFile(dir=os.path.dirname(path)) as file:
+            return os.fstat(file.fileno()).st_uid
     except OSError:
         return None
-    try:
-        return os.fstat(handle).st_uid
-    finally:
-        os.close(handle)
-        with contextlib.suppress(OSError):
-            folder.remove(name)
 
 
-def _user(uid):
+def _name(uid):
     try:
         return pwd.getpwuid(uid).pw_name
     except KeyError:

@@ -38,6 +38,7 @@ def _check(place, job):
 def take(folder, job):
     """Makes the folder this job's, where that of its last owner has ended.
 
+    :returns: number of the user whose folder it is
     :raises CommandError: where it belongs to another job, or the file cannot be written"""
     path = path_of(folder)
     told = json.dumps({"host": socket.gethostname(), "pid": os.getpid(), "begun": _begun(os.getpid()), "job": job})
@@ -51,6 +52,7 @@ def take(folder, job):
                 _write(handle, place, told.encode())
             finally:
                 os.close(handle)
+            return place.user
     except (BlockingIOError, FileExistsError):
         raise CommandError(f"{path} is of another job that begins just now; remove it if no job renders this image") from None
     except OSError as error:

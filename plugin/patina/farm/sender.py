@@ -90,7 +90,7 @@ class Sender:
         # Any worker takes it when those have gone.
         places = {"workers": others, "allow_other_workers": True} if avoided and others else {}
         return self.client.submit(worker.run, task.arguments(self.arguments, self.threads), self.folder, task.log, self.checks,
-                                  self.variables, pure=False, retries=0, **places)
+                                  self.variables, task.frame.user, pure=False, retries=0, **places)
 
     @property
     def present(self):

@@ -12,7 +12,8 @@ from patina.farm import cut, folders, identity, owner, partial
 TRIES = 4  # of a part: the first, and three more, on other workers where there are any
 LOSSES = 16  # times that Dask gives a part up because its workers died (four of them): parts run beside workers and end none
 _PART = r"\d+\.part"
-_OWN = re.compile(_PART + r"|(\d+|image)\.(\d{8}-\d{6}\.\d+(\.\d+)?\.failed\.)?log")
+_DONE = _PART + r"|(\d+|image)\.log"  # what is of no use behind a whole image
+_OWN = re.compile(_DONE + r"|(\d+|image)\.\d{8}-\d{6}\.\d+(\.\d+)?\.failed\.log")
 
 
 @dataclass
@@ -60,6 +61,7 @@ class Frame:
     merge_flags: list = field(default_factory=list)
     left: int = 0  # parts that are not there
     job: str = ""  # that the folder of the parts belongs to, while it does
+    user: int = -1  # number of the one whose folder it is
 
     @property
     def folder(self):
@@ -82,7 +84,7 @@ class Frame:
             pass  # owner.take() looks at what it is
         except OSError as error:
             raise CommandError(f"cannot make the folder {self.folder}: {error.strerror}") from error
-        owner.take(self.folder, job)
+        self.user = owner.take(self.folder, job)
         self.job = job
 
     def tasks(self, there):
@@ -96,8 +98,8 @@ class Frame:
         return waiting or [Task(self, None)]
 
     def tidy(self):
-        """Removes the parts of an image that is whole; logs of failures stay."""
-        self._remove(_PART)
+        """Removes parts and logs of an image that is whole; logs of failures stay."""
+        self._remove(_DONE)
         self.leave()
 
     def tidy_after(self, job):
@@ -105,8 +107,8 @@ class Frame:
         of another render, and stay."""
         with contextlib.suppress(CommandError, OSError):
             with folders.own(self.folder) as place:
-                names = [name for name in place.names() if re.fullmatch(_PART, name) or name == owner.NAME]
-                newest = max((place.changed(name) for name in names if name != owner.NAME), default=0)
+                names = [name for name in place.names() if re.fullmatch(_DONE, name) or name == owner.NAME]
+                newest = max((place.changed(name) for name in names if re.fullmatch(_PART, name)), default=0)
             if names and newest <= os.stat(self.image).st_mtime_ns:
                 owner.take(self.folder, job)
                 self.job = job
@@ -152,8 +154,11 @@ def parts_there(module, frame, wanted):
     :returns: numbers of the parts that an earlier job has made of the same stage with the same flags"""
     found = set()
     for part in frame.parts():
+        file = frame.part_file(part)
+        if os.path.islink(file):  # no job makes one
+            continue
         try:
-            description = partial.read(module, frame.part_file(part))
+            description = partial.read(module, file)
         except CommandError:
             continue
         same = all(description.arguments.get(name) == value for name, value in wanted.items())

@@ -9,7 +9,7 @@ import sys
 import time
 
 from patina.cli import interrupts
-from patina.cli.errors import TEMPORARY, is_temporary
+from patina.cli.errors import TEMPORARY, CommandError, is_temporary
 from patina.farm import folders
 
 _TAIL = 1 << 16  # bytes of a log, at whose end the reason of a failure is
@@ -64,20 +64,23 @@ class _Log:
     """The file that takes what a command prints, within the block. It is made anew: what others put in its place in a shared
     folder, as a link or a pipe, is removed.
 
-    :raises PartFailed: with the reason in one line, where there can be none"""
+    :raises PartFailed: with the reason in one line, where there can be none, or the folder is neither the user's nor this
+        process's"""
 
-    def __init__(self, path):
+    def __init__(self, path, user):
         self._path, self._name, self._open = path, os.path.basename(path), contextlib.ExitStack()
+        self._user = user
 
     def __enter__(self):
         try:
-            self.folder = self._open.enter_context(folders.opened(os.path.dirname(self._path)))
+            self.folder = self._open.enter_context(folders.own(os.path.dirname(self._path), (self._user,)))
             with contextlib.suppress(FileNotFoundError):
                 self.folder.remove(self._name)
             self.file = self._open.enter_context(open(self.folder.new(self._name), "w+b"))
-        except OSError as error:
+        except (OSError, CommandError) as error:
             self._open.close()
-            raise PartFailed(f"cannot write {self._path}: {error.strerror}", place()[2], is_temporary(error)) from error
+            reason = f"cannot write {self._path}: {error.strerror}" if isinstance(error, OSError) else str(error)
+            raise PartFailed(reason, place()[2], is_temporary(error)) from error
         return self
 
     def __exit__(self, *_):
@@ -109,7 +112,7 @@ class _Log:
         return lines[-1] if lines else ""
 
 
-def run(arguments, folder, log, checks, variables=None):
+def run(arguments, folder, log, checks, variables=None, user=-1):
     """Runs a command of Patina in a process of its own.
 
     :param arguments: of the command line
@@ -117,6 +120,7 @@ def run(arguments, folder, log, checks, variables=None):
     :param log: path of the file that takes what it prints; it is removed when all is well
     :param checks: arguments of check()
     :param variables: of the sender's environment, on which images depend; None where one is not set
+    :param user: number of the one whose folder the sender has made for the log
     :returns: dict of the worker's name, host and address, and the seconds that it took
     :raises Refused: where this worker should not take it
     :raises PartFailed: with the reason in one line"""
@@ -125,7 +129,7 @@ def run(arguments, folder, log, checks, variables=None):
     if problems:
         raise Refused(f"{name} {words(problems)}", address)
     begin = time.perf_counter()
-    with _Log(log) as kept:
+    with _Log(log, user) as kept:
         handle = kept.folder.handle  # the command writes there, whatever comes in the folder's place meanwhile
         command = [sys.executable, "-c", _CHILD, str(os.getpid()), kept.folder.path, str(handle), *arguments]
         environment = {name: value for name, value in {**os.environ, **(variables or {})}.items() if value is not None}

@@ -146,7 +146,8 @@ def test_options_of_the_scheduler_open_no_page_of_dasks(engine, name, page, monk
     given = {"port": 9, "dashboard": True, "dashboard_address": ":8787"}
     options = [f"{name}={json.dumps(given)}"] + ([f"dashboard_address={page}"] if page else [])
     monkeypatch.setitem(sys.modules, "dask_jobqueue", types.SimpleNamespace(SLURMCluster=dict))
-    dask = types.SimpleNamespace(LocalCluster=dict, Security=types.SimpleNamespace(temporary=str))
+    utils = pytest.importorskip("distributed").utils
+    dask = types.SimpleNamespace(LocalCluster=dict, Security=types.SimpleNamespace(temporary=str), utils=utils)
     cluster = engines.Cluster(engines.parse(engine, options), tempfile.gettempdir())
     try:
         made = cluster._start(dask)
@@ -154,6 +155,53 @@ def test_options_of_the_scheduler_open_no_page_of_dasks(engine, name, page, monk
         cluster.__exit__()
     assert made[name] == {"port": 9, "dashboard": bool(page), "dashboard_address": page or "127.0.0.1:0"}
     assert not {"dashboard", "dashboard_address"} & set(made)
+
+
+def planted(folder):
+    """Leads the files at the place that Dask chooses for all users of a machine to another one. :returns: that"""
+    place, mine = folder / "dask-scratch-space", folder / "mine"
+    place.mkdir()
+    mine.write_text("mine")
+    for name in ("global.lock", "purge.lock"):
+        os.symlink(mine, place / name)
+    return mine
+
+
+def test_files_of_dask_lie_where_nobody_else_puts_links(tmp_path, monkeypatch):
+    pytest.importorskip("distributed")
+    mine = planted(tmp_path)
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    with engines.Cluster(engines.parse("local:1", []), str(tmp_path)) as cluster:
+        cluster.client.wait_for_workers(1, timeout=60)
+    assert mine.read_text() == "mine" and sorted(os.listdir(tmp_path)) == ["dask-scratch-space", "mine"]
+
+
+def test_a_job_of_a_queue_has_a_folder_of_its_own(tmp_path):
+    lines = engines.queue_options({"job_script_prologue": ["echo more"]})["job_script_prologue"]
+    script = "\n".join([*lines, 'stat -c %a "$DASK_TEMPORARY_DIRECTORY"', 'dirname "$DASK_TEMPORARY_DIRECTORY"'])
+    done = subprocess.run(["bash", "-c", script], env={**os.environ, "TMPDIR": str(tmp_path)}, capture_output=True, text=True)
+    assert done.stdout.split() == ["more", "700", str(tmp_path)], done.stderr
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_signal_while_workers_start_is_told_in_one_line(tmp_path):
+    """As Ctrl+C does at a terminal, it comes to all processes: to workers while they import."""
+    pytest.importorskip("distributed")
+    program = f"""
+import os, signal, sys
+from distributed.nanny import WorkerProcess
+from patina.cli import ending, main
+wait = WorkerProcess._wait_until_connected
+def signalled(*arguments):
+    os.killpg(0, signal.SIGINT)
+    WorkerProcess._wait_until_connected = wait
+    return wait(*arguments)
+WorkerProcess._wait_until_connected = signalled
+sys.exit(ending.end(main.main(["farm", {movie.write_stage(tmp_path)!r}, "a.exr", "--engine=local:2", "--quiet"])))
+"""
+    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, start_new_session=True, capture_output=True, text=True,
+                          timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (75, "", "patina: interrupted\n")
 
 
 def test_certificates_are_files_that_are_there(tmp_path):

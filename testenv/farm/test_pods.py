@@ -5,6 +5,7 @@ import itertools
 import os
 import subprocess
 import sys
+import tempfile
 import time
 import types
 
@@ -12,7 +13,7 @@ import pytest
 
 from patina.cli.errors import CommandError, UsageError
 from patina.farm import certificates, engines, pods
-from test_engines import nobody_else_comes_in
+from test_engines import nobody_else_comes_in, planted
 
 SPEC = """spec: {worker: {spec: {nodeSelector: {kind: render}, volumes: [{name: own, emptyDir: {}}], containers: [
   {name: any, image: studio/own:2, command: [sh], args: [none], env: [{name: A, value: b}]}]}}}"""
@@ -88,6 +89,10 @@ def test_pods_accept_who_has_the_key_alone_and_are_replaced(api, monkeypatch):
     import dask
 
     engine = engines.parse("k8s:2", ["image=a", "interface=lo", 'scheduler_options={"dashboard": true}'])
+    temporary = api.folder / "temporary"
+    temporary.mkdir()
+    mine = planted(temporary)
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     monkeypatch.setattr(engines, "REPLACE_SECONDS", 0.0)
     with dask.config.set({"distributed.deploy.lost-worker-timeout": 0}), engines.Cluster(engine, "") as cluster:
         cluster.client.wait_for_workers(2, timeout=120)
@@ -98,7 +103,7 @@ def test_pods_accept_who_has_the_key_alone_and_are_replaced(api, monkeypatch):
         wait(lambda: before[0] not in api.pods)  # what is left of it is taken away
         cluster.replace(1)
         wait(lambda: len(api.pods) == 2 and len(cluster.client.scheduler_info(n_workers=-1)["workers"]) == 2)
-    assert not api.pods and not api.secrets
+    assert not api.pods and not api.secrets and mine.read_text() == "mine"
 
 
 @pytest.mark.parametrize("what", ["secret", "pod"])

@@ -10,6 +10,7 @@ import sys
 import pytest
 
 import movie
+from test_engines import planted
 
 FLAGS = ["--imageWidth=48", "--samples=4"]
 # Takes a script as its last argument or as its input, says a number, and runs the script in a session of its own.
@@ -43,8 +44,10 @@ def test_a_movie_through_a_queue(tmp_path, queue):
     pytest.importorskip("dask_jobqueue")
     submit, cancel, said, walltime, directives = QUEUES[queue]
     tools, jobs, out = tmp_path / "tools", tmp_path / "jobs", tmp_path / "out"
-    for folder in (tools, jobs, out):
+    temporary = tmp_path / "temporary"
+    for folder in (tools, jobs, out, temporary):
         folder.mkdir()
+    mine = planted(temporary)
     program(tools / submit, SUBMIT.format(jobs=jobs, said=said))
     program(tools / cancel, CANCEL.format(jobs=jobs))
     stage = movie.write_stage(tmp_path)
@@ -53,7 +56,8 @@ def test_a_movie_through_a_queue(tmp_path, queue):
                       "--engineOption=queue=render", f"--engineOption=walltime={walltime}", "--engineOption=interface=lo",
                       *FLAGS),
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=180,
-        env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "DASK_JOBQUEUE__LSF__LSF_UNITS": "mb"})
+        env={**os.environ, "TMPDIR": str(temporary), "PATH": f"{tools}:{os.environ['PATH']}",
+             "DASK_JOBQUEUE__LSF__LSF_UNITS": "mb"})
     scripts = [script.read_text() for script in jobs.glob("*.sh")]
     try:
         assert result.returncode == 0, result.stderr + "".join(log.read_text()[-2000:] for log in jobs.glob("*.log"))
@@ -70,3 +74,4 @@ def test_a_movie_through_a_queue(tmp_path, queue):
         for pid in running:
             os.killpg(pid, signal.SIGKILL)
     assert not running, "jobs were left in the queue"
+    assert mine.read_text() == "mine" and sorted(os.listdir(temporary)) == ["dask-scratch-space", "mine"]

@@ -7,11 +7,14 @@ import logging
 import os
 import re
 import shlex
+import signal
 import sys
 import tempfile
 import time
 from dataclasses import dataclass, field
+from multiprocessing import resource_tracker
 
+from patina.cli import interrupts
 from patina.cli.errors import CommandError, TemporaryError, UsageError
 from patina.farm import certificates, identity, pods
 
@@ -21,6 +24,9 @@ HELP = ("tls://HOST[:PORT] is a Dask scheduler that runs, dask:// one that asks 
         "(default: local, with two cores or more for each worker)")
 PORT = 8786  # Dask's own
 _PAGE = "dashboard_address"  # where Dask's own page is
+# Lines of a job: a folder that its user alone may enter, while it runs. Dask's own choice is one for all users of a machine.
+_FOLDER = ("DASK_TEMPORARY_DIRECTORY=$(mktemp -d) && export DASK_TEMPORARY_DIRECTORY || exit 1",
+           """trap 'rm -rf "$DASK_TEMPORARY_DIRECTORY"' EXIT""")
 REPLACE_SECONDS = 15.0  # so often workers are asked for in the place of those that are gone
 
 
@@ -79,10 +85,12 @@ def threads(engine):
 def queue_options(given):
     """:param given: options of --engineOption
     :returns: dict of what dask-jobqueue's class for the queue takes"""
+    lines = [f"export {name}={shlex.quote(value)}" for name, value in environment().items()]
+    more = given.get("job_script_prologue") or []
     return {"cores": 1, "processes": 1, "memory": "4GiB", "python": shlex.quote(sys.executable),
-            "job_script_prologue": [f"export {name}={shlex.quote(value)}" for name, value in environment().items()],
             # One part at a time, which takes all of a job's cores.
-            "worker_extra_args": ["--nthreads", "1", "--no-dashboard"], **given}
+            "worker_extra_args": ["--nthreads", "1", "--no-dashboard"], **given,
+            "job_script_prologue": [*lines, *_FOLDER, *([more] if isinstance(more, str) else more)]}
 
 
 class Cluster:
@@ -92,7 +100,7 @@ class Cluster:
         """:param shared: a folder that a queue's jobs reach, too"""
         self.engine, self._shared = engine, shared
         self._cluster = self.client = None
-        self._folders = contextlib.ExitStack()  # of keys, and of workers
+        self._held = contextlib.ExitStack()  # folders of keys and of Dask, and its thread
         self._complaints = _Complaints()
         self._asked = float("-inf")  # when for workers
 
@@ -104,9 +112,10 @@ class Cluster:
                 security, options = certificates.of_files(distributed, self.engine.options)
                 self.client = distributed.Client(self.engine.address, **{"timeout": "30s", "security": security, **options})
             else:
-                self._cluster = self._start(distributed)
-                self._scale()
-                self.client = distributed.Client(self._cluster)
+                with interrupts.held():  # Dask closes no cluster that is half made
+                    self._cluster = self._start(distributed)
+                    self._scale()
+                    self.client = distributed.Client(self._cluster)
         except (OSError, RuntimeError, ValueError, TypeError) as error:
             self.__exit__()
             place, first = self.engine.address or self.engine.kind, _first(error)
@@ -116,6 +125,9 @@ class Cluster:
             if "ssl_context" in said:  # Dask has no certificates, neither from options nor from its configuration
                 said = "name certificates: " + " ".join(f"--engineOption {name}=FILE" for name in certificates.FILES)
             raise kind(f"no workers of {place}: {said}") from error
+        except BaseException:  # a signal
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_):
@@ -124,7 +136,7 @@ class Cluster:
                 # A scheduler that died does not answer, and jobs that were refused are no running ones.
                 with contextlib.suppress(OSError, RuntimeError, TimeoutError, AssertionError):
                     one.close()
-        self._folders.close()
+        self._held.close()
 
     def problem(self):
         """:returns: why no worker will come, where the queue has taken no job; else an empty text"""
@@ -156,13 +168,12 @@ class Cluster:
         engine = self.engine
         security = certificates.of_run(distributed)
         options = {name: value for name, value in engine.options.items() if name != _PAGE}
-        shared = {"security": security, "silence_logs": logging.CRITICAL}
+        shared = {"security": security, "silence_logs": logging.CRITICAL, "loop": self._held.enter_context(_loop(distributed))}
         page = {"dashboard": _PAGE in engine.options, _PAGE: engine.options.get(_PAGE, "127.0.0.1:0")}
         for name in ("scheduler_kwargs", "scheduler_options"):  # Dask's page must be asked for by its own name
             page = {**(options.pop(name, None) or {}), **page}
+        scratch = self._held.enter_context(_own_folder())
         if engine.kind == "local":
-            # Dask's own choice lies at one place for all users of a machine.
-            scratch = self._folders.enter_context(certificates.private_folder(tempfile.gettempdir()))
             return distributed.LocalCluster(**{
                 "n_workers": engine.workers, "threads_per_worker": 1, "processes": True, "memory_limit": 0,
                 "local_directory": scratch, "scheduler_kwargs": page, **shared, **options})
@@ -173,8 +184,8 @@ class Cluster:
             log = logging.getLogger(name)
             log.handlers, log.propagate = [self._complaints], False
         if engine.kind == "k8s":
-            return pods.start(distributed, module, options, environment(), page, shared, self._folders)
-        folder = self._folders.enter_context(certificates.private_folder(options.pop("shared_temp_directory", self._shared)))
+            return pods.start(distributed, module, options, environment(), page, shared, self._held)
+        folder = self._held.enter_context(certificates.private_folder(options.pop("shared_temp_directory", self._shared)))
         return getattr(module, QUEUES[engine.kind])(**{"shared_temp_directory": folder, "scheduler_options": page, **shared,
                                                        **queue_options(options)})
 
@@ -232,6 +243,31 @@ def _configure(page):
         dask.config.set({"logging": quiet, "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical"})
         if not page:
             dask.config.set({"distributed.worker.http.routes": [], "distributed.scheduler.http.routes": []})
+
+
+@contextlib.contextmanager
+def _own_folder():
+    """Yields where Dask keeps files of this process within the block: its own choice is one place for all users."""
+    import dask
+
+    with certificates.private_folder(tempfile.gettempdir()) as folder, dask.config.set({"temporary-directory": folder}):
+        yield folder
+
+
+@contextlib.contextmanager
+def _loop(distributed):
+    """Yields the loop of a thread that hears no signals, nor do the workers that it starts: a Ctrl+C at a terminal comes to
+    all of them, and this process ends them."""
+    runner = distributed.utils.LoopRunner()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, interrupts.NUMBERS)
+    try:
+        resource_tracker.ensure_running()  # else the thread starts it, and hears signals after that
+        signal.pthread_sigmask(signal.SIG_BLOCK, interrupts.NUMBERS)
+        runner.start()
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    yield runner.loop
+    runner.stop()
 
 
 def _import(name, package):

@@ -94,6 +94,18 @@ def test_workers_that_die_are_no_fault_of_a_part(tmp_path, losses, failures, giv
     assert len(client.errors) == given_up, "given up at once, or sent until it is done"
 
 
+@pytest.mark.parametrize("failed, wanted", [("tcp://1", ["tcp://2"]), ("tcp://gone", None)])
+def test_only_workers_that_are_there_are_avoided(tmp_path, failed, wanted):
+    one, places = frame(tmp_path, 1), []
+    client = Client(worker.PartFailed("why", failed, False), {"worker": "one", "host": "here", "seconds": 1.0})
+    client.scheduler_info = lambda n_workers: {"workers": {"tcp://1": {}, "tcp://2": {}}}
+    submit = client.submit
+    client.submit = lambda *_, **more: places.append(more.get("workers")) or submit()
+    sent = sender.Sender(client, [], str(tmp_path), (), 0)
+    sent.run([one], one.tasks(set()), lambda _: None)
+    assert places == [None, wanted] and sent.written == [one]
+
+
 def test_workers_that_go_away_are_told(tmp_path):
     """Dask sends their tasks again by itself, so that the sender sees no failure."""
     one = frame(tmp_path, 1)

@@ -85,7 +85,8 @@ class Sender:
             future.add_done_callback(self.ended.put)
 
     def _submit(self, task, workers):
-        avoided = self.refused.union(address for address, _ in task.failures)
+        # Of those alone that are there: once all others have gone, Dask leaves a task that names them without a worker.
+        avoided = self.refused.union(address for address, _ in task.failures).intersection(self._seen[1])
         others = [address for address in workers if address not in avoided]
         # Any worker takes it when those have gone.
         places = {"workers": others, "allow_other_workers": True} if avoided and others else {}

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from test_signals import folder  # noqa: F401
+from test_signals import _folder  # noqa: F401
 
 
 def test_the_second_signal_ends_what_hears_none(folder):

@@ -25,8 +25,8 @@ LONG = ("-w", "64", "--samples", "65536", "--maxDepth", "1", "--quiet")
 SHORT = ("-w", "16", "--samples", "4", "--maxDepth", "1", "--quiet")  # where a test that fails renders all of it
 
 
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
+@pytest.fixture(name="folder")
+def _folder(tmp_path, monkeypatch):
     (tmp_path / "stage.usda").write_text(STAGE)
     monkeypatch.chdir(tmp_path)
     return tmp_path

@@ -9,8 +9,8 @@ import pytest
 
 import movie
 from patina.cli.errors import CommandError
-from patina.farm import cut, folders, job, owner, sender, work, worker
-from test_work import dead, frame, owned, prepare, version  # noqa: F401
+from patina.farm import folders, job, owner, sender, work, worker
+from test_work import _dead, frame, owned, prepare, version  # noqa: F401
 
 
 def test_what_is_not_the_jobs_own_stays(tmp_path):

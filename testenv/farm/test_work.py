@@ -12,10 +12,9 @@ import types
 import pytest
 
 import _patina
-import movie
 import patina
 from patina.cli.errors import CommandError, is_temporary
-from patina.farm import cut, folders, identity, job, owner, sender, work, worker
+from patina.farm import cut, identity, job, owner, sender, work, worker
 
 
 def frame(folder, tiles=2):
@@ -244,8 +243,8 @@ def prepare(name, *frames, resume=False):
     job.Job._prepare(types.SimpleNamespace(name=name, arguments=types.SimpleNamespace(resume=resume)), frames)
 
 
-@pytest.fixture(params=["gone", "unnoticed", "later"])
-def dead(request):
+@pytest.fixture(name="dead", params=["gone", "unnoticed", "later"])
+def _dead(request):
     """What an owner's file says of a process that has ended, which its parent may not have noticed, or whose number another
     has."""
     if request.param == "later":

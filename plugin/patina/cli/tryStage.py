@@ -35,7 +35,7 @@ except MemoryError:
 
 def why_trial_fails(path):
     """:returns: why a stage is not to be opened, as in "makes OpenUSD fail (Segmentation fault): the file is damaged"; "" when
-    it may be, also where OpenUSD itself says what is wrong with it, or where the file is no larger than the limit untriedBytes"""
+    it may be, also where OpenUSD itself says what is wrong with it, or the file is no larger than the limit untriedBytes"""
     size = os.path.getsize(path)
     if size <= limits.value("untriedBytes"):
         return ""

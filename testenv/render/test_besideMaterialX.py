@@ -93,7 +93,7 @@ def ours(path, material, folder):
     return image[np.hypot(x, y) < 1.0 - 2.0 / len(image)].mean(0)
 
 
-# The specification gives it Schlick's curve, MaterialX the equations of a conductor: the dark channel is 11 % apart.
+# By the specification it reflects its albedo at all angles, in MaterialX it is a conductor: the dark channel is a third apart.
 OWN_CURVE = "previewMetal"
 
 

@@ -73,6 +73,24 @@ def test_only_whole_images_are_written_where_that_is_asked_for(folder, monkeypat
     assert sorted(os.listdir()) == ["a.exr.checkpoint", "stage.usda"]
 
 
+class _SignalsAtTheEnd(_Signals):
+    """Sends the signal when the last sample is done."""
+
+    def wait(self, seconds):
+        while not self._renderer.wait(seconds):
+            pass
+        os.kill(os.getpid(), self._number)
+        return True
+
+
+def test_a_signal_with_the_last_sample_of_a_frame_keeps_that_and_begins_no_other(folder, monkeypatch, capsys):
+    make = _patina.make_renderer
+    monkeypatch.setattr(_patina, "make_renderer", lambda backend: _SignalsAtTheEnd(make(backend), signal.SIGTERM))
+    assert main.main(["record", "stage.usda", "a.####.exr", "-f", "1:3", *SHORT]) == 75
+    assert "--frames 2,3 " in capsys.readouterr().err and sorted(os.listdir()) == ["a.0001.exr", "stage.usda"]
+    assert main.main(["record", "stage.usda", "a.exr", *SHORT]) == 0  # nothing is left to do
+
+
 class _NeverStarts(_Signals):
     """A renderer that builds for as long as it is let."""
 

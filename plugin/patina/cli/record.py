@@ -46,8 +46,9 @@ def run(arguments):
         try:
             for index, shot in enumerate(job.shots):
                 job.render(shot)
-                if job.interrupted:
-                    raise job.ended(job.shots[index:])
+                left = job.shots[index if job.interrupted else index + 1:]
+                if job.told and left:
+                    raise job.ended(left)
         finally:
             job.report()
 
@@ -59,7 +60,7 @@ class _Job:
         self.module, self.arguments = module, arguments
         self.statistics = statistics.Statistics(arguments)
         self.snapshots = snapshots.Snapshots(arguments.snapshot)
-        self.interrupted = False
+        self.told = self.interrupted = False  # to end; so that the last image is not whole
         self.shown_causes = {}  # causes of warnings that were shown ...
         self.reported = 0  # ... and how many warnings there were then
         self._read = None  # (frame, camera, what was read) of the scene
@@ -242,7 +243,8 @@ class _Job:
         state = self.renderer.progress()
         if state["failed"]:
             raise (TemporaryError if state["temporary"] or state["deviceFailed"] else CommandError)(state["error"])
-        self.interrupted = interrupts.met and not state["converged"]
+        self.told = interrupts.met
+        self.interrupted = self.told and not state["converged"]
         self.statistics.rendered(state, film)
         if self.interrupted and not film.width:
             raise TemporaryError("interrupted before there were samples; nothing is saved")

@@ -152,6 +152,12 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_lightPlan.py::test_the_cheapest_that_fits_is_taken[[]rect-areaLight[]]", "long", None),
     # Every asset through the older of Hydra's two ways in; the test scenes go through both.
     ("testenv/hydra/test_oneTruth.py::test_asset[[]*-delegate[]]", "long", None),
+    # The program usdrecord with the assets that test_oneTruth.py draws in a process of its own; usdview in the older way.
+    ("testenv/hydra/test_usdrecord.py::test_asset[[]*", "long", None),
+    ("testenv/hydra/test_usdview.py::test_turn_pick_edit[[]delegate[]]", "long", None),
+    # Half a minute of compiling shaders each, for stages that Hydra's tests draw too.
+    *((f"testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]assets/{name}[]]", "long", None)
+      for name in ("AnimatedCube", "CesiumMan", "InterpolationTest", "Teapot", "axis")),
     # Slow in software, and test_refraction.py looks at the same more closely.
     ("testenv/raster/test_byDesign.py::test_glass_shows_what_is_behind", "long", None),
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same_looked_at_closely*", "long", None),

@@ -121,7 +121,7 @@ void RenderLoop::run(const Job& job) {
         failure = error.what();
         temporary = dynamic_cast<const TemporaryFailure*>(&error) != nullptr;
     }
-    finish(failure, temporary);
+    finish(std::move(failure), temporary);
 }
 
 void RenderLoop::prepareAndRender(const SceneState& state, const std::string& path) {
@@ -152,13 +152,19 @@ void RenderLoop::tellFailure(const RenderProgress& failed) {
 }
 
 /// The listener is notified of the end before progress() tells it.
-void RenderLoop::finish(const std::string& failure, bool temporary) {
-    RenderProgress last = progress();
+void RenderLoop::finish(std::string failure, bool temporary) {
+    RenderProgress last;
+    try {
+        last = progress();
+    } catch (const std::bad_alloc&) {
+        failure = "out of memory";
+        temporary = true;
+    }
     if (!failure.empty()) {
         last.failed = true;
         last.deviceFailed = _deviceFailed;
         last.temporary = temporary || _deviceFailed;
-        last.error = failure;
+        last.error = std::move(failure);
     } else if (!_stop) {
         last.converged = true;
         last.fraction = 1.0;
@@ -179,7 +185,7 @@ void RenderLoop::finish(const std::string& failure, bool temporary) {
     _film->endRender();
     {
         const std::lock_guard<std::mutex> lock(_mutex);
-        _progress = last;
+        _progress = std::move(last);
         _running = false;
         _idle = true;
     }

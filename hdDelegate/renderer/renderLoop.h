@@ -96,7 +96,7 @@ private:
 
     void work(); ///< all that the thread does
     void run(const Job& job);
-    void finish(const std::string& failure, bool temporary);
+    void finish(std::string failure, bool temporary);
     void tellFailure(const RenderProgress& failed);
 
     std::thread _thread; ///< from the first start on

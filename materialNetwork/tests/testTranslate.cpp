@@ -5,6 +5,8 @@
 #include "materialNetwork/nodes/models.h"
 #include "materialNetwork/network/translate.h"
 
+#include <cstring>
+
 namespace patina {
 
 namespace {
@@ -190,10 +192,15 @@ TEST(Translate, AlbedoStays) {
         for (const char* target : {"open_pbr_surface", "gltf_pbr", "UsdPreviewSurface"})
             for (const float theta : {0.0f, 60.0f}) {
                 const Network source = modelNetwork("standard_surface", inputs);
-                const glm::vec3 a = albedoOf(source, theta);
+                glm::vec3 a = albedoOf(source, theta);
                 const glm::vec3 b = albedoOf(translated(source, target), theta);
-                // Metals of Standard Surface have a white edge, which the others lack.
-                const bool edge = inputs.count("metalness") && theta > 0.0f;
+                // Metals of Standard Surface have a white edge, which the others lack; those of
+                // UsdPreviewSurface reflect the same at all angles.
+                bool edge = inputs.count("metalness") && theta > 0.0f;
+                if (edge && !std::strcmp(target, "UsdPreviewSurface")) {
+                    a = albedoOf(source, 0.0f);
+                    edge = false;
+                }
                 EXPECT_LT(glm::length(a - b), edge ? 0.2f : 0.02f) << target << " at " << theta;
             }
 }

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/compiled/compiledScene.h"
 #include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/renderer/renderLoop.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -122,3 +123,40 @@ TEST_P(OutOfMemory, TheNextUpdateMakesWholeWhatAnEditDidNot) {
 INSTANTIATE_TEST_SUITE_P(, OutOfMemory, testing::Bool(), [](const auto& info) {
     return std::string(info.param ? "interactive" : "final");
 });
+
+namespace {
+
+/// Has no memory once it has rendered.
+class LoopWithoutMemory : public RenderLoop {
+public:
+    explicit LoopWithoutMemory(long allocations) : RenderLoop("none"), _allocations(allocations) {}
+    ~LoopWithoutMemory() override { stop(); }
+
+protected:
+    void render(const SceneState&, const Camera&) override {
+        report([](RenderProgress& progress) {
+            progress.statistics["a name that takes memory of its own"] = 1.0;
+        });
+        allocationsLeft = _allocations;
+    }
+
+private:
+    long _allocations;
+};
+
+} // namespace
+
+TEST(RenderWithoutMemory, ItsEndTellsOfIt) {
+    auto scene = std::make_shared<Scene>();
+    auto camera = std::make_shared<Camera>();
+    camera->path = "/camera";
+    scene->edit().set(std::shared_ptr<const Camera>(camera));
+    for (const long at : {0L, 1L, 100L}) {
+        LoopWithoutMemory loop(at);
+        loop.start(scene, "/camera", RenderSettings(), std::make_shared<Film>());
+        loop.wait();
+        const RenderProgress last = loop.progress();
+        EXPECT_EQ(last.failed, at < 100) << at;
+        EXPECT_EQ(last.error, at < 100 ? "out of memory" : "") << at;
+    }
+}

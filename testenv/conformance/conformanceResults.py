@@ -77,7 +77,7 @@ def update(rows, names, options, path=FILE):
     for name in names:
         own = [row for row in rows if row["name"].startswith(name + "/")]
         kept[name] = {"date": datetime.date.today().isoformat(), "samples": options["samples"], "size": list(options["size"]),
-                      "counts": counted(own), "lines": lines(own)}
+                      "openUSD": options.get("openUSD", ""), "counts": counted(own), "lines": lines(own)}
     with open(path, "w", encoding="utf-8") as file:
         file.write("{\n" + ",\n".join(f" {json.dumps(name)}: {_text(of)}" for name, of in sorted(kept.items())) + "\n}\n")
 
@@ -111,7 +111,8 @@ def page():
         told += ["", f"## {name}", "",
                  *([causes.SETS[name], ""] if name in causes.SETS else []),
                  f"{counts['stages']} stages, of which {counts['listed']} show nothing by themselves;",
-                 f"{of['size'][0]} x {of['size'][1]} pixels, {of['samples']} samples, {of['date']}.", "",
+                 f"{of['size'][0]} x {of['size'][1]} pixels, {of['samples']} samples, {of['date']}"
+                 + (f"; Hydra is that of OpenUSD {of['openUSD']}." if of.get("openUSD") else "."), "",
                  *generateDocs.table(("way", *STATUSES, "seconds in all", "largest MB"),
                                      [(TITLES[way], *(str(found.get(status, 0)) for status in STATUSES),
                                        str(counts["seconds"][way]), str(counts["memory"][way]))

@@ -115,12 +115,16 @@ def main(words=None):
     for each in sets:
         if not each.stages:
             parser.error(f"{each.folder}: there are no stages")
+    host = ""
     if hydraBuild.missing():
         print(f"without Hydra: {hydraBuild.missing()}")
         chosen = [name for name in chosen if ways.WAYS[name].backend]
+    else:
+        version = hydraBuild.folder("version")
+        host = f"{version[:2]}.{version[2:]}"
     pictures = os.path.join(arguments.output, "pictures")
     os.makedirs(pictures, exist_ok=True)
-    options = {"samples": arguments.samples, "size": arguments.size, "ways": chosen, "pictures": pictures,
+    options = {"samples": arguments.samples, "size": arguments.size, "ways": chosen, "pictures": pictures, "openUSD": host,
                "limits": {"seconds": arguments.timeout, "gigabytes": arguments.memory}}
     rows = work(sets, options, arguments)
     for line in conformanceResults.table(rows):

@@ -94,8 +94,8 @@ def page():
     import generateDocs
 
     told = ["# Conformance", "",
-            "Stages that others made, drawn by four ways: the command line with the path tracer and with the rasterizer, and",
-            "Hydra in the delegate's way and by scene indices. Counts are those of a run of",
+            "Stages that others made, drawn by up to four ways: the command line with the path tracer and with the",
+            "rasterizer, and Hydra in the delegate's way and by scene indices. Counts are those of a run of",
             "`./patina python testenv/conformance/run.py FOLDER... --results`; the stages are not part of Patina.", "",
             "- *message*: the command ended with a line that says why.",
             "- *listed*: the stage is not drawn. It shows nothing by itself, or Hydra's OpenUSD has no plugin for a file that",

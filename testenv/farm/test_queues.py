@@ -6,6 +6,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -32,6 +33,12 @@ QUEUES = {  # programs, what the first says, a walltime, and what the script mus
     "lsf": ("bsub", "bkill", "Job <$number> is submitted to queue <render>.", "00:20",
             [r"#BSUB -q render", r"#BSUB -n 1", r"#BSUB -W 00:20", r"#BSUB -M \d+"]),
 }
+
+
+def alive(jobs):
+    """:returns: ids of the jobs' processes that have not ended"""
+    pids = [pid.read_text().strip() for pid in jobs.glob("*.pid")]
+    return [int(pid) for pid in pids if os.path.exists(f"/proc/{pid}")]
 
 
 def program(path, text):
@@ -70,7 +77,9 @@ def test_a_movie_through_a_queue(tmp_path, queue):
             assert "--nthreads 1" in script and f"{sys.executable} -m distributed" in script
             assert re.search(r"^export PYTHONPATH=", script, re.MULTILINE)
     finally:
-        running = [int(pid.read_text()) for pid in jobs.glob("*.pid") if os.path.exists(f"/proc/{pid.read_text().strip()}")]
+        end = time.monotonic() + 60.0  # a job that was told to end removes its folder first
+        while (running := alive(jobs)) and time.monotonic() < end:
+            time.sleep(0.05)
         for pid in running:
             os.killpg(pid, signal.SIGKILL)
     assert not running, "jobs were left in the queue"

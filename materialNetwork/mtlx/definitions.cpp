@@ -119,9 +119,8 @@ void MtlxParser::readGeomprops(const Element& root) {
 
 void MtlxParser::readExtras() {
     for (const auto& [name, def] : _defs) {
-        auto heir = _defs.end();
         Element element = def;
-        for (int depth = 0; depth <= mostInherited; ++depth, element = heir->second) {
+        for (int depth = 0; depth <= mostInherited; ++depth) {
             for (const Element& child : element.children()) {
                 const std::string input = child.attribute("name").value();
                 if (const auto unit = child.attribute("unit"))
@@ -129,8 +128,9 @@ void MtlxParser::readExtras() {
                 if (!std::strcmp(child.name(), "token")) _defExtras[name].tokens.insert(input);
             }
             const auto parent = element.attribute("inherit");
-            heir = parent ? _defs.find(referenced(element, parent.value(), _defs)) : _defs.end();
-            if (heir == _defs.end()) break;
+            const auto above = _defs.find(referenced(element, parent.value(), _defs));
+            if (!parent || above == _defs.end()) break;
+            element = above->second;
         }
     }
 }

@@ -503,7 +503,7 @@ def displays() -> list[str]:
     """
 def end_at_second_signal(numbers: typing.Sequence[int], seconds: float) -> None:
     """
-    Of these signals, by number, the first goes to Python's handler, and the next of any does what it does by default, even where Python hears none. The same number within so many seconds is one with the first. To be called again after signal.signal(), which takes the signal back and begins to count anew. Signals that are ignored, or have no handler, stay so.
+    Of these signals, by number, the first goes to Python's handler, and the next of any does what it does by default, even where Python hears none. The first number counts once within so many seconds. To be called again after signal.signal(), which takes the signal back and begins to count anew. Signals that are ignored, or have no handler, stay so.
     """
 def expand_material(network: Network) -> tuple[typing.Any, ...]:
     """

@@ -57,7 +57,7 @@ record._Job._write = signalled
 
 def test_a_signal_that_comes_twice_at_once_saves_the_image(folder):
     """`timeout` sends it to a process, and then to the group that the process is in."""
-    program = RENDER % "times, interrupts.ONE_SECONDS = 2, 3600.0"
+    program = RENDER % "times, interrupts.ONCE_SECONDS = 2, 3600.0"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
     assert done.returncode == 75 and "--resume continues" in done.stderr
     assert sorted(os.listdir()) == ["a.exr", "a.exr.checkpoint", "stage.usda"]
@@ -70,7 +70,7 @@ def test_a_signal_that_comes_again_is_the_second_when_it_is_late(folder, seconds
     program = f"""
 import os, signal, sys
 from patina.cli import compiled, explain, interrupts, main
-interrupts.ONE_SECONDS = {seconds}
+interrupts.ONCE_SECONDS = {seconds}
 def run(_):
     if {compiled}:
         compiled.load()

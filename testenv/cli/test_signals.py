@@ -224,7 +224,7 @@ for _ in range(1000):
 
 # In the place of a module of Python that the command line imports first.
 ARGPARSE = """import importlib.machinery, os, sys
-sys.modules["patina.cli.interrupts"].ONE_SECONDS = 3600.0
+sys.modules["patina.cli.interrupts"].ONCE_SECONDS = 3600.0
 for _ in range(2):  # as `timeout` sends it
     os.kill(os.getpid(), int(os.environ["EARLY"]))
 sys.path.remove(os.path.dirname(__file__))

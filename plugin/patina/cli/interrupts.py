@@ -8,7 +8,9 @@ import threading
 import time
 
 NUMBERS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
-ONE_SECONDS = 0.3  # within which a signal is one with the first: `timeout` sends it to a process, and again to its group
+# The same signal counts once within this time: `timeout` sends it to a process, and at once again to its group. Who presses a
+# key again takes longer.
+ONCE_SECONDS = 0.3
 _early = []  # numbers of signals that came before there was a command
 
 
@@ -21,14 +23,14 @@ class _Count:
     def begins(self, number):
         """:returns: whether a signal is the first"""
         now = time.monotonic()
-        if self._first and (number != self._first[0] or now - self._first[1] > ONE_SECONDS):
+        if self._first and (number != self._first[0] or now - self._first[1] > ONCE_SECONDS):
             signal.signal(number, signal.SIG_DFL)
             os.kill(os.getpid(), number)
         first, self._first = not self._first, self._first or (number, now)
         return first
 
 
-_count = _Count()  # of those too
+_count = _Count()  # of signals that came before there was a command
 
 
 def begin(command):
@@ -60,7 +62,7 @@ def harden():
     while OpenUSD composes a stage. Needs the compiled module."""
     module = sys.modules.get("_patina")
     if module and threading.current_thread() is threading.main_thread():
-        module.end_at_second_signal(NUMBERS, ONE_SECONDS)
+        module.end_at_second_signal(NUMBERS, ONCE_SECONDS)
 
 
 class _Handlers:

@@ -266,8 +266,10 @@ def _loop(distributed):
         runner.start()
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-    yield runner.loop
-    runner.stop()
+    try:
+        yield runner.loop
+    finally:
+        runner.stop()
 
 
 def _import(name, package):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much a filter does: density mixes from none of it to all of it. A strength far below 1 keeps its digits.
+// How much a filter does: density mixes from none of it to all of it. Written so that a strength far
+// below 1 keeps its digits.
 
 PATINA_FN vec3 filterStrength(vec3 value, bool invert, float density, float intensity) {
     vec3 kept = value;

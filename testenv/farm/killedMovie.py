@@ -42,19 +42,19 @@ def run(folder, frames, cut, workers, every, flags, seed=1):
     stage = movie.write_stage(folder)
     begin = time.monotonic()
     names = movie.at_once(stage, os.path.join(folder, "once"), frames, flags)
-    # A part that takes as long as its worker lives would never be done, however quick or slow the machine is today.
+    # A part that takes as long as its worker lives would never be done.
     every = max(every, (time.monotonic() - begin) / len(names))
     farmed = os.path.join(folder, "farm")
     os.makedirs(farmed, exist_ok=True)
     chance, killed = random.Random(seed), 0
     process = subprocess.Popen(movie.command("farm", stage, os.path.join(farmed, "movie.####.exr"), f"--frames={frames}",
                                              f"--cut={cut}", f"--engine=local:{workers}", *flags))
-    last = time.monotonic()
+    last, seen, known = time.monotonic(), set(), 0  # parts and images that were seen, and how many at the last kill
     while process.poll() is None:
         time.sleep(0.05)
-        # Not before workers have begun with parts.
-        begun = killed or glob.glob(os.path.join(farmed, "*.parts", "*.log"))
-        alive = worker_processes(process) if begun and time.monotonic() - last >= every else []
+        seen.update(glob.glob(os.path.join(farmed, "**", "*.exr"), recursive=True))
+        # On a busy machine workers may start more slowly than they are killed: something is done between two kills.
+        alive = worker_processes(process) if len(seen) > known and time.monotonic() - last >= every else []
         if alive:
             victim = chance.choice(alive)
             try:
@@ -63,7 +63,7 @@ def run(folder, frames, cut, workers, every, flags, seed=1):
                 print(f"killed worker process {victim.pid}", flush=True)
             except psutil.Error:
                 pass
-            last = time.monotonic()
+            last, known = time.monotonic(), len(seen)
     return process.returncode, killed, movie.different(names, os.path.join(folder, "once"), farmed), names
 
 
@@ -74,7 +74,7 @@ def main():
     parser.add_argument("--cut", default="2x2")
     parser.add_argument("--workers", type=int, default=4)
     parser.add_argument("--every", type=float, default=3.0,
-                        help="seconds between two kills, or what a frame takes at once where that is longer")
+                        help="least seconds between two kills, or what a frame takes at once where that is longer")
     arguments, flags = parser.parse_known_args()
     os.makedirs(arguments.folder, exist_ok=True)
     status, killed, wrong, names = run(os.path.abspath(arguments.folder), arguments.frames, arguments.cut, arguments.workers,

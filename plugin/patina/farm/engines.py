@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Engines that run the parts: a Dask cluster that is there, one of this machine, or one that a queue or Kubernetes starts."""
+import asyncio
+import concurrent.futures
 import contextlib
 import importlib.util
 import json
@@ -10,6 +12,7 @@ import shlex
 import signal
 import sys
 import tempfile
+import threading
 import time
 from dataclasses import dataclass, field
 from multiprocessing import resource_tracker
@@ -168,7 +171,7 @@ class Cluster:
         engine = self.engine
         security = certificates.of_run(distributed)
         options = {name: value for name, value in engine.options.items() if name != _PAGE}
-        shared = {"security": security, "silence_logs": logging.CRITICAL, "loop": self._held.enter_context(_loop(distributed))}
+        shared = {"security": security, "silence_logs": logging.CRITICAL, "loop": self._held.enter_context(_loop())}
         page = {"dashboard": _PAGE in engine.options, _PAGE: engine.options.get(_PAGE, "127.0.0.1:0")}
         for name in ("scheduler_kwargs", "scheduler_options"):  # Dask's page must be asked for by its own name
             page = {**(options.pop(name, None) or {}), **page}
@@ -255,21 +258,40 @@ def _own_folder():
 
 
 @contextlib.contextmanager
-def _loop(distributed):
+def _loop():
     """Yields the loop of a thread that hears no signals, nor do the workers that it starts: a Ctrl+C at a terminal comes to
-    all of them, and this process ends them."""
-    runner = distributed.utils.LoopRunner()
+    all of them, and this process ends them. Dask's own thread has ten seconds to start, which a busy machine may not give."""
+    from tornado.ioloop import IOLoop
+
+    started = concurrent.futures.Future()
+
+    async def serve():
+        stop = asyncio.Event()
+        started.set_result((IOLoop.current(), stop))
+        await stop.wait()
+
+    def run():
+        try:
+            asyncio.run(serve())
+        except BaseException as error:
+            if started.done():
+                raise
+            started.set_exception(error)
+
+    thread = threading.Thread(target=run, name="loop of the farm's engine", daemon=True)
     before = signal.pthread_sigmask(signal.SIG_BLOCK, interrupts.NUMBERS)
     try:
         resource_tracker.ensure_running()  # else the thread starts it, and hears signals after that
         signal.pthread_sigmask(signal.SIG_BLOCK, interrupts.NUMBERS)
-        runner.start()
+        thread.start()
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    loop, stop = started.result()
     try:
-        yield runner.loop
+        yield loop
     finally:
-        runner.stop()
+        loop.add_callback(stop.set)
+        thread.join(10)
 
 
 def _import(name, package):

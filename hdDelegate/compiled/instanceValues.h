@@ -42,6 +42,13 @@ private:
 struct InstanceStep {
     const InstanceValues* values = nullptr;
     int instance = 0;
+
+    /// @returns those of this instance, or nothing where it has none
+    const Marked* marks() const {
+        if (!values) return nullptr;
+        const std::vector<Marked>& all = values->instancer().marks;
+        return size_t(instance) < all.size() ? &all[size_t(instance)] : nullptr;
+    }
 };
 
 /// Reads a primvar of the innermost instance that has it, as Storm does.

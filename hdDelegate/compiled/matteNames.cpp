@@ -45,6 +45,9 @@ std::string seenFromOutside(std::string path, const InstanceStep& step, bool num
 
 std::string objectMatte(const Geometry& prim, const InstanceStep* steps, int count) {
     if (!prim.matteName.empty()) return prim.matteName;
+    for (int i = count - 1; i >= 0; --i)
+        if (const Marked* marks = steps[i].marks(); marks && !marks->matteName.empty())
+            return marks->matteName;
     std::string name = prim.path;
     for (int i = count - 1; i >= 0; --i)
         name = seenFromOutside(std::move(name), steps[i], true);
@@ -54,6 +57,7 @@ std::string objectMatte(const Geometry& prim, const InstanceStep* steps, int cou
 std::string assetMatte(const Geometry& prim, const InstanceStep* steps, int count) {
     std::string name = prim.assetName;
     for (int i = count - 1; i >= 0; --i) {
+        if (const Marked* marks = steps[i].marks(); name.empty() && marks) name = marks->assetName;
         if (!name.empty()) {
             name = seenFromOutside(std::move(name), steps[i], false);
         } else if (steps[i].values) {

@@ -257,15 +257,18 @@ void EmbreeGroup::replace(RTCDevice device, const Surfaces& surfaces, const Node
 
 void EmbreeGroup::attachNode(RTCDevice device, NodeMember& member) {
     const InstancerNode& node = *member.node;
-    const unsigned mask = node.prim->visibility.mask();
+    const auto maskOf = [&prim = *node.prim](int i) {
+        const unsigned own = prim.marks.empty() ? ~0u : prim.marks[size_t(i)].visibility.mask();
+        return prim.visibility.mask() & own;
+    };
     GroupRecord record;
     record.node = &node;
-    std::vector<int> nested;
+    std::map<unsigned, std::vector<int>> nested; // by mask
     for (int i = 0; i < int(node.targets.size()); ++i) {
         EmbreeGroup* target = node.targets[i];
         if (!target || target->empty()) continue;
         if (target->hasInstances || node.collapses[size_t(i)]) {
-            nested.push_back(i);
+            nested[maskOf(i)].push_back(i);
             continue;
         }
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
@@ -278,19 +281,20 @@ void EmbreeGroup::attachNode(RTCDevice device, NodeMember& member) {
                                     &node.transforms[size_t(i) * node.steps + step]);
         record.instance = i;
         member.ids.push_back(freeId());
+        attach(geometry, member.ids.back(), maskOf(i), record);
+    }
+    for (auto& [mask, instances] : nested) {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(geometry, unsigned(instances.size()));
+        rtcSetGeometryTimeStepCount(geometry, unsigned(node.steps));
+        rtcSetGeometryBoundsFunction(geometry, instanceBounds, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, instanceIntersect);
+        rtcSetGeometryOccludedFunction(geometry, instanceOccluded);
+        record.instance = -1;
+        record.instances = std::move(instances);
+        member.ids.push_back(freeId());
         attach(geometry, member.ids.back(), mask, record);
     }
-    if (nested.empty()) return;
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, unsigned(nested.size()));
-    rtcSetGeometryTimeStepCount(geometry, unsigned(node.steps));
-    rtcSetGeometryBoundsFunction(geometry, instanceBounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, instanceIntersect);
-    rtcSetGeometryOccludedFunction(geometry, instanceOccluded);
-    record.instance = -1;
-    record.instances = std::move(nested);
-    member.ids.push_back(freeId());
-    attach(geometry, member.ids.back(), mask, std::move(record));
 }
 
 void EmbreeGroup::updateNodes(RTCDevice device, const Nodes& nodes) {

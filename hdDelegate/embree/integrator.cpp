@@ -186,7 +186,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
                               : point.slot->opaque ? 1.0f
                                                    : program.opacity(s, &transmittance, &presence);
         point.shading.uvFootprint = footprint;
-        const bool caught = path.fromCamera() && hit.surface->prim->catching.any();
+        const bool caught = path.fromCamera() && catchingOf(hit).any();
         // The present share emits, whether or not light also passes.
         if (!culled && !caught && presence > 0.0f) addEmission(path, point, hit, presence);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {

@@ -51,7 +51,7 @@ float Integrator::shadowed(const Path& path, const SurfacePoint& point, const Hi
 
 bool Integrator::catchLight(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
                             TraceCounters& counters) const {
-    const Catching& catching = hit.surface->prim->catching;
+    const Catching catching = catchingOf(hit);
     if (catching.matte) return false;
     float left = 1.0f; // of the picture behind
     if (catching.shadows && bsdf.hasNonDelta() && !_lights.set().empty()) {

@@ -186,6 +186,17 @@ bool readAttribute(const Surface& surface, int attribute, unsigned primitive, fl
     }
 }
 
+Catching catchingOf(const Hit& hit) {
+    Catching catching = hit.surface->prim->catching;
+    for (int i = 0; i < hit.stepCount; ++i)
+        if (const Marked* marks = hit.steps[i].marks()) {
+            catching.matte |= marks->catching.matte;
+            catching.shadows |= marks->catching.shadows;
+            catching.reflections |= marks->catching.reflections;
+        }
+    return catching;
+}
+
 bool readPrimvar(const Hit& hit, const std::string& name, float out[4]) {
     const int attribute = hit.surface->findAttribute(name);
     return attribute >= 0 ? readAttribute(*hit.surface, attribute, hit.primitive, hit.u, hit.v, out)

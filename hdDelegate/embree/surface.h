@@ -90,6 +90,9 @@ struct Hit {
     InstanceStep steps[maxSteps]; ///< the first stepCount: from the outermost instance inwards
 };
 
+/// How the camera sees what was hit: as the prim says, or an instance around it.
+Catching catchingOf(const Hit& hit);
+
 /// Reads an attribute of a surface at a hit. @returns false when the attribute has no value there.
 bool readAttribute(const Surface& surface, int attribute, unsigned primitive, float u, float v,
                    float out[4]);

@@ -2,6 +2,7 @@
 #include "hdDelegate/hydra/instancer.h"
 
 #include "hdDelegate/hydra/instancerTransforms.h"
+#include "hdDelegate/hydra/marks.h"
 #include "hdDelegate/hydra/primvars.h"
 #include "hdDelegate/hydra/renderParam.h"
 #include "hdDelegate/hydra/values.h"
@@ -106,12 +107,13 @@ void HdPatinaInstancer::readPrimvars(HdSceneDelegate& delegate, HdPatinaRenderPa
                                      HdPatinaInstanceData& data) const {
     const size_t instances = data.transforms.size();
     data.primvars.clear();
+    data.marks = marksOfInstances(delegate, param, GetId(), instances);
     if (instances == 0) return; // nothing is drawn, and readInstanceTransforms() has said why
     for (const auto& descriptor :
          delegate.GetPrimvarDescriptors(GetId(), HdInterpolationInstance)) {
-        if (TfStringStartsWith(descriptor.name.GetString(), "hydra:")) continue;
         Primvar primvar;
         primvar.name = descriptor.name.GetString();
+        if (TfStringStartsWith(primvar.name, "hydra:") || isMark(primvar.name)) continue;
         primvar.interpolation = Interpolation::Vertex;
         const VtValue value = delegate.Get(GetId(), descriptor.name);
         primvar.values = floatsOf(value, primvar.components);

@@ -134,6 +134,9 @@ std::shared_ptr<const Instancer> HdPatinaInstances::build(const SdfPath& path, c
             result->categories.push_back(size_t(index) < data.categories.size()
                                              ? data.categories[size_t(index)]
                                              : std::vector<std::string>());
+    if (!data.marks.empty())
+        for (const int index : sources)
+            result->marks.push_back(data.marks[size_t(index)]);
     for (const Primvar& primvar : data.primvars) {
         Primvar own = primvar;
         if (primvar.interpolation != Interpolation::Constant) {

@@ -22,6 +22,7 @@ class HdPatinaRenderParam;
 struct HdPatinaInstanceData {
     std::vector<MotionTransform> transforms;
     std::vector<std::vector<std::string>> categories; ///< per index; may be shorter
+    std::vector<Marked> marks;                        ///< per index; empty = none
     std::vector<Primvar> primvars;                    ///< per index (Vertex) or constant
     bool visible = true;
 };

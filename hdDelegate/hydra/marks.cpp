@@ -32,11 +32,32 @@ void readMarks(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfP
         MarkValue mark;
         if (isMark(name) && markOf(delegate.Get(id, descriptor.name), mark)) marks[name] = mark;
     }
-    prim.visibility = Visibility();
-    prim.catching = Catching();
-    prim.matteName.clear();
-    prim.assetName.clear();
-    applyMarks(marks, prim, param.scene()->diagnostics());
+    static_cast<Marked&>(prim) = {};
+    applyMarks(marks, prim, id.GetString(), param.scene()->diagnostics());
+}
+
+std::vector<Marked> marksOfInstances(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                                     const SdfPath& id, size_t count) {
+    std::vector<Marks> marks(count);
+    bool any = false;
+    for (const auto& descriptor : delegate.GetPrimvarDescriptors(id, HdInterpolationInstance)) {
+        const std::string& name = descriptor.name.GetString();
+        if (!isMark(name)) continue;
+        const VtValue value = delegate.Get(id, descriptor.name);
+        int components = 0;
+        const std::vector<float> numbers = floatsOf(value, components);
+        const auto texts = value.GetWithDefault<VtStringArray>();
+        for (size_t i = 0; i < count; ++i)
+            if (components == 1 && i < numbers.size())
+                marks[i][name] = double(numbers[i]);
+            else if (i < texts.size())
+                marks[i][name] = texts[i];
+        any = true;
+    }
+    std::vector<Marked> result(any ? count : 0);
+    for (size_t i = 0; i < result.size(); ++i)
+        applyMarks(marks[i], result[i], id.GetString(), param.scene()->diagnostics());
+    return result;
 }
 
 } // namespace patina

@@ -17,4 +17,9 @@ bool markOf(const VtValue& value, MarkValue& mark);
 void readMarks(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
                Geometry& prim);
 
+/// What marks native instances, of which Hydra makes values of its instancer's instances.
+/// @returns one of each of `count` instances; empty where there are no marks
+std::vector<Marked> marksOfInstances(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                                     const SdfPath& id, size_t count);
+
 } // namespace patina

@@ -53,18 +53,24 @@ struct Catching {
     bool any() const { return matte || shadows || reflections; }
 };
 
+/// What primvars of primMarks.def say of a prim, or of all that is in an instance.
+struct Marked {
+    Visibility visibility;
+    Catching catching;
+    std::string matteName; ///< in cryptoObject; empty: its path, see objectMatte()
+    std::string assetName; ///< in cryptoAsset; empty: that of what is around, see assetMatte()
+};
+
 enum class SubdivisionScheme { None, CatmullClark, Loop, Bilinear };
 enum class GeometryKind { Mesh, Curves, Points, Implicit, Volume };
 
 /// The members of every gprim.
-struct Geometry {
+struct Geometry : Marked {
     std::string path;
     std::string group; ///< prototype that this prim belongs to; empty means the world itself
     GeometryKind kind = GeometryKind::Mesh;
     MotionTransform transform{mat4(1.0f)}; ///< local to group (or world)
-    Visibility visibility;
-    Catching catching;
-    std::string material; ///< path of a MaterialPrim; empty shows displayColor
+    std::string material;                  ///< path of a MaterialPrim; empty shows displayColor
     std::vector<GeomSubset> subsets;
     std::vector<Primvar>
         primvars; ///< displayColor, displayOpacity, st, normals (on curves, points and meshes)...
@@ -75,8 +81,6 @@ struct Geometry {
     std::string lightGroup; ///< label of the light that it gives off; empty: none
     std::string renderTag;  ///< Hydra's name of its purpose (proxy, render, guide); empty: geometry
     int id = -1;            ///< for the primId AOV; -1: the rank of its path
-    std::string matteName;  ///< in cryptoObject; empty: its path, see objectMatte()
-    std::string assetName;  ///< in cryptoAsset; empty: that of what is around, see assetMatte()
 
     virtual ~Geometry() = default;
     const Primvar* primvar(const std::string& name) const;
@@ -192,6 +196,7 @@ struct Instancer {
         categories;                ///< per instance (light linking); empty = none
     std::vector<Primvar> primvars; ///< per instance (Vertex) or constant
     Visibility visibility;
+    std::vector<Marked> marks; ///< per instance, beside those of the prims inside; empty = none
     /// Per instance: the path that stands for that of its group in the names of mattes, and its
     /// asset. Empty: the number of the instance tells it apart, and it has the instancer's asset.
     std::vector<std::string> names, assets;

@@ -104,7 +104,7 @@ bool raysOfKarma(const std::string& text, unsigned& rays) {
     return true;
 }
 
-bool takeNumber(const MarkRow& row, double value, Geometry& prim) {
+bool takeNumber(const MarkRow& row, double value, Marked& prim) {
     if (!std::isfinite(value)) return false;
     switch (row.kind) {
     case MarkKind::Rays: show(prim.visibility, row.number, value != 0.0); return true;
@@ -125,7 +125,7 @@ bool takeNumber(const MarkRow& row, double value, Geometry& prim) {
     }
 }
 
-bool takeText(const MarkRow& row, const std::string& value, Geometry& prim) {
+bool takeText(const MarkRow& row, const std::string& value, Marked& prim) {
     unsigned rays = 0;
     switch (row.kind) {
     case MarkKind::KarmaRays:
@@ -153,7 +153,8 @@ bool isMark(const std::string& name) {
                        [&](const MarkRow& row) { return name == row.name; });
 }
 
-void applyMarks(const Marks& marks, Geometry& prim, Diagnostics& diagnostics) {
+void applyMarks(const Marks& marks, Marked& prim, const std::string& path,
+                Diagnostics& diagnostics) {
     if (marks.empty()) return;
     for (const MarkRow& row : rows()) {
         const auto found = marks.find(row.name);
@@ -162,7 +163,7 @@ void applyMarks(const Marks& marks, Geometry& prim, Diagnostics& diagnostics) {
         if (text ? takeText(row, *text, prim)
                  : takeNumber(row, std::get<double>(found->second), prim))
             continue;
-        diagnostics.warn(prim.path, "primvars:" + found->first,
+        diagnostics.warn(path, "primvars:" + found->first,
                          row.kind == MarkKind::DiffuseTransmission
                              ? "is not read; rays of this kind see the prim"
                              : "has an unknown value; it is left out");

@@ -20,8 +20,10 @@ using Marks = std::map<std::string, MarkValue>;
 std::vector<std::string> markNames();
 bool isMark(const std::string& name);
 
-/// Gives a prim what its marks say: visibility, catching, matteName, assetName. A property without
-/// a mark stays. A value that means nothing is told, and counts as not there.
-void applyMarks(const Marks& marks, Geometry& prim, Diagnostics& diagnostics);
+/// Sets what marks say; a property without a mark stays. A value that means nothing is told, and
+/// counts as not there.
+/// @param path of the prim, for messages
+void applyMarks(const Marks& marks, Marked& prim, const std::string& path,
+                Diagnostics& diagnostics);
 
 } // namespace patina

@@ -136,13 +136,21 @@ void writePrimvars(Writer& w, const std::vector<Primvar>& primvars) {
     }
 }
 
-void writeVisibility(Writer& w, const Visibility& v) {
-    w.field("visibility camera", v.camera, true);
-    w.field("visibility diffuse", v.diffuse, true);
-    w.field("visibility shadow", v.shadow, true);
-    w.field("visibility specular", v.specular, true);
-    w.field("visibility transmission", v.transmission, true);
-    w.field("visibility volume", v.volume, true);
+/// @param whose the first words of the names
+void writeMarks(Writer& w, const Marked& marks, const std::string& whose = {}) {
+    const auto field = [&](const char* name, bool value, bool fallback) {
+        w.field((whose + name).c_str(), value, fallback);
+    };
+    field("visibility camera", marks.visibility.camera, true);
+    field("visibility diffuse", marks.visibility.diffuse, true);
+    field("visibility shadow", marks.visibility.shadow, true);
+    field("visibility specular", marks.visibility.specular, true);
+    field("visibility transmission", marks.visibility.transmission, true);
+    field("visibility volume", marks.visibility.volume, true);
+    field("matte", marks.catching.matte, false);
+    field("catches shadows", marks.catching.shadows, false);
+    field("catches reflections", marks.catching.reflections, false);
+    if (!marks.matteName.empty()) w.line(whose + "matteName", text(marks.matteName));
 }
 
 void writeDirection(Writer& w, const std::string& name, const NurbsDirection& d) {
@@ -191,11 +199,7 @@ void writeGeometry(Writer& w, const Geometry& g) {
     w.prim(kinds[int(g.kind)], g.path);
     w.field("group", g.group, std::string());
     w.transform("transform", g.transform);
-    writeVisibility(w, g.visibility);
-    w.field("matte", g.catching.matte, false);
-    w.field("catches shadows", g.catching.shadows, false);
-    w.field("catches reflections", g.catching.reflections, false);
-    if (!g.matteName.empty()) w.line("matteName", text(g.matteName));
+    writeMarks(w, g);
     w.field("material", g.material, std::string());
     w.field("doubleSided", g.doubleSided, true);
     w.field("leftHanded", g.leftHanded, false);
@@ -221,12 +225,14 @@ void writeGeometry(Writer& w, const Geometry& g) {
 void writeInstancer(Writer& w, const Instancer& i) {
     w.prim("Instancer", i.path);
     w.field("group", i.group, std::string());
-    writeVisibility(w, i.visibility);
+    writeMarks(w, {i.visibility, {}, {}, {}});
     w.names("prototypes", i.prototypes);
     w.array("prototypeIndices", i.prototypeIndices);
     for (size_t k = 0; k < i.transforms.size() && k < 64; ++k)
         w.transform("transform " + std::to_string(k), i.transforms[k]);
     w.line("instances", std::to_string(i.transforms.size()));
+    for (size_t k = 0; k < i.marks.size() && k < 64; ++k)
+        writeMarks(w, i.marks[k], "instance " + std::to_string(k) + " ");
     w.array("ids", i.ids);
     for (size_t k = 0; k < i.categories.size() && k < 64; ++k)
         w.names("categories " + std::to_string(k), i.categories[k]);

@@ -17,6 +17,9 @@
 #if PATINA_HAS_TET_MESHES
 #include <pxr/imaging/hdsi/tetMeshConversionSceneIndex.h>
 #endif
+#if PATINA_HAS_VELOCITY_MOTION
+#include <pxr/imaging/hdsi/velocityMotionResolvingSceneIndex.h>
+#endif
 
 PXR_NAMESPACE_OPEN_SCOPE
 
@@ -27,7 +30,12 @@ public:
 protected:
     HdSceneIndexBaseRefPtr _AppendSceneIndex(const HdSceneIndexBaseRefPtr& input,
                                              const HdContainerDataSourceHandle&) override {
-        HdSceneIndexBaseRefPtr scene = HdPatinaSourceFormsSceneIndex::New(input);
+        HdSceneIndexBaseRefPtr scene = input;
+#if PATINA_HAS_VELOCITY_MOTION
+        // Scene indices hand velocities on, and leave to the renderer what they do to points.
+        scene = HdsiVelocityMotionResolvingSceneIndex::New(scene);
+#endif
+        scene = HdPatinaSourceFormsSceneIndex::New(scene);
         scene = HdsiNurbsApproximatingSceneIndex::New(scene);
 #if PATINA_HAS_TET_MESHES
         scene = HdsiTetMeshConversionSceneIndex::New(scene);

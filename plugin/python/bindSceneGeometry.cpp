@@ -29,7 +29,7 @@ Fields& readCommon(Fields& fields, Geometry& g, PythonEdit& edit) {
         .read("left_handed", g.leftHanded)
         .read("light_group", g.lightGroup)
         .read("marks", marks);
-    applyMarks(marks, g, edit.scene->diagnostics());
+    applyMarks(marks, g, g.path, edit.scene->diagnostics());
     return fields;
 }
 

@@ -3,7 +3,7 @@
 import pytest
 
 import stages
-from test_oneTruth import MODES, render_with_hydra
+from test_oneTruth import MODES, compare, render_with_hydra
 
 STAGE = """#usda 1.0
 def Camera "camera"
@@ -57,3 +57,46 @@ def test_marks_are_read(tmp_path, scene_index, path, said):
     for dump in (text, shot.scene.dump()):
         for line in said:
             assert line in block(dump, path), dump
+
+
+NATIVE = stages.front(8, 4) + """
+class Xform "asset"
+{
+    def Mesh "tile"
+    {
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)]
+        uniform token subdivisionScheme = "none"
+        color3f[] primvars:displayColor = [(0.4, 0.3, 0.2)]
+    }
+}
+"""
+INSTANCE = """def Xform "i@n@" (
+    inherits = </asset>
+    instanceable = true
+)
+{
+    @mark@
+    double3 xformOp:translate = (@x@, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+MARKS = ("", "bool primvars:arnold:visibility:camera = 0", "bool primvars:arnold:matte = 1",
+         'string primvars:karma:object:rendervisibility = "-primary"')
+
+
+@MODES
+def test_marks_of_native_instances(tmp_path, scene_index):
+    """Hydra makes values of the instances of them."""
+    stage = tmp_path / "native.usda"
+    stage.write_text(NATIVE + "".join(INSTANCE.replace("@n@", str(i)).replace("@mark@", mark).replace("@x@", str(2 * i - 3))
+                                      for i, mark in enumerate(MARKS)))
+    shot = stages.Shot(str(stage), tmp_path)
+    image, _ = render_with_hydra(shot, tmp_path, scene_index)
+    compare(shot, image, scene_index)
+    row = image[image.shape[0] // 2]
+    seen = [row[int((2 * i - 3 + 4) / 8 * len(row))] for i in range(len(MARKS))]
+    sky = row[0]
+    assert (seen[0] < 0.6 * sky).all() and (seen[2] == 0).all(), seen
+    assert seen[1] == pytest.approx(sky) and seen[3] == pytest.approx(sky)

@@ -49,6 +49,7 @@ const std::vector<RasterPlace>& RasterInstances::places(const std::string& group
     const auto step = [this](const Instancer& instancer, uint32_t i, int depth,
                              RasterPlace& place) {
         if (!instancer.visibility.camera) return false;
+        if (i < instancer.marks.size() && !instancer.marks[i].visibility.camera) return false;
         place.groupToWorld = exactTransformAt(instancer.transforms[i], _time) * place.groupToWorld;
         const int own = i < instancer.ids.size() ? instancer.ids[i] : int(i);
         const size_t prototype = size_t(instancer.prototypeIndices[i]);

@@ -79,6 +79,17 @@ class Context:
             inside = [start + step * i for i in range(1, MAX_MOTION_SAMPLES - 1)]
         return distinct([start, *inside, end])
 
+    def velocity_offsets(self, prim, bent):
+        """When to evaluate what velocities move in the shutter: the ends, and where accelerations or angular velocities bend
+        the way, as many times as UsdGeomMotionAPI asks for, 3 at least, as in Hydra.
+
+        :param bent: attributes that bend it, where they are authored
+        :returns: ascending times relative to the frame"""
+        count = 2
+        if any(attribute.HasAuthoredValue() for attribute in bent):
+            count = max(3, UsdGeom.MotionAPI(prim).ComputeNonlinearSampleCount(self.time))
+        return distinct(np.linspace(*self.shutter, min(count, MAX_MOTION_SAMPLES)).tolist())
+
     def attribute_offsets(self, attribute):
         """:returns: motion_offsets() of an attribute, or [0] when it does not move in the shutter. Like Hydra it
             takes the authored samples before and after instead of the ends of the shutter, where there are any"""

@@ -4,7 +4,7 @@ import numpy as np
 from pxr import UsdGeom
 
 from . import kinds, marks, meshes, parametric, skinning, volumes
-from .context import array, distinct, get, number, shown
+from .context import array, get, number, shown
 from .primvars import add_builtin, read_primvars, text
 from .transforms import transform_of
 
@@ -77,7 +77,8 @@ def points_of(context, prim, skin=None):
     offsets = context.attribute_offsets(attribute)
     velocities = based.GetVelocitiesAttr() if not context.time.IsDefault() else None
     if velocities and velocities.HasAuthoredValue():
-        offsets = distinct(list(context.shutter)) if context.moving else [0.0]
+        bent = (based.GetAccelerationsAttr(),)
+        offsets = context.velocity_offsets(prim, bent) if context.moving else [0.0]
         values = based.ComputePointsAtTimes([context.time_at(t) for t in offsets], context.time)
         if len(values) == len(offsets):
             return _sampled(context, prim, offsets, values)

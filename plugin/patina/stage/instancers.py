@@ -99,10 +99,12 @@ def _matrices(context, schema, prim, count):
         samples = {s for a in attributes if a and a.ValueMightBeTimeVarying()
                    for s in a.GetTimeSamplesInInterval(context.shutter_interval())}
         moves = any(a and a.ValueMightBeTimeVarying() for a in attributes)
-        moves = moves or schema.GetVelocitiesAttr().HasAuthoredValue()
-        moves = moves or schema.GetAngularVelocitiesAttr().HasAuthoredValue()
-        if moves:
-            offsets = merged([*context.motion_offsets(samples), *(offsets if len(offsets) > 1 else [])])
+        own = context.motion_offsets(samples) if moves else []
+        bent = (schema.GetAccelerationsAttr(), schema.GetAngularVelocitiesAttr())
+        if any(a.HasAuthoredValue() for a in (schema.GetVelocitiesAttr(), *bent)):
+            own += context.velocity_offsets(prim, bent)
+        if own:
+            offsets = merged([*own, *(offsets if len(offsets) > 1 else [])])
     arrays = []
     for offset in offsets:
         value = schema.ComputeInstanceTransformsAtTime(context.time_at(offset), context.time, exclude, ignore)

@@ -135,6 +135,19 @@ def test_velocities_place_points_between_samples(read, numbers):
     assert numbers(read(moving % "", frame=4.0).prim("/p")["points"]) == [100, 0, 0]
 
 
+def test_accelerations_bend_the_way_through_the_shutter(read):
+    """As often as UsdGeomMotionAPI asks for, and three times at least."""
+    scene = """def Camera "c" { double shutter:open = -0.5  double shutter:close = 0.5 }
+        def Points "p" (prepend apiSchemas = ["MotionAPI"]) { %s
+        point3f[] points.timeSamples = { 0: [(0,0,0)], 4: [(0,0,0)] }
+        vector3f[] velocities.timeSamples = { 0: [(24,0,0)], 4: [(24,0,0)] }%s }"""
+    faster = "  vector3f[] accelerations.timeSamples = { 0: [(0,1152,0)], 4: [(0,1152,0)] }"
+    for count, more, times in (("", "", 2), ("", faster, 3), ("int motion:nonlinearSampleCount = 5", faster, 5)):
+        prim = read(scene % (count, more), frame=0.0).prim("/p")
+        assert len([name for name in prim if name.startswith("points@")]) == times, prim
+    assert prim["points@-0.25"] == "-0.25 0.0625 0"
+
+
 def test_colors_of_faces_show_in_both_back_ends(read):
     """A cube's first face is the one along +z; its points along +x are blue. A sphere's last 20 faces are around its pole."""
     import _patina

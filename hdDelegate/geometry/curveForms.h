@@ -28,7 +28,8 @@ std::shared_ptr<const Curves> toBezier(const HermiteCurves& curves, Diagnostics&
 /// The same curves as Bezier ones: exactly up to order 4 without weights, else cut until they are
 /// within 1e-5 of the size of the curve. Vertex primvars have the points' basis, varying ones
 /// (vertex count - order + 2 of each curve) are linear from knot to knot. Curves whose order, knots
-/// or number of points cannot be used are left out with a warning.
+/// or number of points cannot be used are left out with a warning. Without any order they are
+/// lines through their points, with a warning.
 std::shared_ptr<const Curves> toBezier(const NurbsCurves& curves, Diagnostics& diagnostics);
 
 } // namespace patina

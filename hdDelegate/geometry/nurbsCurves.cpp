@@ -204,6 +204,13 @@ Authored takeApart(const NurbsCurves& curves, size_t points, Diagnostics& diagno
 } // namespace
 
 std::shared_ptr<const Curves> toBezier(const NurbsCurves& curves, Diagnostics& diagnostics) {
+    if (curves.orders.empty() && !curves.curveVertexCounts.empty()) {
+        diagnostics.warn(curves.path, "order", "has no value; lines join the points, as in Hydra");
+        auto lines = std::make_shared<Curves>(curves);
+        lines->basis = CurveBasis::Linear;
+        lines->wrap = CurveWrap::Nonperiodic;
+        return lines;
+    }
     BezierBatch batch(curves);
     size_t points = curves.points.empty() ? 0 : curves.points.first().size();
     for (const auto& sample : curves.points.values)

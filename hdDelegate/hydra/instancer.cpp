@@ -16,14 +16,22 @@ namespace patina {
 
 namespace {
 
+std::vector<std::string> textsOf(const VtArray<TfToken>& names) {
+    std::vector<std::string> texts;
+    for (const TfToken& name : names)
+        texts.push_back(name.GetString());
+    return texts;
+}
+
+/// Links to a point instancer are links to all of its `count` instances.
 std::vector<std::vector<std::string>> instanceCategories(HdSceneDelegate& delegate,
-                                                         const SdfPath& id) {
+                                                         const SdfPath& id, size_t count) {
     std::vector<std::vector<std::string>> categories;
-    for (const VtArray<TfToken>& names : delegate.GetInstanceCategories(id)) {
-        categories.emplace_back();
-        for (const TfToken& name : names)
-            categories.back().push_back(name.GetString());
-    }
+    for (const VtArray<TfToken>& names : delegate.GetInstanceCategories(id))
+        categories.push_back(textsOf(names));
+    if (!categories.empty()) return categories;
+    const std::vector<std::string> own = textsOf(delegate.GetCategories(id));
+    if (!own.empty()) categories.assign(count, own);
     return categories;
 }
 
@@ -45,7 +53,7 @@ void HdPatinaInstancer::Sync(HdSceneDelegate* delegate, HdRenderParam* renderPar
         HdChangeTracker::IsAnyPrimvarDirty(*dirtyBits, id))
         readInstances(*delegate, param, *data);
     data->visible = delegate->GetVisible(id);
-    data->categories = instanceCategories(*delegate, id);
+    data->categories = instanceCategories(*delegate, id, data->transforms.size());
     {
         std::lock_guard<std::mutex> lock(_mutex);
         _data = data;
@@ -72,7 +80,7 @@ void HdPatinaInstancer::updateCategories(HdPatinaRenderParam& param) {
     {
         std::lock_guard<std::mutex> lock(_mutex);
         if (!_data) return;
-        auto categories = instanceCategories(*GetDelegate(), GetId());
+        auto categories = instanceCategories(*GetDelegate(), GetId(), _data->transforms.size());
         if (categories == _data->categories) return;
         auto data = std::make_shared<HdPatinaInstanceData>(*_data);
         data->categories = std::move(categories);

@@ -7,11 +7,11 @@ SETS = {  # name of a set -> what it is
     "usd-wg": "The assets of the Alliance for OpenUSD's working group (`usd-wg/assets`).",
     "arnold-usd": "The test suite of Arnold's USD plugin (`Autodesk/arnold-usd`). Many of its materials are Arnold's own."}
 _SKINNED = "Hydra skins points, and leaves normals as they are"
+_UNAPPLIED = "MaterialBindingAPI is not applied, and scene indices bind nothing"
 _CARDS = "the two sides of a cross of cards lie in one place in Hydra, and a renderer without culling shows either"
 CAUSES = (  # (set, pattern of stages, pattern of ways, the cause)
     ("usdImaging", "*FileArguments/*", "read", "the file is meant to be invalid"),
-    ("usdImaging", "*testUsdviewMaterialEdits/*", "sceneIndex",
-     "MaterialBindingAPI is not applied, and scene indices bind nothing"),
+    ("usdImaging", "*testUsdviewMaterialEdits/*", "sceneIndex", _UNAPPLIED),
     ("usdImaging", "*testUsdImagingDelegate/indexedPrimvars.usda", "*", "two meshes lie in the same place"),
     ("usdImaging", "*testUsdImagingDelegate/unvarying.usda", "*",
      "the command line moves points to the frame by their velocities; Hydra has no time of the sample"),
@@ -40,8 +40,11 @@ CAUSES = (  # (set, pattern of stages, pattern of ways, the cause)
      "the command line reads inputs of lights by their names from before OpenUSD 21.05 too, here `angle`"),
     ("usd-wg", "*/stage_composition/over.usda", "sceneIndex", "scene indices of 26.08 draw a prim that no `def` makes"),
     ("usd-wg", "*/framesPerSecond_*", "read", "OpenUSD refuses a frame rate that is not above 0"),
-    ("arnold-usd", "test_0219/*", "*",
-     "Hydra makes values of the instance of what marks native instances, which are not read"),
+    *(("arnold-usd", stages, "*", _SKINNED) for stages in ("test_1352/*", "test_1443/data/test.usda", "test_1837/*")),
+    ("arnold-usd", "test_1329/*", "*", "velocities beside one sample: scene indices take points of one sample as constant"),
+    ("arnold-usd", "test_1443/data/sphere_skin.usda", "*", "Hydra draws the bones of a Skeleton that has a purpose"),
+    ("arnold-usd", "test_1524/*", "sceneIndex", "scene indices do not find prims inside of native instances in collections"),
+    ("arnold-usd", "test_17642.2/*", "sceneIndex", _UNAPPLIED),
     ("usd-wg", "*/teapotScene.usd", "*", "hundreds of teapots, many within a pixel"),
 )
 

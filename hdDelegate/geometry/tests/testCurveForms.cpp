@@ -209,6 +209,19 @@ TEST(NurbsCurves, badCurvesAreReportedAndTheRestIsDrawn) {
     EXPECT_TRUE(toBezier(none, diagnostics)->curveVertexCounts.empty());
 }
 
+TEST(NurbsCurves, withoutAnOrderAreLines) {
+    NurbsCurves curves = cubic();
+    curves.orders.clear();
+    curves.knots = {0.0, 0.0, 1.0, 1.0};
+    Diagnostics diagnostics;
+    const auto lines = toBezier(curves, diagnostics);
+    EXPECT_TRUE(warned(diagnostics, "/curves", "order"));
+    EXPECT_EQ(lines->basis, CurveBasis::Linear);
+    EXPECT_EQ(lines->curveVertexCounts, curves.curveVertexCounts);
+    EXPECT_EQ(lines->points.first(), curves.points.first());
+    EXPECT_FALSE(build(*lines).segments.empty());
+}
+
 TEST(NurbsCurves, moveWithTheirPoints) {
     NurbsCurves curves = cubic();
     std::vector<vec3> moved = curves.points.first();

@@ -66,7 +66,7 @@ _ROWS = (
     (r"name instances that it has no", "give the PointInstancer a position for each of its `protoIndices`"),
     (r"crease|corners|subdivisionScheme|OpenSubdiv|loop needs|refine|than the limits|use a point twice|sharpness",
      "correct the mesh, or set `subdivisionScheme` to none to draw it as polygons"),
-    (r"weights|knots|patch|trim|cut out|… curves are not drawn",
+    (r"weights|knots|patch|trim|cut out|… curves are not drawn|lines join the points",
      "compare the counts of points, orders, knots and weights with UsdGeom's schema; trim curves are not supported"),
     (r"tetrahedra", "correct `tetVertexIndices`"),
     (r"subset|elementType|already in another|indices are out of range and ignored",

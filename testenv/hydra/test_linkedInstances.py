@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A light that is linked to a point instancer lights all of its instances, and one that is linked to another prim none."""
+import pytest
+
+import stages
+from test_oneTruth import MODES, compare, render_with_hydra
+
+LINK = """def DomeLight "dome"
+{
+    rel collection:lightLink:includes = <@path@>
+    uniform bool collection:lightLink:includeRoot = 0
+"""
+INSTANCER = """def PointInstancer "tiles"
+{
+    rel prototypes = [</tiles/tile>]
+    int[] protoIndices = [0, 0]
+    point3f[] positions = [(-2, 0, 0), (2, 0, 0)]
+    def Mesh "tile"
+    {
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+        uniform token subdivisionScheme = "none"
+    }
+}
+def Xform "other"
+{
+}
+"""
+
+
+@MODES
+@pytest.mark.parametrize("path, lit", [("/tiles", True), ("/other", False)])
+def test_link_to_a_point_instancer(tmp_path, path, lit, scene_index):
+    stage = tmp_path / "linked.usda"
+    stage.write_text(stages.front(8, 4).replace('def DomeLight "dome"\n{\n', LINK.replace("@path@", path)) + INSTANCER)
+    shot = stages.Shot(str(stage), tmp_path)
+    image, _ = render_with_hydra(shot, tmp_path, scene_index)
+    compare(shot, image, scene_index)
+    middle = image[image.shape[0] // 2]
+    assert all((middle[int(at * len(middle))] > 0.1).all() == lit for at in (0.25, 0.75)), middle

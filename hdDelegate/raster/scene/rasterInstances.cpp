@@ -24,7 +24,7 @@ bool isDrawnInRaster(const Geometry& prim, const RenderSettings& settings) {
     return prim.visibility.camera && isDrawn(prim, settings);
 }
 
-const char* notShownInRaster(const Geometry& prim) {
+const char* notShownInRaster(const Marked& prim) {
     const Visibility& v = prim.visibility;
     if (!v.camera)
         return v.shadow ? "is hidden from the camera: the rasterizer draws no shadow of it either"

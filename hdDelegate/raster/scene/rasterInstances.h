@@ -34,8 +34,8 @@ private:
 /// Whether a prim is drawn, and cameras see it.
 bool isDrawnInRaster(const Geometry& prim, const RenderSettings& settings);
 
-/// A warning that names the parts of a prim's visibility and catching which the rasterizer lacks;
-/// null for nothing.
-const char* notShownInRaster(const Geometry& prim);
+/// A warning that names the parts of visibility and catching which the rasterizer lacks; null for
+/// nothing.
+const char* notShownInRaster(const Marked& prim);
 
 } // namespace patina

@@ -19,6 +19,12 @@ namespace patina {
 /// Asks for all programs before the first is waited for.
 void RasterScene::prepareMaterials(const SceneState& state, const RenderSettings& settings,
                                    RasterInstances& places) {
+    for (const auto& item : state.instancers)
+        for (const Marked& marks : item.second->marks)
+            if (const char* problem = notShownInRaster(marks)) {
+                _diagnostics.warn(item.first, "primvars", problem);
+                break;
+            }
     for (const auto& item : state.geometry) {
         const Geometry& prim = *item.second;
         const char* problem = isDrawn(prim, settings) ? notShownInRaster(prim) : nullptr;

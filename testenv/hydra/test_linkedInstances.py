@@ -2,6 +2,7 @@
 """A light that is linked to a point instancer lights all of its instances, and one that is linked to another prim none."""
 import pytest
 
+import hydraBuild
 import stages
 from test_oneTruth import MODES, compare, render_with_hydra
 
@@ -32,6 +33,8 @@ def Xform "other"
 @MODES
 @pytest.mark.parametrize("path, lit", [("/tiles", True), ("/other", False)])
 def test_link_to_a_point_instancer(tmp_path, path, lit, scene_index):
+    if scene_index and int(hydraBuild.folder("version")) < 2411:
+        pytest.skip("scene indices link no lights before OpenUSD 24.11")
     stage = tmp_path / "linked.usda"
     stage.write_text(stages.front(8, 4).replace('def DomeLight "dome"\n{\n', LINK.replace("@path@", path)) + INSTANCER)
     shot = stages.Shot(str(stage), tmp_path)

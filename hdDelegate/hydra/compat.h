@@ -28,8 +28,8 @@
 /// Hydra's own scene indices that came later.
 #define PATINA_HAS_LIGHT_LINKING __has_include(<pxr/imaging/hdsi/lightLinkingSceneIndex.h>)
 #define PATINA_HAS_TET_MESHES __has_include(<pxr/imaging/hdsi/tetMeshConversionSceneIndex.h>)
-#define PATINA_HAS_VELOCITY_MOTION                                                                 \
-    __has_include(<pxr/imaging/hdsi/velocityMotionResolvingSceneIndex.h>)
+/// HdsiVelocityMotionResolvingSceneIndex knows the stage's time codes per second.
+#define PATINA_HAS_VELOCITY_MOTION (PXR_VERSION >= 2508)
 /// Ndr was merged into Sdr.
 #define PATINA_HAS_SDR_ONLY (PXR_VERSION >= 2508)
 /// HdsiLegacyDisplayStyleOverrideSceneIndex::SetRefineLevelFallback replaces SetRefineLevel.

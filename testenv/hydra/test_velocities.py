@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What velocities move through the shutter, and to a frame that lies between samples: by scene indices since OpenUSD 24.11."""
+"""What velocities move through the shutter, and to a frame that lies between samples: by scene indices since OpenUSD 25.08."""
 import pytest
 
 import hydraBuild
@@ -31,8 +31,8 @@ PRIMS = {
 
 @pytest.fixture(autouse=True)
 def _new_enough():
-    if int(hydraBuild.folder("version")) < 2411:
-        pytest.skip("Hydra has no scene index of velocities before OpenUSD 24.11")
+    if int(hydraBuild.folder("version")) < 2508:
+        pytest.skip("Hydra's scene index of velocities does not know the time codes per second before OpenUSD 25.08")
 
 
 def sampled(kind, name, value):

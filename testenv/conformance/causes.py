@@ -43,7 +43,7 @@ CAUSES = (  # (set, pattern of stages, pattern of ways, the cause)
     ("usd-wg", "*/stage_composition/over.usda", "sceneIndex", "scene indices of 26.08 draw a prim that no `def` makes"),
     ("usd-wg", "*/framesPerSecond_*", "read", "OpenUSD refuses a frame rate that is not above 0"),
     *(("arnold-usd", stages, "*", _SKINNED) for stages in ("test_1352/*", "test_1443/data/test.usda", "test_1837/*")),
-    ("arnold-usd", "test_1329/*", "*", "velocities beside one sample: scene indices take points of one sample as constant"),
+    ("arnold-usd", "test_1329/*", "*", "velocities beside one sample at another frame: scene indices take it to be at this one"),
     ("arnold-usd", "test_1868/*", "*",
      "velocities beside positions without samples: UsdGeom does not use them, scene indices do"),
     ("arnold-usd", "test_1443/data/sphere_skin.usda", "*", "Hydra draws the bones of a Skeleton that has a purpose"),

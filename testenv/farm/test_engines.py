@@ -250,6 +250,18 @@ def test_a_worker_that_dies_while_it_starts_may_start_the_next_time(error, statu
     assert type(told.value) is status
 
 
+def test_the_thread_of_an_engine_that_cannot_start_says_why(monkeypatch):
+    pytest.importorskip("distributed")
+
+    def run(served):
+        served.close()
+        raise OSError("no descriptors left")
+
+    monkeypatch.setattr(engines.asyncio, "run", run)
+    with pytest.raises(CommandError, match="no workers of local: no descriptors left"):
+        engines.Cluster(engines.parse("local:1", []), "").__enter__()
+
+
 @pytest.mark.parametrize("forgotten", (False, True), ids=("known", "forgotten"))
 def test_workers_that_do_not_come_back_are_replaced(tmp_path, monkeypatch, forgotten):
     """A worker whose keeper is closed, too, is started by nobody else."""

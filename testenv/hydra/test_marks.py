@@ -2,7 +2,9 @@
 """Marks of prims through Hydra: the text of the scene has what each says, and Cryptomatte is a product of the stage."""
 import pytest
 
+import hydraBuild
 import stages
+from rendering import color
 from test_oneTruth import MODES, compare, render_with_hydra
 
 STAGE = """#usda 1.0
@@ -86,17 +88,36 @@ MARKS = ("", "bool primvars:arnold:visibility:camera = 0", "bool primvars:arnold
          'string primvars:karma:object:rendervisibility = "-primary"')
 
 
-@MODES
-def test_marks_of_native_instances(tmp_path, scene_index):
-    """Hydra makes values of the instances of them."""
+def native(tmp_path):
+    """:returns: a Shot of a row of instances, one for each of MARKS"""
     stage = tmp_path / "native.usda"
     stage.write_text(NATIVE + "".join(INSTANCE.replace("@n@", str(i)).replace("@mark@", mark).replace("@x@", str(2 * i - 3))
                                       for i, mark in enumerate(MARKS)))
-    shot = stages.Shot(str(stage), tmp_path)
+    return stages.Shot(str(stage), tmp_path)
+
+
+def seen_in(image):
+    """:returns: the sky, and what is in the middle of each instance"""
+    row = image[image.shape[0] // 2]
+    return row[0], [row[int((2 * i - 3 + 4) / 8 * len(row))] for i in range(len(MARKS))]
+
+
+@MODES
+def test_marks_of_native_instances(tmp_path, scene_index):
+    """Hydra makes values of the instances of them."""
+    shot = native(tmp_path)
     image, _ = render_with_hydra(shot, tmp_path, scene_index)
     compare(shot, image, scene_index)
-    row = image[image.shape[0] // 2]
-    seen = [row[int((2 * i - 3 + 4) / 8 * len(row))] for i in range(len(MARKS))]
-    sky = row[0]
+    sky, seen = seen_in(image)
     assert (seen[0] < 0.6 * sky).all() and (seen[2] == 0).all(), seen
     assert seen[1] == pytest.approx(sky) and seen[3] == pytest.approx(sky)
+
+
+def test_the_rasterizer_hides_instances_and_tells_the_rest(tmp_path):
+    shot, image = native(tmp_path), tmp_path / "raster.exr"
+    process = hydraBuild.run_host(shot.stage, image, *shot.host_flags(), "--set", "samples=4", "--set", "backend=raster",
+                                  scene_index=True)
+    sky, seen = seen_in(color(image))
+    assert all((seen[i] < 0.6 * sky).all() for i in (0, 2)), seen
+    assert seen[1] == pytest.approx(sky, rel=0.01) and seen[3] == pytest.approx(sky, rel=0.01)
+    assert any("rasterizer" in line for line in hydraBuild.warnings_of(process)), process.stderr

@@ -30,6 +30,8 @@
 #define PATINA_HAS_TET_MESHES __has_include(<pxr/imaging/hdsi/tetMeshConversionSceneIndex.h>)
 /// HdsiVelocityMotionResolvingSceneIndex knows the stage's time codes per second.
 #define PATINA_HAS_VELOCITY_MOTION (PXR_VERSION >= 2508)
+/// Scene indices tell a mesh that its subsets changed.
+#define PATINA_HAS_SUBSET_NOTICES (PXR_VERSION >= 2411)
 /// Ndr was merged into Sdr.
 #define PATINA_HAS_SDR_ONLY (PXR_VERSION >= 2508)
 /// HdsiLegacyDisplayStyleOverrideSceneIndex::SetRefineLevelFallback replaces SetRefineLevel.

@@ -7,6 +7,8 @@ import os
 import shutil
 import subprocess
 
+import pytest
+
 TIMEOUT = 900  # seconds for one program: a hang fails rather than blocks
 
 
@@ -37,6 +39,15 @@ def missing_engine():
 def folder(name):
     """:param name: root, plugin, host, engineHost or python, as the build wrote them down"""
     return _read()[name]
+
+
+def skip_before(version, why):
+    """Skips a test in an OpenUSD that is older.
+
+    :param version: as PXR_VERSION
+    :param why: what the older ones lack"""
+    if int(folder("version")) < version:
+        pytest.skip(f"before OpenUSD {version // 100}.{version % 100:02d} {why}")
 
 
 def unreadable(stage):

@@ -50,6 +50,8 @@ def DomeLight "dome"
 
 def check(colors, interpolation, expected, tmp_path, scene_index):
     """:param expected: prim -> list of (x, y, number of one of COLORS) on the prim as the camera sees it"""
+    if scene_index:
+        hydraBuild.skip_before(2411, "scene indices leave planes out, with a warning")
     path = tmp_path / "colors.usda"
     path.write_text(stage_of(colors, interpolation), encoding="utf-8")
     shot = stages.Shot(str(path), tmp_path, width=WIDTH * len(colors))

@@ -15,6 +15,8 @@ MODES = pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "
 @MODES
 @pytest.mark.parametrize("name", CASES)
 def test_floor_under_a_light(tmp_path, name, scene_index):
+    if scene_index and name == "cylinder":
+        hydraBuild.skip_before(2411, "scene indices leave cylinder lights out")
     text, irradiance = CASES[name]
     stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
     stage.write_text(STAGE.format(light=text))

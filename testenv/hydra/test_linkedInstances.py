@@ -33,8 +33,8 @@ def Xform "other"
 @MODES
 @pytest.mark.parametrize("path, lit", [("/tiles", True), ("/other", False)])
 def test_link_to_a_point_instancer(tmp_path, path, lit, scene_index):
-    if scene_index and int(hydraBuild.folder("version")) < 2411:
-        pytest.skip("scene indices link no lights before OpenUSD 24.11")
+    if scene_index:
+        hydraBuild.skip_before(2411, "scene indices link no lights")
     stage = tmp_path / "linked.usda"
     stage.write_text(stages.front(8, 4).replace('def DomeLight "dome"\n{\n', LINK.replace("@path@", path)) + INSTANCER)
     shot = stages.Shot(str(stage), tmp_path)

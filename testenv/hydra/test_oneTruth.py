@@ -91,10 +91,16 @@ def compare(shot, image, scene_index, bound=0.0, reason=""):
 @MODES
 @pytest.mark.parametrize("stage", [s for s in stages.scenes() if stages.name_of(s) != "portals.usda"], ids=stages.name_of)
 def test_scene(tmp_path, stage, scene_index):
+    name = stages.name_of(stage)
+    if name == "motionBlur.usda":
+        hydraBuild.skip_before(2411, "scene indices hand on no samples of motion" if scene_index else
+                               "UsdImagingDelegate hands on values of the shutter's ends in place of the samples beyond")
+    if name == "lightCylinder.usda" and scene_index:
+        hydraBuild.skip_before(2411, "scene indices leave cylinder lights out")
     shot = stages.Shot(stage, tmp_path)
     image, text = render_with_hydra(shot, tmp_path, scene_index)
     assert sceneText.difference(text, shot.scene.dump(), native_shapes=scene_index) == ""
-    compare(shot, image, scene_index, *NOT_EQUAL.get(stages.name_of(stage), ()))
+    compare(shot, image, scene_index, *NOT_EQUAL.get(name, ()))
 
 
 @MODES
@@ -284,6 +290,8 @@ def test_primvars_of_a_material_are_those_of_its_prims(tmp_path):
 @MODES
 def test_forms_that_hydra_has_no_place_for(tmp_path, scene_index):
     """NURBS patches and curves, tetrahedra and planes are what the stage says, not what hosts make of them."""
+    if scene_index:
+        hydraBuild.skip_before(2411, "scene indices leave planes out, and cut tetrahedra in an order of their own")
     shot = stages.Shot(os.path.join(HERE, "otherForms.usda"), tmp_path)
     image, text = render_with_hydra(shot, tmp_path, scene_index)
     assert sceneText.difference(text, shot.scene.dump(), native_shapes=scene_index) == ""

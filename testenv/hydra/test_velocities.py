@@ -31,8 +31,7 @@ PRIMS = {
 
 @pytest.fixture(autouse=True)
 def _new_enough():
-    if int(hydraBuild.folder("version")) < 2508:
-        pytest.skip("Hydra's scene index of velocities does not know the time codes per second before OpenUSD 25.08")
+    hydraBuild.skip_before(2508, "Hydra's scene index of velocities does not know the time codes per second")
 
 
 def sampled(kind, name, value):

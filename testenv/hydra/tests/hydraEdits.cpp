@@ -3,6 +3,7 @@
 // of a host that opens the stage as it is now. The environment may say which edits, how many and by
 // which back end (PATINA_HYDRA_SEED, PATINA_HYDRA_EDITS, PATINA_HYDRA_BACKEND).
 
+#include "hdDelegate/hydra/compat.h"
 #include "testenv/hydra/edits/baseStage.h"
 #include "testenv/hydra/edits/edits.h"
 #include "testenv/hydra/tests/comparing.h"
@@ -76,6 +77,8 @@ protected:
 } // namespace
 
 TEST_P(HydraEdits, EndLikeAFreshHost) {
+    if (GetParam() && !PATINA_HAS_SUBSET_NOTICES)
+        GTEST_SKIP() << "scene indices of this OpenUSD tell no mesh that its subsets changed";
     const UsdStageRefPtr stage = makeBaseStage();
     std::optional<Host> host;
     host.emplace(stage, optionsFor(GetParam()));

@@ -39,6 +39,10 @@ RasterPasses::RasterPasses(std::string& error)
                           "#define PRIMVARS 0\n#include \"shaders/raster/surface.vert.glsl\"\n"},
                          {GL_FRAGMENT_SHADER, "shadow", "void main() {}\n"}},
                         error);
+    if (!_depthOnly) return;
+    _receivers = GlProgram::make(
+        {{GL_COMPUTE_SHADER, "receivers", "#include \"shaders/raster/receivers.comp.glsl\"\n"}},
+        error);
 }
 
 RasterPasses::~RasterPasses() {
@@ -67,12 +71,25 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     _position = make(GL_RGBA32F, 0);
     _normal = make(GL_RGBA32F, 0);
     _ids = make(GL_RGBA32I, 0);
+    _ids.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST); // others do not read integers
+    _ids.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     _colorTarget = GlFramebuffer({&_color}, &_depth);
     _width = width;
     _height = height;
     _border = border;
     makeAovTarget(_aovRequest);
     return _colorTarget.complete() && _aovTarget.complete() && _look->resize(_color, _depth);
+}
+
+const FilmSource& RasterPasses::beginImage(const EglContext& context, const RasterCamera& camera) {
+    if (!_image) {
+        std::string error;
+        _image = std::make_unique<RasterImage>(context, error);
+        if (!_image->ok()) throw DeviceError("the driver does not take the shaders: " + error);
+    }
+    if (!_image->begin(_width, _height, _window, camera, _position, _ids))
+        throw DeviceError("the driver has no room for an image of this size");
+    return *_image;
 }
 
 RasterPasses::PassBlock RasterPasses::block(const RasterScene& scene,
@@ -243,14 +260,19 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                                  skyCells(scene), mostMaps(scene))
              : lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, longer,
                              mostMaps(scene));
+    RasterImage* const image = film.source() ? _image.get() : nullptr;
     std::vector<vec4> pixels, smoothing;
     if (pass == 0) _first.clear();
     if (pass == 0 && look && !sampled.many) {
         const RasterLights::Sampled first =
             lights.sampleFirst(scene.emitters(), _bounds, shadowMapSize, longer, skyCells(scene));
         if (first.taken > 0) {
-            drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true,
-                      pixels);
+            drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true);
+            if (image) {
+                image->add(_color, &_look->differenceImage(), sample, true, film.allowsNegative());
+                return;
+            }
+            readColor(pixels);
             _look->read(smoothing, _download);
             for (size_t i = 0; i < pixels.size(); ++i)
                 pixels[i] += vec4(vec3(smoothing[i]), 0.0f);
@@ -258,7 +280,13 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
             return;
         }
     }
-    drawImage(scene, lights, domes, environmentSamples, camera, sample, sampled, look, pixels);
+    drawImage(scene, lights, domes, environmentSamples, camera, sample, sampled, look);
+    if (image) {
+        image->add(_color, look ? &_look->differenceImage() : nullptr, sample, false,
+                   film.allowsNegative());
+        return;
+    }
+    readColor(pixels);
     if (!_first.empty()) {
         showFirst(pixels, sample, film);
         return;
@@ -271,8 +299,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
 void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& lights,
                              const RasterDomes& domes, int environmentSamples,
                              const RasterCamera& camera, const RasterSample& sample,
-                             const RasterLights::Sampled& sampled, bool look,
-                             std::vector<vec4>& pixels) {
+                             const RasterLights::Sampled& sampled, bool look) {
     const uint32_t pass = sample.pass;
     std::vector<mat4> matrices;
     for (const ShadowView& v : sampled.shadows)
@@ -375,7 +402,9 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     gl.BlendFunc(GL_ONE, GL_ZERO); // Mesa refuses several targets for dual sources, blending or not
     drawVolumes(scene);
     gl.DepthMask(GL_TRUE);
+}
 
+void RasterPasses::readColor(std::vector<vec4>& pixels) {
     _timer.mark(ReadBack);
     pixels.resize(size_t(_color.width()) * size_t(_color.height()));
     _download.read(_color, GL_RGBA, GL_FLOAT, pixels.size() * sizeof(vec4), pixels.data());

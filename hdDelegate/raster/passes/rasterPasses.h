@@ -10,6 +10,7 @@
 #include "hdDelegate/raster/passes/rasterAovs.h"
 #include "hdDelegate/raster/passes/rasterBackground.h"
 #include "hdDelegate/raster/passes/rasterFilterSplat.h"
+#include "hdDelegate/raster/passes/rasterImage.h"
 #include "hdDelegate/raster/passes/rasterLook.h"
 #include "hdDelegate/raster/passes/rasterMattes.h"
 #include "hdDelegate/raster/passes/rasterRefraction.h"
@@ -26,7 +27,7 @@ public:
     explicit RasterPasses(std::string& error);
     bool ok() const {
         return _background && _background->ok() && _shadow && _shadowAround && _depthOnly &&
-               _look && _look->ok();
+               _receivers && _look && _look->ok();
     }
 
     /// Sets the size of the image, and which of its pixels reach the film.
@@ -38,12 +39,13 @@ public:
     }
     const int* window() const { return _window; } ///< xmin, ymin, xmax, ymax, inclusive
 
+    /// Begins an image that stays on the device.
+    const FilmSource& beginImage(const EglContext& context, const RasterCamera& camera);
+
     /// Ids and positions through the pixels' centres, and what else the AOVs need.
-    void drawAovs(const RasterScene& scene, const RasterCamera& camera,
-                  const std::vector<AovSpec>& aovs);
-    /// Writes them to the film's AOVs.
-    void writeAovs(const RasterScene& scene, const RasterCamera& camera,
-                   const std::vector<AovSpec>& aovs, Film& film) const;
+    void drawAovs(const RasterScene& scene, const RasterCamera& camera);
+    /// Writes them to the film's AOVs, but for those of its source.
+    void writeAovs(const RasterScene& scene, const RasterCamera& camera, Film& film);
     /// Counts what a sample of every pixel sees, for the AOVs of Cryptomatte.
     void drawMattes(const RasterScene& scene, const RasterMattes& mattes,
                     const RasterCamera& camera, const RasterSample& sample, uint32_t seed,
@@ -52,7 +54,7 @@ public:
     /// it beside its size. The same for small moves of the camera.
     vec3 originOfSeen(const RasterScene& scene) const;
 
-    /// One sample of every pixel.
+    /// One sample of every pixel, for the film or for the image that it has as its source.
     /// @param environmentSamples of domes per pixel, where they are filtered
     void draw(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
               int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
@@ -86,6 +88,7 @@ private:
     void makeAovTarget(const RasterAovRequest& request);
     void fillAovTarget(const RasterScene& scene, const RasterView& view, const PassBlock& b);
     void readIds(std::vector<int>& ids);
+    void readColor(std::vector<vec4>& pixels);
     PassBlock block(const RasterScene& scene, const RasterView& view) const;
     void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
     static int skyCells(const RasterScene& scene);
@@ -105,17 +108,17 @@ private:
     void needRefraction();
     void drawImage(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
                    int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
-                   const RasterLights::Sampled& sampled, bool look, std::vector<vec4>& pixels);
+                   const RasterLights::Sampled& sampled, bool look);
     void smooth(const RasterSample& sample, bool look, std::vector<vec4>& pixels, Film& film);
     void beginFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
     void showFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
     /// @param shades the program has the fragment stage of surface.frag.glsl
     void drawRuns(const RasterDraw& draw, const RasterSurface& surface,
                   const RasterVisible& visible, bool shades) const;
-    void measureReceivers(const RasterScene& scene, const RasterCamera& camera,
-                          const RasterView& view);
+    void measureReceivers(const RasterScene& scene, const RasterCamera& camera);
 
-    std::unique_ptr<GlProgram> _shadow, _shadowAround, _depthOnly;
+    std::unique_ptr<GlProgram> _shadow, _shadowAround, _depthOnly, _receivers;
+    std::unique_ptr<RasterImage> _image; ///< made when a listener wants images alone
     std::unique_ptr<RasterBackground> _background;
     std::unique_ptr<RasterLook> _look;
     std::unique_ptr<RasterRefraction> _refraction; ///< made when something transmits
@@ -136,7 +139,7 @@ private:
     std::vector<vec4> _first, _sums; ///< see showFirst(); of the film's pixels
     std::vector<vec4> _smoothing;    ///< what it does to the sums of the film's pixels
     ShadowBounds _bounds;
-    RasterAovImages _seen; ///< of drawAovs()
+    RasterAovImages _seen; ///< of writeAovs()
     vec3 _seenMin{0.0f}, _seenMax{0.0f};
     std::function<void()> _firstDraws;
     GlTimer _timer;

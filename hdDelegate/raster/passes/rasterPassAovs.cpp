@@ -8,6 +8,7 @@
 #include "hdDelegate/film/aovValues.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace patina {
@@ -147,12 +148,24 @@ void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera
     _seenMin = low;
     _seenMax = high;
     const vec3 margin = 0.02f * (high - low) + 1e-4f * glm::length(high - low);
-    _bounds.receiverMin = glm::max(low - margin, _bounds.sceneMin);
-    _bounds.receiverMax = glm::min(high + margin, _bounds.sceneMax);
+    // To steps that small moves of the camera seldom cross: shadow maps can stay as they are.
+    const auto widen = [](vec3& from, vec3& to) {
+        const vec3 size = to - from;
+        const float largest = std::max({size.x, size.y, size.z});
+        if (!(largest > 0.0f)) return;
+        const float step = std::exp2(std::floor(std::log2(largest)) - 3.0f);
+        from = glm::floor(from / step) * step;
+        to = glm::ceil(to / step) * step;
+    };
+    vec3 receiverMin = low - margin, receiverMax = high + margin;
+    widen(receiverMin, receiverMax);
+    _bounds.receiverMin = glm::max(receiverMin, _bounds.sceneMin);
+    _bounds.receiverMax = glm::min(receiverMax, _bounds.sceneMax);
     // Texels of maps for all that is seen would be wider than fibres are apart.
     const bool closer = fibres && 2.0f * glm::length(box(9) - box(6)) < glm::length(high - low);
     _bounds.fibresMin = closer ? box(6) : vec3(1.0f);
     _bounds.fibresMax = closer ? box(9) : vec3(0.0f);
+    if (closer) widen(_bounds.fibresMin, _bounds.fibresMax);
     _sky.reset();
 }
 

@@ -201,7 +201,7 @@ void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights
         b.passSeed = int(lights.seed());
         _passBuffer.write(&b, sizeof b);
         _passBuffer.bindUniform(0);
-        drawCasters(scene, task.view, _sky.maps(), task.layer);
+        drawCasters(scene, task.view, pass, _sky.maps(), task.layer, _shownSky);
     }
 }
 
@@ -351,7 +351,7 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     gl.DepthMask(GL_TRUE);
     _albedoTable.bindStorage(7);
     _timer.mark(Shadows);
-    drawShadows(scene, sampled.shadows, sampled.mapSize);
+    drawShadows(scene, sampled.shadows, sampled.mapSize, pass);
     if (sky) {
         drawSky(scene, lights, pass);
         _sky.bind(10, 19);

@@ -90,13 +90,27 @@ private:
     void readIds(std::vector<int>& ids);
     void readColor(std::vector<vec4>& pixels);
     PassBlock block(const RasterScene& scene, const RasterView& view) const;
-    void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
+    /// What each layer of an array of shadow maps shows. The first pass after a camera move, as a
+    /// rule, finds what it needs.
+    struct ShownShadows {
+        struct Layer {
+            ShadowView view;
+            uint32_t pass;    ///< random numbers of casters that let some light pass follow from it
+            uint64_t version; ///< RasterScene::shadowVersion(); 0: nothing is known
+        };
+        GLuint maps = 0; ///< the array
+        std::vector<Layer> layers;
+    };
+    void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size,
+                     uint32_t pass);
     static int skyCells(const RasterScene& scene);
     static int mostMaps(const RasterScene& scene);
     void drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass);
+    /// Draws them into a layer, unless that is what it shows.
     /// @param slopes null: only depths are wanted
-    void drawCasters(const RasterScene& scene, const ShadowView& view, const GlTexture& maps,
-                     int layer, const GlTexture* slopes = nullptr) const;
+    void drawCasters(const RasterScene& scene, const ShadowView& view, uint32_t pass,
+                     const GlTexture& maps, int layer, ShownShadows& shown,
+                     const GlTexture* slopes = nullptr);
     enum Which { AllForAovs, Solid, Transmitting, ColoredPresence };
     /// @param filters of mesh lights; null where nothing is lit
     void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which,
@@ -134,6 +148,7 @@ private:
     RasterAovRequest _aovRequest; ///< that _aovTarget is for
     GLuint _shadowTarget = 0;
     int _shadowLayers = 0;
+    ShownShadows _shownShadows, _shownSky;
     RasterSky _sky;
     RasterManyLights _manyLights;
     std::vector<vec4> _first, _sums; ///< see showFirst(); of the film's pixels

@@ -193,13 +193,13 @@ private:
                                                " is left empty: the rasterizer follows no light "
                                                "paths");
         _passes->clearSeconds();
-        _passes->drawAovs(*_raster, camera);
+        _passes->drawAovs(*_raster, camera, _settings.interactive);
         if (const vec3 origin = _passes->originOfSeen(*_raster); origin != _origin) {
             _origin = origin;
             camera = cameraFrom(cameraPrim);
             build(state, camera, early);
             if (stopped()) return;
-            _passes->drawAovs(*_raster, camera);
+            _passes->drawAovs(*_raster, camera, _settings.interactive);
         }
         bool cached = true; // so programs may be there before an image of stand-ins would be
         while (early && _raster->standIns() > 0) {
@@ -209,7 +209,7 @@ private:
             build(state, camera, true);
             if (stopped()) return;
             _passes->clearSeconds();
-            _passes->drawAovs(*_raster, camera);
+            _passes->drawAovs(*_raster, camera, _settings.interactive);
         }
         const bool stays = imageStays(aovs);
         if (stays)

@@ -44,8 +44,8 @@ bool RasterImage::begin(int width, int height, const int window[4], const Raster
         _first = make();
         _sumTarget = GlFramebuffer({&_sums, &_smoothings}, nullptr);
         _firstTarget = GlFramebuffer({&_first}, nullptr);
-        _wanted = GlTexture();
-        _format = 0;
+        _complete = _sumTarget.complete() && _firstTarget.complete();
+        _targets.clear();
         _width = width;
         _height = height;
     }
@@ -53,7 +53,7 @@ bool RasterImage::begin(int width, int height, const int window[4], const Raster
     for (GLint i = 0; i < 2; ++i)
         gl.ClearNamedFramebufferfv(_sumTarget.id(), GL_COLOR, i, none);
     gl.ClearNamedFramebufferfv(_firstTarget.id(), GL_COLOR, 0, none);
-    return _sumTarget.complete() && _firstTarget.complete();
+    return _complete;
 }
 
 void RasterImage::add(const GlTexture& color, const GlTexture* difference,
@@ -98,13 +98,14 @@ bool RasterImage::has(AovId aov) const {
     }
 }
 
-const GlTexture& RasterImage::target(GLenum format) const {
-    if (!_wanted || _format != format) {
-        _wanted = GlTexture(GL_TEXTURE_2D, format, _width, _height);
-        _wantedTarget = GlFramebuffer({&_wanted}, nullptr);
-        _format = format;
+const RasterImage::Target& RasterImage::target(GLenum format) const {
+    Target& target = _targets[format];
+    if (!target.image) {
+        target.image = GlTexture(GL_TEXTURE_2D, format, _width, _height);
+        target.framebuffer = GlFramebuffer({&target.image}, nullptr);
+        target.complete = target.framebuffer.complete();
     }
-    return _wanted;
+    return target;
 }
 
 bool RasterImage::read(AovId aov, const PixelForm& form, void* bytes) const {
@@ -116,11 +117,11 @@ bool RasterImage::read(AovId aov, const PixelForm& form, void* bytes) const {
     const EglContext::Use use(_context);
     if (!use.ok()) return false;
     const bool many = aov == AovId::color;
-    const GlTexture& to = target(id     ? GL_R32I
-                                 : half ? (many ? GL_RGBA16F : GL_R16F)
-                                        : (many ? GL_RGBA32F : GL_R32F));
-    if (!_wantedTarget.complete()) return false;
-    _wantedTarget.bind();
+    const Target& to = target(id     ? GL_R32I
+                              : half ? (many ? GL_RGBA16F : GL_R16F)
+                                     : (many ? GL_RGBA32F : GL_R32F));
+    if (!to.complete) return false;
+    to.framebuffer.bind();
     gl.Viewport(0, 0, _width, _height);
     gl.Disable(GL_DEPTH_TEST);
     _sums.bind(0);
@@ -156,7 +157,7 @@ bool RasterImage::read(AovId aov, const PixelForm& form, void* bytes) const {
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     const GLenum formats[4] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
     const size_t size = size_t(form.components) * (half ? 2 : 4);
-    _download.read(to, id ? GL_RED_INTEGER : formats[form.components - 1],
+    _download.read(to.image, id ? GL_RED_INTEGER : formats[form.components - 1],
                    id     ? GL_INT
                    : half ? GL_HALF_FLOAT
                           : GL_FLOAT,

@@ -8,6 +8,7 @@
 #include "hdDelegate/raster/passes/rasterFilterSplat.h"
 #include "hdDelegate/raster/scene/rasterCamera.h"
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -42,7 +43,12 @@ public:
 
 private:
     enum Wanted { Color, Alpha, WindowDepth, AxisDepth, CentreDepth }; ///< see image.frag.glsl
-    const GlTexture& target(GLenum format) const;
+    struct Target {
+        GlTexture image;
+        GlFramebuffer framebuffer;
+        bool complete = false;
+    };
+    const Target& target(GLenum format) const;
 
     const EglContext& _context;
     std::unique_ptr<GlProgram> _accumulate, _numbers, _ids;
@@ -51,15 +57,13 @@ private:
     int _window[4] = {0, 0, -1, -1}; ///< y up
     GlTexture _sums, _smoothings, _first;
     GlFramebuffer _sumTarget, _firstTarget;
-    bool _negative = false, _hasFirst = false;
+    bool _complete = false, _negative = false, _hasFirst = false;
     uint32_t _passes = 0; ///< that there were; a first image counts
     float _weight = 0.0f; ///< of the passes in _sums
     std::unique_ptr<RasterCamera> _camera;
     const GlTexture *_placesDrawn = nullptr, *_idsDrawn = nullptr;
     mutable GlDownload _download;
-    mutable GLenum _format = 0; ///< of the target
-    mutable GlTexture _wanted;
-    mutable GlFramebuffer _wantedTarget;
+    mutable std::map<GLenum, Target> _targets; ///< by format
 
 public:
     ~RasterImage() override;

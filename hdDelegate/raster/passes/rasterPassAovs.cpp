@@ -26,6 +26,7 @@ void RasterPasses::makeAovTarget(const RasterAovRequest& request) {
     for (const GlTexture& primvar : _primvars)
         targets.push_back(&primvar);
     _aovTarget = GlFramebuffer(targets, &_depth);
+    _aovsComplete = _aovTarget.complete();
 }
 
 /// Whether an AOV is made of normals, which take time to read back.
@@ -34,14 +35,14 @@ static bool wantsNormals(const std::vector<AovSpec>& aovs) {
                        [](const AovSpec& aov) { return aovIsOfNormal(aov.id); });
 }
 
-void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera) {
+void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera, bool inSteps) {
     if (!(scene.aovs() == _aovRequest)) makeAovTarget(scene.aovs());
-    if (!_aovTarget.complete()) throw DeviceError("the driver has no room for the AOVs");
+    if (!_aovsComplete) throw DeviceError("the driver has no room for the AOVs");
     const RasterView view =
         camera.view(vec2(0.0f), vec2(0.0f), 0.5f, scene.boundsMin(), scene.boundsMax());
     _timer.mark(Aovs);
     fillAovTarget(scene, view, block(scene, view));
-    measureReceivers(scene, camera);
+    measureReceivers(scene, camera, inSteps);
     _timer.collect(_seconds);
 }
 
@@ -119,7 +120,8 @@ void RasterPasses::writeAovs(const RasterScene& scene, const RasterCamera& camer
 }
 
 /// The points that the camera sees: shadows are needed on these alone. After fillAovTarget().
-void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera& camera) {
+void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera& camera,
+                                    bool inSteps) {
     uint32_t found[12];
     for (int i = 0; i < 12; ++i)
         found[i] = i / 3 % 2 == 0 ? ~0u : 0u;
@@ -148,11 +150,11 @@ void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera
     _seenMin = low;
     _seenMax = high;
     const vec3 margin = 0.02f * (high - low) + 1e-4f * glm::length(high - low);
-    // To steps that small moves of the camera seldom cross: shadow maps can stay as they are.
-    const auto widen = [](vec3& from, vec3& to) {
+    // Small moves of the camera seldom cross a step.
+    const auto widen = [&](vec3& from, vec3& to) {
         const vec3 size = to - from;
         const float largest = std::max({size.x, size.y, size.z});
-        if (!(largest > 0.0f)) return;
+        if (!inSteps || !(largest > 0.0f)) return;
         const float step = std::exp2(std::floor(std::log2(largest)) - 3.0f);
         from = glm::floor(from / step) * step;
         to = glm::ceil(to / step) * step;

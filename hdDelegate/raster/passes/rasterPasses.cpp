@@ -6,6 +6,7 @@
 #include "shaders/shaders.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <map>
 #include <set>
@@ -18,6 +19,7 @@ RasterPasses::RasterPasses(std::string& error)
     gl.CreateVertexArrays(1, &_vertexArray);
     RasterScene::describe(_vertexArray);
     gl.CreateFramebuffers(1, &_shadowTarget);
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &_largest);
     _background = std::make_unique<RasterBackground>(error);
     if (!_background->ok()) return;
     _shadow = GlProgram::make(
@@ -58,10 +60,8 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     _window[1] = all ? 0 : std::clamp(crop[1], 0, height);
     _window[2] = all ? width - 1 : std::min(crop[2], width - 1);
     _window[3] = all ? height - 1 : std::min(crop[3], height - 1);
-    GLint largest = 0;
-    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    if (width > largest || height > largest) return false;
-    if (std::max(width, height) + 2 * border > largest) border = 0;
+    if (width > _largest || height > _largest) return false;
+    if (std::max(width, height) + 2 * border > _largest) border = 0;
     if (width == _width && height == _height && border == _border) return true;
     const auto make = [&](GLenum format, int beside) {
         return GlTexture(GL_TEXTURE_2D, format, width + 2 * beside, height + 2 * beside);
@@ -78,7 +78,7 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     _height = height;
     _border = border;
     makeAovTarget(_aovRequest);
-    return _colorTarget.complete() && _aovTarget.complete() && _look->resize(_color, _depth);
+    return _colorTarget.complete() && _aovsComplete && _look->resize(_color, _depth);
 }
 
 const FilmSource& RasterPasses::beginImage(const EglContext& context, const RasterCamera& camera) {
@@ -121,7 +121,11 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
     scene.bind(_vertexArray);
     const GlProgram* last = nullptr;
     const RasterMaterial* lastMaterial = nullptr;
+    vec4 lastGlow(NAN);
+    int lastTable = INT_MIN;
+    bool lastKnown = false;
     for (const RasterDraw& d : scene.draws()) {
+        if (!visible.shows(d)) continue;
         const GlslMaterial& glsl = d.material->glsl;
         const RasterPrograms& programs = *d.material->programs;
         if (which == ColoredPresence ? !programs.tint
@@ -132,7 +136,11 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
                                     : aovs                   ? programs.aovs
                                                              : programs.color)
                                        .get();
-        if (program != last) program->use();
+        if (program != last) {
+            program->use();
+            lastGlow = vec4(NAN);
+            lastTable = INT_MIN;
+        }
         last = program;
         if (d.material != lastMaterial) {
             d.material->parameters.bindUniform(1);
@@ -148,25 +156,29 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
             gl.Uniform4i(8, slots[0], slots[1], slots[2], slots[3]);
         }
         if (!aovs) {
-            const vec3& l = d.meshLight.radiance;
-            gl.Uniform4f(7, l.x, l.y, l.z, float(d.meshLight.mode));
-            gl.Uniform1i(13, filters ? filters->tableOfMesh(d.meshLight.filtered) : -1);
+            const vec4 glow(d.meshLight.radiance, float(d.meshLight.mode));
+            if (glow != lastGlow) gl.Uniform4f(7, glow.x, glow.y, glow.z, glow.w);
+            lastGlow = glow;
+            const int table = filters ? filters->tableOfMesh(d.meshLight.filtered) : -1;
+            if (table != lastTable) gl.Uniform1i(13, table);
+            lastTable = table;
         }
         const bool known = which == Solid && isDrawnByDepth(d);
-        if (known) gl.DepthFunc(GL_LEQUAL);
+        if (known != lastKnown) gl.DepthFunc(known ? GL_LEQUAL : GL_LESS);
+        lastKnown = known;
         drawRuns(d, *d.surface, visible, true);
-        if (known) gl.DepthFunc(GL_LESS);
         if (!aovs && which != ColoredPresence && !programs.drawn) {
             programs.drawn = true;
             if (_firstDraws) _firstDraws();
         }
     }
+    if (lastKnown) gl.DepthFunc(GL_LESS);
 }
 
 void RasterPasses::drawDepths(const RasterScene& scene, const RasterVisible& visible) const {
     bool used = false;
     for (const RasterDraw& d : scene.draws()) {
-        if (!isDrawnByDepth(d)) continue;
+        if (!isDrawnByDepth(d) || !visible.shows(d)) continue;
         if (!used) {
             scene.bind(_vertexArray);
             _depthOnly->use();

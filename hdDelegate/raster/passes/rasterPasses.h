@@ -43,7 +43,9 @@ public:
     const FilmSource& beginImage(const EglContext& context, const RasterCamera& camera);
 
     /// Ids and positions through the pixels' centres, and what else the AOVs need.
-    void drawAovs(const RasterScene& scene, const RasterCamera& camera);
+    /// @param inSteps shadow maps may have some larger texels, so that small moves of the camera
+    ///        leave them as they are
+    void drawAovs(const RasterScene& scene, const RasterCamera& camera, bool inSteps);
     /// Writes them to the film's AOVs, but for those of its source.
     void writeAovs(const RasterScene& scene, const RasterCamera& camera, Film& film);
     /// Counts what a sample of every pixel sees, for the AOVs of Cryptomatte.
@@ -129,7 +131,7 @@ private:
     /// @param shades the program has the fragment stage of surface.frag.glsl
     void drawRuns(const RasterDraw& draw, const RasterSurface& surface,
                   const RasterVisible& visible, bool shades) const;
-    void measureReceivers(const RasterScene& scene, const RasterCamera& camera);
+    void measureReceivers(const RasterScene& scene, const RasterCamera& camera, bool inSteps);
 
     std::unique_ptr<GlProgram> _shadow, _shadowAround, _depthOnly, _receivers;
     std::unique_ptr<RasterImage> _image; ///< made when a listener wants images alone
@@ -139,6 +141,7 @@ private:
     GlBuffer _passBuffer, _albedoTable;
     GlDownload _download;
     GLuint _vertexArray = 0;
+    GLint _largest = 0; ///< pixels along a side of a texture
     int _width = 0, _height = 0, _border = 0;
     int _window[4] = {0, 0, -1, -1};
     GlTexture _color, _depth, _position, _normal, _ids, _shadowMaps, _shadowSlopes;
@@ -146,6 +149,7 @@ private:
     std::vector<GlTexture> _primvars;
     GlFramebuffer _colorTarget, _aovTarget;
     RasterAovRequest _aovRequest; ///< that _aovTarget is for
+    bool _aovsComplete = false;
     GLuint _shadowTarget = 0;
     int _shadowLayers = 0;
     ShownShadows _shownShadows, _shownSky;

@@ -52,6 +52,10 @@ struct RasterDraw {
 struct RasterVisible {
     std::vector<RasterRun> runs;                  ///< of instances
     std::vector<std::pair<size_t, size_t>> group; ///< first run and the one after the last
+
+    bool shows(const RasterDraw& draw) const {
+        return !group.empty() && group[size_t(draw.group)].first < group[size_t(draw.group)].second;
+    }
 };
 
 /// The geometry of a scene in buffers, at one time of the shutter.

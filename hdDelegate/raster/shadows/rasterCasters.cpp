@@ -77,10 +77,10 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     if (view.clampsNear) gl.Enable(GL_DEPTH_CLAMP);
     const GlProgram* last = nullptr;
     for (const RasterDraw& d : scene.draws()) {
-        if (!d.prim->visibility.shadow || d.material->glsl.volumeOnly) continue;
+        if (!d.prim->visibility.shadow || d.material->glsl.volumeOnly || !visible.shows(d))
+            continue;
         const GlProgram* own = d.material->programs->shadow.get();
-        const bool around = !inside.group.empty() && inside.group[size_t(d.group)].first <
-                                                         inside.group[size_t(d.group)].second;
+        const bool around = inside.shows(d);
         const GlProgram* program = own ? own : around ? _shadowAround.get() : _shadow.get();
         if (program != last) {
             program->use();

@@ -27,6 +27,9 @@ public:
     void wait() override;
     RenderProgress progress() const override;
     void setListener(FilmListener listener) override { _listener = std::move(listener); }
+    void letImagesStay(bool stay) override {
+        if (_first) _first->letImagesStay(stay);
+    }
 
 private:
     void onProgress(const Film& film, const RenderProgress& progress);

@@ -23,6 +23,7 @@ InteractiveRenderer::InteractiveRenderer(std::unique_ptr<Renderer> quick,
     : _quick(std::move(quick)), _slow(std::move(slow)), _quickFilm(std::make_shared<Film>()) {
     _quick->setListener(
         [this](const Film& film, const RenderProgress& p) { onProgress(_fromQuick, film, p); });
+    _quick->letImagesStay(true);
     _slow->setListener(
         [this](const Film& film, const RenderProgress& p) { onProgress(_fromSlow, film, p); });
 }

@@ -97,31 +97,61 @@ void Film::clearPlane(const AovSpec& spec, size_t pixels, Plane& plane) {
         plane.nearest[i] = farAway;
 }
 
-void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool keep) {
+/// Clears all that belongs to samples, and the planes of AOVs that no source has.
+void Film::clear(int width, int height, const std::vector<AovSpec>& aovs) {
     if (width < 0 || height < 0 || width > maxSide || height > maxSide ||
         int64_t(width) * height > maxPixels)
         throw std::invalid_argument("film size " + std::to_string(width) + "x" +
                                     std::to_string(height) + " is not possible");
     for (const AovSpec& spec : aovs)
         checkAovSpec(spec);
-    bool same = width == _width && height == _height &&
-                std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);
+    const size_t pixels = size_t(width) * size_t(height);
+    const bool same = width == _width && height == _height &&
+                      std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);
     _denoised.clear();
     _blockSize = 1;
-    if (keep && same) return;
     _firstSample = 0;
     _allowsNegative = false;
-
-    size_t pixels = size_t(width) * size_t(height);
     _width = width;
     _height = height;
     _aovs = aovs;
-    fill(_pixels, pixels, Pixel());
     if (!same) _planes.clear();
     _planes.resize(_aovs.size());
     for (size_t i = 0; i < _aovs.size(); ++i)
-        clearPlane(_aovs[i], pixels, _planes[i]);
+        if (!_source || !_source->has(_aovs[i].id)) clearPlane(_aovs[i], pixels, _planes[i]);
     _dropped = 0;
+}
+
+void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool keep) {
+    if (keep && !_source && width == _width && height == _height &&
+        std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec)) {
+        _denoised.clear();
+        _blockSize = 1;
+        return;
+    }
+    _source = nullptr;
+    clear(width, height, aovs);
+    fill(_pixels, size_t(width) * size_t(height), Pixel());
+}
+
+void Film::resetTo(const FilmSource* source, int width, int height,
+                   const std::vector<AovSpec>& aovs) {
+    _source = source;
+    _pixels.clear();
+    clear(width, height, aovs);
+}
+
+/// @returns empty where the film itself has the AOV
+std::vector<float> Film::fromSource(const AovSpec& spec) const {
+    if (!_source || (!_source->has(spec.id) && !alwaysThere(spec.name))) return {};
+    PixelForm form;
+    form.type = spec.isInteger ? PixelForm::Type::Int : PixelForm::Type::Float;
+    form.components = spec.components;
+    form.nothing = spec.clearValue;
+    std::vector<float> out(size_t(_width) * size_t(_height) * size_t(spec.components),
+                           spec.clearValue);
+    _source->read(spec.id, form, out.data());
+    return out;
 }
 
 int Film::aovIndex(const std::string& name) const {
@@ -270,6 +300,32 @@ void Film::setDenoised(std::vector<float> color) {
 }
 
 void Film::copyFrom(const Film& other) {
+    if (other._source) {
+        reset(other._width, other._height, other._aovs);
+        _allowsNegative = other._allowsNegative;
+        _planes = other._planes;
+        AovSpec spec;
+        const std::vector<float> color = other.resolve("color"), alpha = other.resolve("alpha");
+        const auto everyPixel = [&](auto take) {
+            parallelFor(0, _height, [&](int y) {
+                for (int x = 0; x < _width; ++x)
+                    take(x, y, index(x, y));
+            });
+        };
+        everyPixel([&](int x, int y, size_t i) {
+            addColor(x, y, {color[3 * i], color[3 * i + 1], color[3 * i + 2]}, alpha[i]);
+        });
+        for (size_t a = 0; a < _aovs.size(); ++a) {
+            const std::vector<float> values = other.fromSource(_aovs[a]);
+            if (values.empty()) continue;
+            clearPlane(_aovs[a], _pixels.size(), _planes[a]);
+            everyPixel([&](int x, int y, size_t i) {
+                addAov(int(a), x, y, &values[i * size_t(_aovs[a].components)], 0.0f);
+            });
+        }
+        return;
+    }
+    _source = nullptr;
     _width = other._width;
     _height = other._height;
     _aovs = other._aovs;
@@ -340,8 +396,9 @@ glm::ivec2 Film::shownAt(int x, int y) const {
 std::vector<float> Film::resolve(const std::string& name) const {
     AovSpec spec;
     if (!findSpec(name, spec)) return {};
+    if (std::vector<float> made = fromSource(spec); !made.empty()) return made;
     size_t n = size_t(spec.components);
-    std::vector<float> out(_pixels.size() * n);
+    std::vector<float> out(size_t(_width) * size_t(_height) * n);
     const bool ofSamples = name == "sampleCount" || name == "variance";
     auto eachPixel = [&](auto value) {
         parallelFor(0, _height, [&](int y) {

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/film/aovTable.h"
 #include "hdDelegate/film/coverage.h"
+#include "hdDelegate/film/filmSource.h"
 
 #include <glm/glm.hpp>
 
@@ -58,6 +59,11 @@ public:
     /// @throws std::invalid_argument for a negative or absurd size or number of components, or an
     /// AOV of the table (aovs.def) that is unlike its row
     void reset(int width, int height, const std::vector<AovSpec>& aovs, bool keep = false);
+
+    /// Becomes a film whose image another one keeps: it takes no samples, and resolve() asks the
+    /// source for what that has. Until reset().
+    void resetTo(const FilmSource* source, int width, int height, const std::vector<AovSpec>& aovs);
+    const FilmSource* source() const { return _source; } ///< or null
 
     /// Renderers say so while they write to the film.
     void beginRender() { ++_renders.count; }
@@ -123,7 +129,8 @@ public:
         _blockWindow = window;
     }
 
-    /// Becomes equal to another film, with all of its accumulators.
+    /// Becomes equal to another film, with all of its accumulators. The image of a source becomes
+    /// one sample of each pixel.
     void copyFrom(const Film& other);
 
     uint32_t sampleCount(int x, int y) const { return pixel(x, y).count; }
@@ -207,12 +214,15 @@ private:
     void closeSpan(size_t index);
     void drop() { _dropped.fetch_add(1, std::memory_order_relaxed); }
     static void clearPlane(const AovSpec& spec, size_t pixels, Plane& plane);
+    void clear(int width, int height, const std::vector<AovSpec>& aovs);
+    std::vector<float> fromSource(const AovSpec& spec) const;
 
     Renders _renders;
     int _width = 0, _height = 0;
     std::vector<AovSpec> _aovs;
     std::vector<Pixel> _pixels;
-    std::vector<Plane> _planes;   ///< beside _aovs; empty for those that always exist
+    std::vector<Plane> _planes; ///< beside _aovs; empty for those that always exist
+    const FilmSource* _source = nullptr;
     std::vector<float> _denoised; ///< what shows instead of the colour's means, or empty
     std::atomic<uint64_t> _dropped{0};
     uint32_t _firstSample = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/pixelFormats.h"
 
+#include "hdDelegate/parallel.h"
+
 #include <pxr/base/gf/half.h>
 
 #include <algorithm>
@@ -89,6 +91,18 @@ void writePixels(const float* values, size_t count, bool isInteger, HdFormat for
         break;
     default: break;
     }
+}
+
+void fillPixels(uint8_t* target, unsigned width, unsigned height, bool isInteger, HdFormat format,
+                const std::function<void(int y, float* pixels)>& row) {
+    const size_t size = HdDataSizeOfFormat(format);
+    parallelFor(0u, height, [&](unsigned y) {
+        std::vector<float> pixels(4 * size_t(width), 0.0f);
+        for (size_t i = 3; i < pixels.size(); i += 4)
+            pixels[i] = 1.0f;
+        row(int(y), pixels.data());
+        writePixels(pixels.data(), width, isInteger, format, target + size_t(y) * width * size);
+    });
 }
 
 } // namespace patina

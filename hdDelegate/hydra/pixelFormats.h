@@ -6,6 +6,8 @@
 #include <pxr/imaging/hd/types.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 
 namespace patina {
 
@@ -19,5 +21,10 @@ bool isWritableFormat(HdFormat format);
 ///        number in integer formats and in float ones
 /// UNorm8 and SNorm8 are clamped to their range and rounded; numbers that are not finite become 0.
 void writePixels(const float* values, size_t count, bool isInteger, HdFormat format, void* target);
+
+/// Fills an image, rows on all threads.
+/// @param row gives the pixels of row y, four floats each; there are (0, 0, 0, 1) before
+void fillPixels(uint8_t* target, unsigned width, unsigned height, bool isInteger, HdFormat format,
+                const std::function<void(int y, float* pixels)>& row);
 
 } // namespace patina

@@ -118,31 +118,26 @@ void HdPatinaRenderBuffer::Unmap() {
     if (_mappersBefore == 0) std::vector<uint8_t>().swap(_mappedBytes);
 }
 
-bool HdPatinaRenderBuffer::write(bool isInteger, const Row& row) {
-    std::lock_guard<std::mutex> lock(_mutex);
+bool HdPatinaRenderBuffer::take(std::vector<uint8_t>& image) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    if (image.empty() || image.size() != _bytes.size()) return true;
     if (_mappers > 0) return false;
-    const size_t size = _bytes.empty() ? 0 : HdDataSizeOfFormat(_format);
-    if (size == 0) return true;
-    // Isolated: work of others that wants this buffer would wait for the lock that is held here.
-    runIsolated([&] {
-        const unsigned width = _width;
-        parallelFor(0u, unsigned(_height), [&](unsigned y) {
-            std::vector<float> pixels(4 * size_t(width), 0.0f);
-            for (size_t i = 3; i < pixels.size(); i += 4)
-                pixels[i] = 1.0f;
-            row(int(y), width, pixels.data());
-            writePixels(pixels.data(), width, isInteger, _format,
-                        &_bytes[size_t(y) * width * size]);
-        });
-    });
+    _bytes.swap(image);
     return true;
 }
 
 void HdPatinaRenderBuffer::clear(const VtValue& value) {
     const ClearValue clear = clearValueOf(value);
-    write(clear.isInteger, [&](int, unsigned width, float* pixels) {
-        for (size_t i = 0; i < 4 * size_t(width); ++i)
-            pixels[i] = clear.values[i % 4];
+    const std::lock_guard<std::mutex> lock(_mutex);
+    if (_mappers > 0 || _bytes.empty()) return;
+    const unsigned width = _width;
+    // Isolated: work of others that wants this buffer would wait for the lock that is held here.
+    runIsolated([&] {
+        fillPixels(_bytes.data(), width, _height, clear.isInteger, _format,
+                   [&](int, float* pixels) {
+                       for (size_t i = 0; i < 4 * size_t(width); ++i)
+                           pixels[i] = clear.values[i % 4];
+                   });
     });
 }
 

@@ -6,7 +6,6 @@
 #include <pxr/imaging/hd/renderBuffer.h>
 
 #include <atomic>
-#include <functional>
 #include <mutex>
 #include <vector>
 
@@ -43,13 +42,11 @@ public:
     bool IsConverged() const override { return _converged; }
     void setConverged(bool converged) { _converged = converged; }
 
-    /// Gives the pixels of a row, four floats each, row 0 at the bottom; there are (0, 0, 0, 1)
-    /// before. The width is passed, since hosts may allocate on another thread.
-    using Row = std::function<void(int y, unsigned int width, float* pixels)>;
-    /// Fills every pixel, rows on all threads.
+    /// Shows an image, and gives back the memory of the one before. Images of another size, which
+    /// were made before a host allocated anew, are left alone, and so are those that are empty.
     /// @returns false, and does nothing, while a host has the pixels mapped
-    bool write(bool isInteger, const Row& row);
-    /// Fills every pixel with an AOV's clear value.
+    bool take(std::vector<uint8_t>& image);
+    /// Fills every pixel with an AOV's clear value, unless a host has them mapped.
     void clear(const VtValue& value);
 
     /// Another number after each Allocate, different from that of every other buffer: what was

@@ -14,7 +14,6 @@
 #include <pxr/imaging/hd/tokens.h>
 
 #include <algorithm>
-#include <cstring>
 
 namespace patina {
 
@@ -134,11 +133,14 @@ void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
             _session->stop();
             for (const Target& target : _targets)
                 target.buffer->clear(target.clearValue);
-            finish(HdPatinaFrame());
+            finish();
         } else {
-            std::vector<std::string> aovs = settings.aovs;
-            aovs.push_back("alpha"); // of the colour's fourth component
-            _session->start(view.cameraPath, settings, aovs);
+            std::vector<HdPatinaImageForm> forms;
+            for (const Target& target : _targets)
+                forms.push_back({target.filmAov, target.buffer->GetFormat(),
+                                 target.buffer->GetWidth(), target.buffer->GetHeight(),
+                                 clearValueOf(target.clearValue)});
+            _session->start(view.cameraPath, settings, forms);
         }
     }
     if (auto frame = _session->take()) _pending = frame;
@@ -162,46 +164,26 @@ void HdPatinaRenderPass::readRenderTags() {
     }
 }
 
-void HdPatinaRenderPass::show(const HdPatinaFrame& frame) {
+void HdPatinaRenderPass::show(HdPatinaFrame& frame) {
     if (!frame.error.empty()) TF_RUNTIME_ERROR("Patina cannot render: %s", frame.error.c_str());
-    const auto alpha = frame.aovs.find("alpha");
     bool written = true;
-    for (const Target& target : _targets) {
-        if (target.buffer->allocation() != target.allocation) continue;
-        const auto found = frame.aovs.find(target.filmAov);
-        if (found == frame.aovs.end() || found->second.empty()) continue;
-        const AovSpec spec = standardAov(target.filmAov);
-        const bool isColor = spec.name == "color";
-        const ClearValue clear = clearValueOf(target.clearValue);
-        const std::vector<float>& pixels = found->second;
-        const size_t pixelCount = size_t(frame.width) * size_t(frame.height);
-        // Rows of a buffer have four floats a pixel.
-        if (spec.components > 4 || pixels.size() < pixelCount * size_t(spec.components)) continue;
-        const bool replaced =
-            !isColor && !clear.empty && clear.isInteger == spec.isInteger && spec.components == 1;
-        written &= target.buffer->write(spec.isInteger, [&](int y, unsigned width, float* out) {
-            if (y >= frame.height) return;
-            size_t i = size_t(frame.height - 1 - y) * size_t(frame.width);
-            const size_t end = i + std::min(width, unsigned(frame.width));
-            for (; i < end; ++i, out += 4) {
-                std::copy_n(&pixels[i * size_t(spec.components)], spec.components, out);
-                if (isColor) {
-                    out[3] = alpha->second[i];
-                    for (int k = 0; k < 4 && !clear.empty; ++k)
-                        out[k] += (1.0f - alpha->second[i]) * clear.values[k];
-                } else if (replaced && std::memcmp(out, &spec.clearValue, sizeof(float)) == 0) {
-                    out[0] = clear.values[0];
-                }
-            }
-        });
+    for (size_t i = 0; i < std::min(_targets.size(), frame.images.size()); ++i) {
+        std::vector<uint8_t>& image = frame.images[i];
+        if (image.empty() || _targets[i].buffer->allocation() != _targets[i].allocation) continue;
+        if (!_targets[i].buffer->take(image)) {
+            written = false;
+            continue;
+        }
+        _session->giveBack(std::move(image));
+        image.clear();
     }
     if (!written) return; // mapped: the next Execute tries again
     _session->countShown();
-    if (frame.last) finish(frame);
+    if (frame.last) finish();
     _pending.reset();
 }
 
-void HdPatinaRenderPass::finish(const HdPatinaFrame&) {
+void HdPatinaRenderPass::finish() {
     _converged = true;
     for (const Target& target : _targets)
         if (target.buffer->allocation() == target.allocation) target.buffer->setConverged(true);

@@ -45,8 +45,8 @@ private:
     std::vector<Target> targetsOf(const HdRenderPassAovBindingVector& bindings);
     HdPatinaSettings settingsFor(const HdPatinaView& view, const TfTokenVector& renderTags) const;
     void readRenderTags();
-    void show(const HdPatinaFrame& frame);
-    void finish(const HdPatinaFrame& frame);
+    void show(HdPatinaFrame& frame);
+    void finish();
 
     std::shared_ptr<HdPatinaDelegateState> _state;
     std::shared_ptr<HdPatinaSession> _session;
@@ -64,7 +64,7 @@ private:
     unsigned int _settingsVersion = 0;
 
     bool _hasOwnCamera = false;
-    std::shared_ptr<const HdPatinaFrame> _pending; ///< could not be written yet: buffers are mapped
+    std::shared_ptr<HdPatinaFrame> _pending; ///< could not be written yet: buffers are mapped
     bool _converged = false;
 };
 

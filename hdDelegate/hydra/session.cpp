@@ -47,7 +47,7 @@ void HdPatinaSession::stopRenderer() {
 }
 
 void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& settings,
-                            const std::vector<std::string>& aovs) {
+                            const std::vector<HdPatinaImageForm>& forms) {
     stopRenderer();
     const std::string backend = backendOf(settings);
     std::shared_ptr<Renderer> next = backend == _backend ? renderer() : makeBackend(backend);
@@ -59,7 +59,7 @@ void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& s
         _shown = 0;
         _camera = camera;
         _settings = settings;
-        _aovs = aovs;
+        _forms = forms;
         _stopped = false;
         std::swap(_renderer, next);
         _backend = backend;
@@ -69,6 +69,7 @@ void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& s
     current->setListener([this, serial](const Film& film, const RenderProgress& progress) {
         present(film, progress, serial);
     });
+    current->letImagesStay(settings.interactive);
     RenderSettings asked = settings;
     if (settings.denoise)
         for (const char* guide : {denoisingAlbedoAov, denoisingNormalAov})
@@ -110,10 +111,13 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
         Film clean;
         // Blocks of a first pass stay as they are: no filter mends them.
         const bool denoised = _settings.denoise && count > 0 && denoiseCopy(film, clean);
-        frame->width = film.width();
-        frame->height = film.height();
-        for (const std::string& name : _aovs)
-            frame->aovs[name] = (denoised ? clean : film).resolve(name);
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            frame->images.swap(_spare);
+        }
+        frame->images.resize(_forms.size());
+        for (size_t i = 0; i < _forms.size(); ++i)
+            _forms[i].read(denoised ? clean : film, frame->images[i]);
     }
     {
         std::unique_lock<std::mutex> lock(_mutex);
@@ -127,8 +131,13 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
     _arrived.notify_all();
 }
 
-std::shared_ptr<const HdPatinaFrame> HdPatinaSession::take() {
-    std::shared_ptr<const HdPatinaFrame> frame;
+void HdPatinaSession::giveBack(std::vector<uint8_t>&& image) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _spare.push_back(std::move(image));
+}
+
+std::shared_ptr<HdPatinaFrame> HdPatinaSession::take() {
+    std::shared_ptr<HdPatinaFrame> frame;
     {
         std::lock_guard<std::mutex> lock(_mutex);
         frame.swap(_frame);
@@ -137,7 +146,7 @@ std::shared_ptr<const HdPatinaFrame> HdPatinaSession::take() {
     return frame;
 }
 
-std::shared_ptr<const HdPatinaFrame> HdPatinaSession::finish() {
+std::shared_ptr<HdPatinaFrame> HdPatinaSession::finish() {
     for (;;) {
         {
             std::unique_lock<std::mutex> lock(_mutex);
@@ -154,10 +163,10 @@ void HdPatinaSession::stop() {
 
 void HdPatinaSession::restart() {
     if (_serial == 0) return; // nothing was started yet
-    const std::vector<std::string> aovs = _aovs;
+    const std::vector<HdPatinaImageForm> forms = _forms;
     const HdPatinaSettings settings = _settings;
     const std::string camera = _camera;
-    start(camera, settings, aovs);
+    start(camera, settings, forms);
 }
 
 void HdPatinaSession::pause() {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/hydra/imageForm.h"
 #include "hdDelegate/hydra/settings.h"
 #include "hdDelegate/renderer/renderer.h"
 
 #include <atomic>
 #include <condition_variable>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -14,12 +14,11 @@
 
 namespace patina {
 
-/// Finished pixels of a film at one moment. Row 0 is the top row.
+/// Finished pixels of a film at one moment.
 struct HdPatinaFrame {
-    int width = 0, height = 0;
-    std::map<std::string, std::vector<float>> aovs; ///< by the film's names
-    bool last = false; ///< nothing better will come: converged or failed
-    std::string error; ///< of a render that failed
+    std::vector<std::vector<uint8_t>> images; ///< in the forms of start()
+    bool last = false;                        ///< nothing better will come: converged or failed
+    std::string error;                        ///< of a render that failed
 };
 
 /// One renderer with its film, on behalf of one render pass; a change of the back end replaces the
@@ -31,11 +30,13 @@ public:
     ~HdPatinaSession();
 
     /// Starts over. Frames of earlier renders are forgotten.
-    /// @param aovs names of the film that frames shall hold
+    /// @param forms that frames shall hold the film in
     void start(const std::string& camera, const HdPatinaSettings& settings,
-               const std::vector<std::string>& aovs);
+               const std::vector<HdPatinaImageForm>& forms);
     /// The newest frame that was not taken yet, or null.
-    std::shared_ptr<const HdPatinaFrame> take();
+    std::shared_ptr<HdPatinaFrame> take();
+    /// Lets the next frame use the memory of an image.
+    void giveBack(std::vector<uint8_t>&& image);
 
     void stop(); ///< blocks until no thread renders
     void restart();
@@ -51,7 +52,7 @@ public:
 
     /// Blocks until the last frame of the render that was started; for renders without a host that
     /// polls. @returns the frame
-    std::shared_ptr<const HdPatinaFrame> finish();
+    std::shared_ptr<HdPatinaFrame> finish();
     const std::shared_ptr<Film>& film() const { return _film; }
 
 private:
@@ -66,12 +67,13 @@ private:
     std::string _backend;                ///< of the renderer
     std::string _camera;
     HdPatinaSettings _settings;
-    std::vector<std::string> _aovs;
+    std::vector<HdPatinaImageForm> _forms;
 
     mutable std::mutex _mutex;
     std::condition_variable _arrived, _taken;
     uint64_t _serial = 0; ///< frames of older renders are dropped
-    std::shared_ptr<const HdPatinaFrame> _frame;
+    std::shared_ptr<HdPatinaFrame> _frame;
+    std::vector<std::vector<uint8_t>> _spare; ///< images whose memory is used again
     std::atomic<int> _shown{0};
     bool _paused = false, _stopped = false, _stopping = false;
 };

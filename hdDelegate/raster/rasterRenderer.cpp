@@ -51,6 +51,7 @@ public:
 
 private:
     void release() {
+        if (_film && _film->source()) _film->reset(0, 0, {});
         _lights.reset();
         _passes.reset();
         _raster.reset();
@@ -192,13 +193,13 @@ private:
                                                " is left empty: the rasterizer follows no light "
                                                "paths");
         _passes->clearSeconds();
-        _passes->drawAovs(*_raster, camera, aovs);
+        _passes->drawAovs(*_raster, camera, _settings.interactive);
         if (const vec3 origin = _passes->originOfSeen(*_raster); origin != _origin) {
             _origin = origin;
             camera = cameraFrom(cameraPrim);
             build(state, camera, early);
             if (stopped()) return;
-            _passes->drawAovs(*_raster, camera, aovs);
+            _passes->drawAovs(*_raster, camera, _settings.interactive);
         }
         bool cached = true; // so programs may be there before an image of stand-ins would be
         while (early && _raster->standIns() > 0) {
@@ -208,13 +209,18 @@ private:
             build(state, camera, true);
             if (stopped()) return;
             _passes->clearSeconds();
-            _passes->drawAovs(*_raster, camera, aovs);
+            _passes->drawAovs(*_raster, camera, _settings.interactive);
         }
-        _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
+        const bool stays = imageStays(aovs);
+        if (stays)
+            _film->resetTo(&_passes->beginImage(*_context, camera), _settings.width,
+                           _settings.height, aovs);
+        else
+            _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
         reportBuild();
-        _passes->writeAovs(*_raster, camera, aovs, *_film);
+        _passes->writeAovs(*_raster, camera, *_film);
         const int* window = _passes->window();
-        const bool empty = window[2] < window[0] || window[3] < window[1];
+        const bool empty = stays || window[2] < window[0] || window[3] < window[1];
         const uint32_t taken = empty ? 0 : _film->sampleCount(window[2], window[3]);
         beginSampling(double(taken));
         _noise = -1.0;
@@ -259,6 +265,18 @@ private:
         }
     }
 
+    /// Whether the image is only looked at, and nothing has to be known of its samples.
+    bool imageStays(const std::vector<AovSpec>& aovs) const {
+        return _imagesMayStay && _settings.interactive && _listener && _settings.tolerance <= 0.0 &&
+               _settings.checkpointFile.empty() && _film->resumeToken.empty() &&
+               std::none_of(aovs.begin(), aovs.end(),
+                            [](const AovSpec& aov) { return aov.kind == AovKind::Coverage; }) &&
+               std::none_of(_settings.aovs.begin(), _settings.aovs.end(),
+                            [](const std::string& aov) {
+                                return aov == "sampleCount" || aov == "variance";
+                            });
+    }
+
     void reportBuild() {
         report([&](RenderProgress& progress) {
             progress.statistics["secondsBuild"] = secondsSinceStart();
@@ -299,7 +317,7 @@ private:
                    const RasterSample& sample) {
         Film film;
         film.reset(_settings.width, _settings.height, aovs, false);
-        _passes->writeAovs(*_raster, camera, aovs, film);
+        _passes->writeAovs(*_raster, camera, film);
         _raster->moveTo(camera.timeCode(sample.time));
         _passes->draw(*_raster, *_lights, *_domes, _raster->environmentSamples(), camera, sample,
                       film);

@@ -32,6 +32,7 @@ public:
     void wait() final;
     RenderProgress progress() const final;
     void setListener(FilmListener listener) final { _listener = std::move(listener); }
+    void letImagesStay(bool stay) final { _imagesMayStay = stay; }
 
 protected:
     using Clock = std::chrono::steady_clock;
@@ -87,6 +88,7 @@ protected:
     std::shared_ptr<Film> _film;
     RenderSettings _settings;
     FilmListener _listener;
+    bool _imagesMayStay = false; ///< see letImagesStay()
 
 private:
     struct Job {

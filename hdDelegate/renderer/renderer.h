@@ -79,6 +79,9 @@ public:
     /// what it is given, before progress() says so. A stopped render ends without a call. The
     /// listener must not call the renderer. Set it while nothing runs; empty: nobody listens.
     virtual void setListener(FilmListener listener) = 0;
+    /// Whether nobody reads the film but the listener, while it is called: images of interactive
+    /// renders may stay on a device then (Film::source()). Set it while nothing runs.
+    virtual void letImagesStay(bool) {}
 };
 
 /// Makes the path tracer ("embree"); null for any other name. For the others see makeBackend().

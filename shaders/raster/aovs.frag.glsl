@@ -15,7 +15,7 @@ void main() {
 #ifdef PRESENCE
     if (!isPresent()) discard;
 #endif
-    outPosition = vec4(point.position, 1.0);
+    outPosition = vec4(point.position, (drawInfo.z & STRIP) != 0 ? 2.0 : 1.0); // see receivers.comp.glsl
     outNormal = vec4(point.normal, 0.0);
     outIds = ivec4(drawInfo.y, vIds.y, vIds.x, vIds.w);
 #ifdef AOV_ALBEDO

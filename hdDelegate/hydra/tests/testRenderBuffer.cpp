@@ -8,8 +8,20 @@
 #include <pxr/base/tf/errorMark.h>
 
 #include <algorithm>
+#include <cstring>
 
 using namespace patina;
+
+namespace {
+
+/// An image of floats.
+std::vector<uint8_t> imageOf(const std::vector<float>& values) {
+    std::vector<uint8_t> image(values.size() * sizeof(float));
+    std::memcpy(image.data(), values.data(), image.size());
+    return image;
+}
+
+} // namespace
 
 TEST(RenderBuffer, RefusesWhatItCannotHold) {
     HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
@@ -29,33 +41,26 @@ TEST(RenderBuffer, CountsItsMappers) {
     buffer.Map();
     buffer.Unmap();
     EXPECT_TRUE(buffer.IsMapped());
-    const auto one = [](int, unsigned, float* pixels) {
-        for (int x = 0; x < 3; ++x)
-            pixels[4 * x] = 1.0f;
-    };
-    EXPECT_FALSE(buffer.write(false, one)) << "a host is reading";
+    std::vector<uint8_t> image = imageOf(std::vector<float>(6, 1.0f));
+    EXPECT_FALSE(buffer.take(image)) << "a host is reading";
     buffer.Unmap();
     EXPECT_FALSE(buffer.IsMapped());
-    EXPECT_TRUE(buffer.write(false, one));
+    EXPECT_TRUE(buffer.take(image));
+    EXPECT_EQ(image, imageOf(std::vector<float>(6, 0.0f))) << "the memory of before";
     EXPECT_EQ(static_cast<float*>(buffer.Map())[5], 1.0f);
     buffer.Unmap();
     buffer.Unmap(); // one too many
     EXPECT_FALSE(buffer.IsMapped());
 }
 
-TEST(RenderBuffer, RowsGoUpwards) {
+TEST(RenderBuffer, LeavesImagesOfAnotherSizeAlone) {
     HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
-    ASSERT_TRUE(buffer.Allocate(GfVec3i(2, 3, 1), HdFormatFloat32Vec2, false));
-    buffer.write(false, [](int y, unsigned, float* pixels) {
-        for (int x = 0; x < 2; ++x) {
-            pixels[4 * x] = float(x);
-            pixels[4 * x + 1] = float(y);
-        }
-    });
-    const float* pixels = static_cast<float*>(buffer.Map());
-    EXPECT_EQ(pixels[0], 0.0f);
-    EXPECT_EQ(pixels[2], 1.0f);
-    EXPECT_EQ(pixels[11], 2.0f);
+    ASSERT_TRUE(buffer.Allocate(GfVec3i(2, 1, 1), HdFormatFloat32, false));
+    std::vector<uint8_t> larger = imageOf({1.0f, 2.0f, 3.0f}), none;
+    EXPECT_TRUE(buffer.take(larger));
+    EXPECT_TRUE(buffer.take(none));
+    EXPECT_EQ(larger, imageOf({1.0f, 2.0f, 3.0f}));
+    EXPECT_EQ(static_cast<float*>(buffer.Map())[1], 0.0f);
     buffer.Unmap();
 }
 
@@ -82,11 +87,8 @@ TEST(RenderBuffer, KeepsPixelsThatAreMappedWhileItIsAllocatedAnew) {
     const Warnings warnings;
     const size_t size = 64 * 64;
     ASSERT_TRUE(buffer.Allocate(GfVec3i(64, 64, 1), HdFormatFloat32, false));
-    const auto ones = [](int, unsigned width, float* pixels) {
-        for (unsigned x = 0; x < width; ++x)
-            pixels[4 * x] = 1.0f;
-    };
-    ASSERT_TRUE(buffer.write(false, ones));
+    std::vector<uint8_t> ones = imageOf(std::vector<float>(size, 1.0f));
+    ASSERT_TRUE(buffer.take(ones));
     const auto* old = static_cast<const float*>(buffer.Map());
     ASSERT_TRUE(buffer.Allocate(GfVec3i(128, 128, 1), HdFormatFloat32, false));
     ASSERT_TRUE(buffer.Allocate(GfVec3i(4, 4, 1), HdFormatFloat32, false));
@@ -98,9 +100,10 @@ TEST(RenderBuffer, KeepsPixelsThatAreMappedWhileItIsAllocatedAnew) {
     ASSERT_NE(now, nullptr);
     buffer.Unmap(); // of the old pixels
     EXPECT_TRUE(buffer.IsMapped());
-    EXPECT_FALSE(buffer.write(false, ones)) << "the other map goes on";
+    std::vector<uint8_t> small = imageOf(std::vector<float>(16, 1.0f));
+    EXPECT_FALSE(buffer.take(small)) << "the other map goes on";
     EXPECT_EQ(now[0], 0.0f);
     buffer.Unmap();
-    EXPECT_TRUE(buffer.write(false, ones));
+    EXPECT_TRUE(buffer.take(small));
     EXPECT_FALSE(buffer.IsMapped());
 }

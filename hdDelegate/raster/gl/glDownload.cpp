@@ -34,6 +34,7 @@ void GlDownload::readRows(const GlTexture& from, GLenum format, GLenum type, int
         _size = bytes;
     }
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, _id);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl.GetTextureSubImage(from.id(), 0, 0, first, 0, from.width(), rows, 1, format, type,
                           GLsizei(bytes), nullptr);
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);

@@ -46,6 +46,11 @@ struct ShadowView {
     /// Sphere: to its coordinates, see AreaShape. Plane: what is near the sample and within
     /// rounding of its plane to -1..1 each way.
     glm::mat4 worldToLight{1.0f};
+
+    bool operator==(const ShadowView& o) const {
+        return worldToMap == o.worldToMap && towards == o.towards && category == o.category &&
+               clampsNear == o.clampsNear && own == o.own && worldToLight == o.worldToLight;
+    }
 };
 
 /// Boxes that shadows are fitted to.

@@ -51,6 +51,7 @@ void RasterAovs::write(const RasterAovImages& images, const RasterAovRequest& re
                        Film& film) const {
     for (size_t a = 0; a < aovs.size(); ++a) {
         const AovSpec& spec = aovs[a];
+        if (spec.id == AovId::unknown) continue;
         const int slot = RasterAovRequest::slot(request.primvars, spec.primvar);
         parallelFor(window[1], std::max(window[1], window[3] + 1), [&](int y) {
             for (int x = window[0]; x <= window[2]; ++x) {

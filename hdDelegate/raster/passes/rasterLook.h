@@ -38,6 +38,7 @@ public:
     /// Finds the difference that smoothing makes to what was drawn.
     void smooth() const;
     const GlFramebuffer& difference() const { return _differenceTarget; }
+    const GlTexture& differenceImage() const { return _difference; }
     void read(std::vector<glm::vec4>& pixels, GlDownload& download) const;
 
     /// The share of what smoothing does that a film of so many passes has.

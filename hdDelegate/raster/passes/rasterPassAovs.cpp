@@ -6,12 +6,10 @@
 #include "hdDelegate/raster/passes/rasterPassBlock.h"
 
 #include "hdDelegate/film/aovValues.h"
-#include "hdDelegate/parallel.h"
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
-#include <set>
+#include <cstdint>
 
 namespace patina {
 
@@ -28,6 +26,7 @@ void RasterPasses::makeAovTarget(const RasterAovRequest& request) {
     for (const GlTexture& primvar : _primvars)
         targets.push_back(&primvar);
     _aovTarget = GlFramebuffer(targets, &_depth);
+    _aovsComplete = _aovTarget.complete();
 }
 
 /// Whether an AOV is made of normals, which take time to read back.
@@ -36,30 +35,15 @@ static bool wantsNormals(const std::vector<AovSpec>& aovs) {
                        [](const AovSpec& aov) { return aovIsOfNormal(aov.id); });
 }
 
-void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera,
-                            const std::vector<AovSpec>& aovs) {
+void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera, bool inSteps) {
     if (!(scene.aovs() == _aovRequest)) makeAovTarget(scene.aovs());
-    if (!_aovTarget.complete()) throw DeviceError("the driver has no room for the AOVs");
+    if (!_aovsComplete) throw DeviceError("the driver has no room for the AOVs");
     const RasterView view =
         camera.view(vec2(0.0f), vec2(0.0f), 0.5f, scene.boundsMin(), scene.boundsMax());
     _timer.mark(Aovs);
     fillAovTarget(scene, view, block(scene, view));
-
-    _timer.mark(ReadBack);
-    const size_t pixels = size_t(_width) * size_t(_height);
-    const auto read = [&](const GlTexture& from, std::vector<vec4>& to) {
-        to.resize(pixels);
-        _download.read(from, GL_RGBA, GL_FLOAT, pixels * sizeof(vec4), to.data());
-    };
-    read(_position, _seen.positions);
-    if (wantsNormals(aovs)) read(_normal, _seen.normals);
-    if (_albedo) read(_albedo, _seen.albedos);
-    _seen.primvars.resize(_primvars.size());
-    for (size_t i = 0; i < _primvars.size(); ++i)
-        read(_primvars[i], _seen.primvars[i]);
-    readIds(_seen.ids);
+    measureReceivers(scene, camera, inSteps);
     _timer.collect(_seconds);
-    measureReceivers(scene, camera, view);
 }
 
 void RasterPasses::readIds(std::vector<int>& ids) {
@@ -109,56 +93,81 @@ void RasterPasses::drawMattes(const RasterScene& scene, const RasterMattes& matt
     mattes.count(ids, _width, _height, _window, film);
 }
 
-void RasterPasses::writeAovs(const RasterScene& scene, const RasterCamera& camera,
-                             const std::vector<AovSpec>& aovs, Film& film) const {
+void RasterPasses::writeAovs(const RasterScene& scene, const RasterCamera& camera, Film& film) {
+    std::vector<AovSpec> aovs = film.aovs(); // by place
+    bool any = false;
+    for (AovSpec& aov : aovs) {
+        if (film.source() && film.source()->has(aov.id)) aov.id = AovId::unknown;
+        any |= aov.id != AovId::unknown;
+    }
+    if (!any) return;
+    _timer.mark(ReadBack);
+    const size_t pixels = size_t(_width) * size_t(_height);
+    const auto read = [&](const GlTexture& from, std::vector<vec4>& to) {
+        to.resize(pixels);
+        _download.read(from, GL_RGBA, GL_FLOAT, pixels * sizeof(vec4), to.data());
+    };
+    read(_position, _seen.positions);
+    if (wantsNormals(aovs)) read(_normal, _seen.normals);
+    if (_albedo) read(_albedo, _seen.albedos);
+    _seen.primvars.resize(_primvars.size());
+    for (size_t i = 0; i < _primvars.size(); ++i)
+        read(_primvars[i], _seen.primvars[i]);
+    readIds(_seen.ids);
+    _timer.collect(_seconds);
     const RasterAovs target{camera, aovs, scene.origin(), _width, _height, _window};
     target.write(_seen, _aovRequest, film);
 }
 
-/// The points that the camera sees: shadows are needed on these alone.
+/// The points that the camera sees: shadows are needed on these alone. After fillAovTarget().
 void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera& camera,
-                                    const RasterView& view) {
-    vec3 low(INFINITY), high(-INFINITY), fibresLow = low, fibresHigh = high;
-    std::set<int> fibres;
-    for (const RasterDraw& d : scene.draws())
-        if (d.flags & RasterShape::strip) fibres.insert(d.primId);
-    std::mutex mutex;
-    parallelFor(0, _height, [&](int y) {
-        vec3 rowLow(INFINITY), rowHigh(-INFINITY), rowFibresLow = rowLow, rowFibresHigh = rowHigh;
-        for (size_t i = size_t(y) * size_t(_width); i < size_t(y + 1) * size_t(_width); ++i) {
-            const vec4& p = _seen.positions[i];
-            if (!(p.w > 0.0f) || !std::isfinite(p.x + p.y + p.z)) continue;
-            // Samples beside the pixel's centre, through the lens too.
-            const float away = glm::length(vec3(p) - view.eye);
-            const float beside =
-                2.0f * (view.perspective ? away : 1.0f) * view.pixelSpread + camera.blurAt(away);
-            rowLow = glm::min(rowLow, vec3(p) - beside);
-            rowHigh = glm::max(rowHigh, vec3(p) + beside);
-            if (fibres.count(_seen.ids[4 * i]) == 0) continue;
-            rowFibresLow = glm::min(rowFibresLow, vec3(p) - beside);
-            rowFibresHigh = glm::max(rowFibresHigh, vec3(p) + beside);
+                                    bool inSteps) {
+    uint32_t found[12];
+    for (int i = 0; i < 12; ++i)
+        found[i] = i / 3 % 2 == 0 ? ~0u : 0u;
+    const GlBuffer bounds(sizeof found, found);
+    bounds.bindStorage(6);
+    _position.bind(0);
+    _receivers->use();
+    gl.Uniform2f(0, camera.frame().lensRadius > 0.0f ? camera.blurAt(0.0f) : 0.0f,
+                 camera.camera().focusDistance);
+    constexpr int side = 32; // pixels of a group
+    gl.DispatchCompute(GLuint((_width + side - 1) / side), GLuint((_height + side - 1) / side), 1);
+    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    bounds.read(found, sizeof found);
+    const auto box = [&](int at) {
+        vec3 corner;
+        for (int i = 0; i < 3; ++i) {
+            const uint32_t bits = found[at + i];
+            corner[i] = glm::uintBitsToFloat((bits >> 31) != 0 ? bits & 0x7fffffffu : ~bits);
         }
-        const std::lock_guard<std::mutex> lock(mutex);
-        low = glm::min(low, rowLow);
-        high = glm::max(high, rowHigh);
-        fibresLow = glm::min(fibresLow, rowFibresLow);
-        fibresHigh = glm::max(fibresHigh, rowFibresHigh);
-    });
+        return corner;
+    };
     _bounds.sceneMin = scene.boundsMin();
     _bounds.sceneMax = scene.boundsMax();
-    if (low.x > high.x) {
-        low = _bounds.sceneMin;
-        high = _bounds.sceneMax;
-    }
+    const bool any = found[0] <= found[3], fibres = found[6] <= found[9];
+    const vec3 low = any ? box(0) : _bounds.sceneMin, high = any ? box(3) : _bounds.sceneMax;
     _seenMin = low;
     _seenMax = high;
     const vec3 margin = 0.02f * (high - low) + 1e-4f * glm::length(high - low);
-    _bounds.receiverMin = glm::max(low - margin, _bounds.sceneMin);
-    _bounds.receiverMax = glm::min(high + margin, _bounds.sceneMax);
+    // Small moves of the camera seldom cross a step.
+    const auto widen = [&](vec3& from, vec3& to) {
+        const vec3 size = to - from;
+        const float largest = std::max({size.x, size.y, size.z});
+        if (!inSteps || !(largest > 0.0f)) return;
+        const float step = std::exp2(std::floor(std::log2(largest)) - 3.0f);
+        from = glm::floor(from / step) * step;
+        to = glm::ceil(to / step) * step;
+    };
+    vec3 receiverMin = low - margin, receiverMax = high + margin;
+    widen(receiverMin, receiverMax);
+    _bounds.receiverMin = glm::max(receiverMin, _bounds.sceneMin);
+    _bounds.receiverMax = glm::min(receiverMax, _bounds.sceneMax);
     // Texels of maps for all that is seen would be wider than fibres are apart.
-    const bool closer = 2.0f * glm::length(fibresHigh - fibresLow) < glm::length(high - low);
-    _bounds.fibresMin = closer ? fibresLow : vec3(1.0f);
-    _bounds.fibresMax = closer ? fibresHigh : vec3(0.0f);
+    const bool closer = fibres && 2.0f * glm::length(box(9) - box(6)) < glm::length(high - low);
+    _bounds.fibresMin = closer ? box(6) : vec3(1.0f);
+    _bounds.fibresMax = closer ? box(9) : vec3(0.0f);
+    if (closer) widen(_bounds.fibresMin, _bounds.fibresMax);
     _sky.reset();
 }
 

@@ -6,6 +6,7 @@
 #include "shaders/shaders.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <map>
 #include <set>
@@ -18,6 +19,7 @@ RasterPasses::RasterPasses(std::string& error)
     gl.CreateVertexArrays(1, &_vertexArray);
     RasterScene::describe(_vertexArray);
     gl.CreateFramebuffers(1, &_shadowTarget);
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &_largest);
     _background = std::make_unique<RasterBackground>(error);
     if (!_background->ok()) return;
     _shadow = GlProgram::make(
@@ -39,6 +41,10 @@ RasterPasses::RasterPasses(std::string& error)
                           "#define PRIMVARS 0\n#include \"shaders/raster/surface.vert.glsl\"\n"},
                          {GL_FRAGMENT_SHADER, "shadow", "void main() {}\n"}},
                         error);
+    if (!_depthOnly) return;
+    _receivers = GlProgram::make(
+        {{GL_COMPUTE_SHADER, "receivers", "#include \"shaders/raster/receivers.comp.glsl\"\n"}},
+        error);
 }
 
 RasterPasses::~RasterPasses() {
@@ -54,10 +60,8 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     _window[1] = all ? 0 : std::clamp(crop[1], 0, height);
     _window[2] = all ? width - 1 : std::min(crop[2], width - 1);
     _window[3] = all ? height - 1 : std::min(crop[3], height - 1);
-    GLint largest = 0;
-    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    if (width > largest || height > largest) return false;
-    if (std::max(width, height) + 2 * border > largest) border = 0;
+    if (width > _largest || height > _largest) return false;
+    if (std::max(width, height) + 2 * border > _largest) border = 0;
     if (width == _width && height == _height && border == _border) return true;
     const auto make = [&](GLenum format, int beside) {
         return GlTexture(GL_TEXTURE_2D, format, width + 2 * beside, height + 2 * beside);
@@ -67,12 +71,25 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     _position = make(GL_RGBA32F, 0);
     _normal = make(GL_RGBA32F, 0);
     _ids = make(GL_RGBA32I, 0);
+    _ids.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST); // others do not read integers
+    _ids.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     _colorTarget = GlFramebuffer({&_color}, &_depth);
     _width = width;
     _height = height;
     _border = border;
     makeAovTarget(_aovRequest);
-    return _colorTarget.complete() && _aovTarget.complete() && _look->resize(_color, _depth);
+    return _colorTarget.complete() && _aovsComplete && _look->resize(_color, _depth);
+}
+
+const FilmSource& RasterPasses::beginImage(const EglContext& context, const RasterCamera& camera) {
+    if (!_image) {
+        std::string error;
+        _image = std::make_unique<RasterImage>(context, error);
+        if (!_image->ok()) throw DeviceError("the driver does not take the shaders: " + error);
+    }
+    if (!_image->begin(_width, _height, _window, camera, _position, _ids))
+        throw DeviceError("the driver has no room for an image of this size");
+    return *_image;
 }
 
 RasterPasses::PassBlock RasterPasses::block(const RasterScene& scene,
@@ -104,7 +121,11 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
     scene.bind(_vertexArray);
     const GlProgram* last = nullptr;
     const RasterMaterial* lastMaterial = nullptr;
+    vec4 lastGlow(NAN);
+    int lastTable = INT_MIN;
+    bool lastKnown = false;
     for (const RasterDraw& d : scene.draws()) {
+        if (!visible.shows(d)) continue;
         const GlslMaterial& glsl = d.material->glsl;
         const RasterPrograms& programs = *d.material->programs;
         if (which == ColoredPresence ? !programs.tint
@@ -115,7 +136,11 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
                                     : aovs                   ? programs.aovs
                                                              : programs.color)
                                        .get();
-        if (program != last) program->use();
+        if (program != last) {
+            program->use();
+            lastGlow = vec4(NAN);
+            lastTable = INT_MIN;
+        }
         last = program;
         if (d.material != lastMaterial) {
             d.material->parameters.bindUniform(1);
@@ -131,25 +156,29 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
             gl.Uniform4i(8, slots[0], slots[1], slots[2], slots[3]);
         }
         if (!aovs) {
-            const vec3& l = d.meshLight.radiance;
-            gl.Uniform4f(7, l.x, l.y, l.z, float(d.meshLight.mode));
-            gl.Uniform1i(13, filters ? filters->tableOfMesh(d.meshLight.filtered) : -1);
+            const vec4 glow(d.meshLight.radiance, float(d.meshLight.mode));
+            if (glow != lastGlow) gl.Uniform4f(7, glow.x, glow.y, glow.z, glow.w);
+            lastGlow = glow;
+            const int table = filters ? filters->tableOfMesh(d.meshLight.filtered) : -1;
+            if (table != lastTable) gl.Uniform1i(13, table);
+            lastTable = table;
         }
         const bool known = which == Solid && isDrawnByDepth(d);
-        if (known) gl.DepthFunc(GL_LEQUAL);
+        if (known != lastKnown) gl.DepthFunc(known ? GL_LEQUAL : GL_LESS);
+        lastKnown = known;
         drawRuns(d, *d.surface, visible, true);
-        if (known) gl.DepthFunc(GL_LESS);
         if (!aovs && which != ColoredPresence && !programs.drawn) {
             programs.drawn = true;
             if (_firstDraws) _firstDraws();
         }
     }
+    if (lastKnown) gl.DepthFunc(GL_LESS);
 }
 
 void RasterPasses::drawDepths(const RasterScene& scene, const RasterVisible& visible) const {
     bool used = false;
     for (const RasterDraw& d : scene.draws()) {
-        if (!isDrawnByDepth(d)) continue;
+        if (!isDrawnByDepth(d) || !visible.shows(d)) continue;
         if (!used) {
             scene.bind(_vertexArray);
             _depthOnly->use();
@@ -184,7 +213,7 @@ void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights
         b.passSeed = int(lights.seed());
         _passBuffer.write(&b, sizeof b);
         _passBuffer.bindUniform(0);
-        drawCasters(scene, task.view, _sky.maps(), task.layer);
+        drawCasters(scene, task.view, pass, _sky.maps(), task.layer, _shownSky);
     }
 }
 
@@ -243,14 +272,19 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                                  skyCells(scene), mostMaps(scene))
              : lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, longer,
                              mostMaps(scene));
+    RasterImage* const image = film.source() ? _image.get() : nullptr;
     std::vector<vec4> pixels, smoothing;
     if (pass == 0) _first.clear();
     if (pass == 0 && look && !sampled.many) {
         const RasterLights::Sampled first =
             lights.sampleFirst(scene.emitters(), _bounds, shadowMapSize, longer, skyCells(scene));
         if (first.taken > 0) {
-            drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true,
-                      pixels);
+            drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true);
+            if (image) {
+                image->add(_color, &_look->differenceImage(), sample, true, film.allowsNegative());
+                return;
+            }
+            readColor(pixels);
             _look->read(smoothing, _download);
             for (size_t i = 0; i < pixels.size(); ++i)
                 pixels[i] += vec4(vec3(smoothing[i]), 0.0f);
@@ -258,7 +292,13 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
             return;
         }
     }
-    drawImage(scene, lights, domes, environmentSamples, camera, sample, sampled, look, pixels);
+    drawImage(scene, lights, domes, environmentSamples, camera, sample, sampled, look);
+    if (image) {
+        image->add(_color, look ? &_look->differenceImage() : nullptr, sample, false,
+                   film.allowsNegative());
+        return;
+    }
+    readColor(pixels);
     if (!_first.empty()) {
         showFirst(pixels, sample, film);
         return;
@@ -271,8 +311,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
 void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& lights,
                              const RasterDomes& domes, int environmentSamples,
                              const RasterCamera& camera, const RasterSample& sample,
-                             const RasterLights::Sampled& sampled, bool look,
-                             std::vector<vec4>& pixels) {
+                             const RasterLights::Sampled& sampled, bool look) {
     const uint32_t pass = sample.pass;
     std::vector<mat4> matrices;
     for (const ShadowView& v : sampled.shadows)
@@ -324,7 +363,7 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     gl.DepthMask(GL_TRUE);
     _albedoTable.bindStorage(7);
     _timer.mark(Shadows);
-    drawShadows(scene, sampled.shadows, sampled.mapSize);
+    drawShadows(scene, sampled.shadows, sampled.mapSize, pass);
     if (sky) {
         drawSky(scene, lights, pass);
         _sky.bind(10, 19);
@@ -375,7 +414,9 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     gl.BlendFunc(GL_ONE, GL_ZERO); // Mesa refuses several targets for dual sources, blending or not
     drawVolumes(scene);
     gl.DepthMask(GL_TRUE);
+}
 
+void RasterPasses::readColor(std::vector<vec4>& pixels) {
     _timer.mark(ReadBack);
     pixels.resize(size_t(_color.width()) * size_t(_color.height()));
     _download.read(_color, GL_RGBA, GL_FLOAT, pixels.size() * sizeof(vec4), pixels.data());

@@ -10,6 +10,7 @@
 #include "hdDelegate/raster/passes/rasterAovs.h"
 #include "hdDelegate/raster/passes/rasterBackground.h"
 #include "hdDelegate/raster/passes/rasterFilterSplat.h"
+#include "hdDelegate/raster/passes/rasterImage.h"
 #include "hdDelegate/raster/passes/rasterLook.h"
 #include "hdDelegate/raster/passes/rasterMattes.h"
 #include "hdDelegate/raster/passes/rasterRefraction.h"
@@ -26,7 +27,7 @@ public:
     explicit RasterPasses(std::string& error);
     bool ok() const {
         return _background && _background->ok() && _shadow && _shadowAround && _depthOnly &&
-               _look && _look->ok();
+               _receivers && _look && _look->ok();
     }
 
     /// Sets the size of the image, and which of its pixels reach the film.
@@ -38,12 +39,15 @@ public:
     }
     const int* window() const { return _window; } ///< xmin, ymin, xmax, ymax, inclusive
 
+    /// Begins an image that stays on the device.
+    const FilmSource& beginImage(const EglContext& context, const RasterCamera& camera);
+
     /// Ids and positions through the pixels' centres, and what else the AOVs need.
-    void drawAovs(const RasterScene& scene, const RasterCamera& camera,
-                  const std::vector<AovSpec>& aovs);
-    /// Writes them to the film's AOVs.
-    void writeAovs(const RasterScene& scene, const RasterCamera& camera,
-                   const std::vector<AovSpec>& aovs, Film& film) const;
+    /// @param inSteps shadow maps may have some larger texels, so that small moves of the camera
+    ///        leave them as they are
+    void drawAovs(const RasterScene& scene, const RasterCamera& camera, bool inSteps);
+    /// Writes them to the film's AOVs, but for those of its source.
+    void writeAovs(const RasterScene& scene, const RasterCamera& camera, Film& film);
     /// Counts what a sample of every pixel sees, for the AOVs of Cryptomatte.
     void drawMattes(const RasterScene& scene, const RasterMattes& mattes,
                     const RasterCamera& camera, const RasterSample& sample, uint32_t seed,
@@ -52,7 +56,7 @@ public:
     /// it beside its size. The same for small moves of the camera.
     vec3 originOfSeen(const RasterScene& scene) const;
 
-    /// One sample of every pixel.
+    /// One sample of every pixel, for the film or for the image that it has as its source.
     /// @param environmentSamples of domes per pixel, where they are filtered
     void draw(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
               int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
@@ -86,14 +90,29 @@ private:
     void makeAovTarget(const RasterAovRequest& request);
     void fillAovTarget(const RasterScene& scene, const RasterView& view, const PassBlock& b);
     void readIds(std::vector<int>& ids);
+    void readColor(std::vector<vec4>& pixels);
     PassBlock block(const RasterScene& scene, const RasterView& view) const;
-    void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
+    /// What each layer of an array of shadow maps shows. The first pass after a camera move, as a
+    /// rule, finds what it needs.
+    struct ShownShadows {
+        struct Layer {
+            ShadowView view;
+            uint32_t pass;    ///< random numbers of casters that let some light pass follow from it
+            uint64_t version; ///< RasterScene::shadowVersion(); 0: nothing is known
+        };
+        GLuint maps = 0; ///< the array
+        std::vector<Layer> layers;
+    };
+    void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size,
+                     uint32_t pass);
     static int skyCells(const RasterScene& scene);
     static int mostMaps(const RasterScene& scene);
     void drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass);
+    /// Draws them into a layer, unless that is what it shows.
     /// @param slopes null: only depths are wanted
-    void drawCasters(const RasterScene& scene, const ShadowView& view, const GlTexture& maps,
-                     int layer, const GlTexture* slopes = nullptr) const;
+    void drawCasters(const RasterScene& scene, const ShadowView& view, uint32_t pass,
+                     const GlTexture& maps, int layer, ShownShadows& shown,
+                     const GlTexture* slopes = nullptr);
     enum Which { AllForAovs, Solid, Transmitting, ColoredPresence };
     /// @param filters of mesh lights; null where nothing is lit
     void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which,
@@ -105,23 +124,24 @@ private:
     void needRefraction();
     void drawImage(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
                    int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
-                   const RasterLights::Sampled& sampled, bool look, std::vector<vec4>& pixels);
+                   const RasterLights::Sampled& sampled, bool look);
     void smooth(const RasterSample& sample, bool look, std::vector<vec4>& pixels, Film& film);
     void beginFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
     void showFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
     /// @param shades the program has the fragment stage of surface.frag.glsl
     void drawRuns(const RasterDraw& draw, const RasterSurface& surface,
                   const RasterVisible& visible, bool shades) const;
-    void measureReceivers(const RasterScene& scene, const RasterCamera& camera,
-                          const RasterView& view);
+    void measureReceivers(const RasterScene& scene, const RasterCamera& camera, bool inSteps);
 
-    std::unique_ptr<GlProgram> _shadow, _shadowAround, _depthOnly;
+    std::unique_ptr<GlProgram> _shadow, _shadowAround, _depthOnly, _receivers;
+    std::unique_ptr<RasterImage> _image; ///< made when a listener wants images alone
     std::unique_ptr<RasterBackground> _background;
     std::unique_ptr<RasterLook> _look;
     std::unique_ptr<RasterRefraction> _refraction; ///< made when something transmits
     GlBuffer _passBuffer, _albedoTable;
     GlDownload _download;
     GLuint _vertexArray = 0;
+    GLint _largest = 0; ///< pixels along a side of a texture
     int _width = 0, _height = 0, _border = 0;
     int _window[4] = {0, 0, -1, -1};
     GlTexture _color, _depth, _position, _normal, _ids, _shadowMaps, _shadowSlopes;
@@ -129,14 +149,16 @@ private:
     std::vector<GlTexture> _primvars;
     GlFramebuffer _colorTarget, _aovTarget;
     RasterAovRequest _aovRequest; ///< that _aovTarget is for
+    bool _aovsComplete = false;
     GLuint _shadowTarget = 0;
     int _shadowLayers = 0;
+    ShownShadows _shownShadows, _shownSky;
     RasterSky _sky;
     RasterManyLights _manyLights;
     std::vector<vec4> _first, _sums; ///< see showFirst(); of the film's pixels
     std::vector<vec4> _smoothing;    ///< what it does to the sums of the film's pixels
     ShadowBounds _bounds;
-    RasterAovImages _seen; ///< of drawAovs()
+    RasterAovImages _seen; ///< of writeAovs()
     vec3 _seenMin{0.0f}, _seenMax{0.0f};
     std::function<void()> _firstDraws;
     GlTimer _timer;

@@ -13,7 +13,7 @@ void RasterPasses::drawRuns(const RasterDraw& draw, const RasterSurface& surface
     uint32_t first = draw.noise + 0x9e3779b9u * uint32_t(draw.subset);
     for (const RasterChunk& chunk : surface.chunks) {
         const uint32_t triangles = uint32_t(std::max(1, chunk.indexCount() / 3));
-        chunk.bind(_vertexArray);
+        chunk.bind(_vertexArray, shades);
         if (shades) gl.Uniform1ui(18, first);
         first += triangles;
         const int most =

@@ -44,6 +44,7 @@ public:
     /// Radius of what the lens blurs a point over, in the scene.
     float blurAt(float distance) const;
     const Camera& camera() const { return _camera; }
+    const CameraFrame& frame() const { return _frame; }
     float pixels() const { ///< along the longer side
         return std::max(_frame.imageSize.x, _frame.imageSize.y);
     }

@@ -21,6 +21,7 @@ public:
     RasterDetail(const Geometry& prim, const PrimExtent& extent, const RasterCamera& camera,
                  const RenderSettings& settings, float edgeLength, bool displaced, bool glows);
 
+    bool refines() const { return _edgeLength > 0.0f; } ///< else edgeAt() is 0 everywhere
     /// The longest edge, in object units, that looks as long from the camera as the settings ask
     /// for: a power of two, so that few of them differ. 0: the prim is not refined. Of curves and
     /// points the width of a pixel.

@@ -46,6 +46,26 @@ void RasterScene::findBounds() {
     }
 }
 
+void RasterScene::addResized(const SceneState& state, const RasterCamera& camera,
+                             SceneEdits& edits) {
+    RasterInstances places(_parts.placements, camera.timeCode(0.5f), _origin);
+    for (const auto& [path, span] : _spans) {
+        if (span.byEdge.empty()) continue;
+        const auto prim = state.geometry.find(path);
+        if (prim == state.geometry.end()) continue; // an edit tells
+        const RasterDetail detail(*prim->second, *span.extent, camera, _settings,
+                                  _subdivision.edgeOf(span.displaced), span.displaced, span.emits);
+        const auto& where = places.places(prim->second->group);
+        bool same = true;
+        for (const auto& [edge, list] : span.byEdge)
+            for (size_t i = 0; same && i < list.size(); ++i)
+                same = list[i] < where.size() && detail.edgeAt(where[list[i]]) == edge;
+        if (same) continue;
+        edits.delta.geometry.emplace(path, PrimEdit::Set);
+        edits.touched.insert(path);
+    }
+}
+
 /// Draws a prim as it is now, in the place of what it was.
 /// @returns false where that takes more or less room, or gives light
 bool RasterScene::redraw(const std::shared_ptr<const Geometry>& prim, const SceneState& state,
@@ -91,8 +111,9 @@ bool RasterScene::redraw(const std::shared_ptr<const Geometry>& prim, const Scen
     }
     cutTo(after);
     Span& kept = _spans[prim->path];
-    kept = old;
-    kept.extent = added.extent;
+    kept = added;
+    kept.firstGroup = old.firstGroup;
+    kept.firstDraw = old.firstDraw;
     if (wide) findBounds();
     return true;
 }

@@ -129,6 +129,9 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     std::map<float, std::vector<uint32_t>> byEdge;
     for (size_t i = 0; i < where.size(); ++i)
         byEdge[detail.edgeAt(where[i])].push_back(uint32_t(i));
+    span.displaced = displaced;
+    span.byEdge.clear();
+    if (detail.refines()) span.byEdge = byEdge;
     const size_t firstGroup = _groups.size();
     for (auto& [edge, list] : byEdge) {
         request.edge = edge;

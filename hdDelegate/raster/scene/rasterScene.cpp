@@ -44,12 +44,16 @@ void RasterScene::update(const SceneState& state, const vec3& origin, const Rast
     const CompiledState before = _parts;
     _parts = _compiled.compiled(state, asked);
     // With a tolerance all materials decide together.
+    const bool moved = !sameCamera(camera.camera(), _camera);
     const bool same = _complete && asked.tolerance < 0.0 && origin == _origin &&
-                      asked == _settings && sameCamera(camera.camera(), _camera) &&
+                      asked == _settings && camera.timeCode(0.0f) == _shutterOpen &&
+                      camera.timeCode(1.0f) == _shutterClose &&
                       _parts.placements == before.placements && _parts.links == before.links &&
                       _parts.meshLights == before.meshLights &&
                       lights.needsFilters() == _filtered && lights.text() == _lightText;
-    const auto edits = same ? _compiled.editsSince(_version, state) : std::nullopt;
+    auto edits = same ? _compiled.editsSince(_version, state) : std::nullopt;
+    if (edits && moved) addResized(state, camera, *edits);
+    if (!edits || edits->delta.size() != edits->delta.cameras.size()) ++_shadowVersion;
     _complete = false;
     _origin = origin;
     _camera = camera.camera();

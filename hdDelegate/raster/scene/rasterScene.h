@@ -52,6 +52,10 @@ struct RasterDraw {
 struct RasterVisible {
     std::vector<RasterRun> runs;                  ///< of instances
     std::vector<std::pair<size_t, size_t>> group; ///< first run and the one after the last
+
+    bool shows(const RasterDraw& draw) const {
+        return !group.empty() && group[size_t(draw.group)].first < group[size_t(draw.group)].second;
+    }
 };
 
 /// The geometry of a scene in buffers, at one time of the shutter.
@@ -116,6 +120,9 @@ public:
     const std::set<std::string>& domeMethods() const { return _materials.domeMethods(); }
     int environmentSamples() const { return _materials.environmentSamples(); }
     size_t instanceCount() const { return _instances.size(); }
+    /// Counts the updates after which shadows may differ.
+    uint64_t shadowVersion() const { return _shadowVersion; }
+    bool moves() const { return _moves; } ///< while the shutter is open
     /// Binds the instances to a vertex array (binding 1).
     void bind(GLuint vertexArray) const;
     /// Tells a vertex array the attributes of instance.glsl.
@@ -126,7 +133,9 @@ private:
     struct Span {
         int rank = 0;
         size_t firstGroup = 0, groups = 0, firstDraw = 0, draws = 0;
-        bool emits = false;
+        bool emits = false, displaced = false;
+        /// Its places by RasterDetail::edgeAt(); empty where it looks alike from everywhere.
+        std::map<float, std::vector<uint32_t>> byEdge;
         std::shared_ptr<const PrimExtent> extent; ///< held for the next update
     };
     /// A prim's groups before it was drawn anew.
@@ -141,6 +150,8 @@ private:
     /// @returns false where more than prims in their places has changed: updateAll() has to follow
     bool updateTouched(const SceneEdits& edits, const SceneState& state, const RasterCamera& camera,
                        const std::atomic<bool>& stop, const Compiling& compiling);
+    /// Adds the prims that another camera sees finer or coarser.
+    void addResized(const SceneState& state, const RasterCamera& camera, SceneEdits& edits);
     bool redraw(const std::shared_ptr<const Geometry>& prim, const SceneState& state,
                 const RasterCamera& camera, RasterInstances& places);
     void showMaterials(const Geometry& prim, const SceneState& state);
@@ -175,7 +186,7 @@ private:
     bool _filtered = false; ///< programs know light filters
     std::string _lightText; ///< RasterLightPlan::text() before those of programs
     bool _complete = false; ///< it was not stopped, and no material stands in for another
-    uint64_t _version = 0;
+    uint64_t _version = 0, _shadowVersion = 0;
     Camera _camera;
     RenderSettings _settings; ///< as asked for
     bool _lightsMayDiffer = true;

@@ -35,9 +35,10 @@ RasterChunk::RasterChunk(const std::vector<Vertex>& vertices, const std::vector<
     _buffer = GlBuffer(bytes);
 }
 
-void RasterChunk::bind(GLuint vertexArray) const {
+void RasterChunk::bind(GLuint vertexArray, bool shades) const {
     gl.VertexArrayVertexBuffer(vertexArray, 0, _buffer.id(), 0, sizeof(Vertex));
     gl.VertexArrayElementBuffer(vertexArray, _buffer.id());
+    if (!shades) return;
     _buffer.bindStorage(2, _triangles, _indices - _triangles);
     _buffer.bindStorage(6, _primvars, _triangles - _primvars);
 }

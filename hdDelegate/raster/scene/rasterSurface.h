@@ -30,8 +30,9 @@ public:
     RasterChunk(const std::vector<Vertex>& vertices, const std::vector<vec4>& primvars,
                 const std::vector<Triangle>& triangles, const std::vector<uint32_t>& indices);
 
-    /// Vertices and indices to a vertex array (binding 0), the rest to storage bindings 2 and 6.
-    void bind(GLuint vertexArray) const;
+    /// Vertices and indices to a vertex array (binding 0), and where something shades with them the
+    /// rest to storage bindings 2 and 6.
+    void bind(GLuint vertexArray, bool shades) const;
     GLsizei indexCount() const { return _indexCount; }
     const void* firstIndex() const { return reinterpret_cast<const void*>(_indices); }
     size_t bytes() const { return _buffer.size(); }

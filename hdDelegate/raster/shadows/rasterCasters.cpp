@@ -8,7 +8,7 @@
 namespace patina {
 
 void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views,
-                               int size) {
+                               int size, uint32_t pass) {
     const int layers = std::max(1, int(views.size()));
     if (layers > _shadowLayers || _shadowMaps.width() != size) {
         _shadowMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layers);
@@ -20,7 +20,7 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
         }
     }
     for (size_t i = 0; i < views.size(); ++i)
-        drawCasters(scene, views[i], _shadowMaps, int(i), &_shadowSlopes);
+        drawCasters(scene, views[i], pass, _shadowMaps, int(i), _shownShadows, &_shadowSlopes);
 }
 
 /// The first pass of a small scene draws all cells; a large one gets them by and by, and one whose
@@ -46,11 +46,18 @@ int RasterPasses::mostMaps(const RasterScene& scene) {
 
 void RasterPasses::drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass) {
     for (const RasterSky::Task& task : _sky.begin(pass, lights.seed(), _bounds, skyCells(scene)))
-        drawCasters(scene, task.view, _sky.maps(), task.layer);
+        drawCasters(scene, task.view, pass, _sky.maps(), task.layer, _shownSky);
 }
 
-void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
-                               const GlTexture& maps, int layer, const GlTexture* slopes) const {
+void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view, uint32_t pass,
+                               const GlTexture& maps, int layer, ShownShadows& shown,
+                               const GlTexture* slopes) {
+    if (shown.maps != maps.id()) shown = {maps.id(), {}};
+    if (shown.layers.size() <= size_t(layer)) shown.layers.resize(size_t(layer) + 1);
+    ShownShadows::Layer& now = shown.layers[size_t(layer)];
+    const uint64_t version = scene.moves() ? 0 : scene.shadowVersion();
+    if (version != 0 && now.version == version && now.pass == pass && now.view == view) return;
+    now = {view, pass, version};
     scene.bind(_vertexArray);
     gl.BindFramebuffer(GL_FRAMEBUFFER, _shadowTarget);
     gl.Viewport(0, 0, maps.width(), maps.height());
@@ -70,10 +77,10 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     if (view.clampsNear) gl.Enable(GL_DEPTH_CLAMP);
     const GlProgram* last = nullptr;
     for (const RasterDraw& d : scene.draws()) {
-        if (!d.prim->visibility.shadow || d.material->glsl.volumeOnly) continue;
+        if (!d.prim->visibility.shadow || d.material->glsl.volumeOnly || !visible.shows(d))
+            continue;
         const GlProgram* own = d.material->programs->shadow.get();
-        const bool around = !inside.group.empty() && inside.group[size_t(d.group)].first <
-                                                         inside.group[size_t(d.group)].second;
+        const bool around = inside.shows(d);
         const GlProgram* program = own ? own : around ? _shadowAround.get() : _shadow.get();
         if (program != last) {
             program->use();

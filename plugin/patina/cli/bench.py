@@ -18,6 +18,7 @@ PASSES_ON = AS_TYPED = True  # benchmarks read their own flags, --json FILE amon
 BENCHMARKS = {
     "denoise": ("denoiseBench.py", "denoised images: seconds until they look like the reference; beside Cycles"),
     "features": ("featureBench.py", "features beside the renderer without them: processor time, and error over time as charts"),
+    "frame": ("frameBench.py", "the processor's share of a viewport's frame, with a driver that draws nothing; beside Storm"),
     "growth": ("growthBench.py", "growth with triangles, instances, prims, prototypes, lights, materials and textures: seconds "
                                  "to the first image, of a sample, and memory"),
     "hydra": ("hydraBench.py", "frames in Hydra: first, after a camera move, rays per second, memory; beside "

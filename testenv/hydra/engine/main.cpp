@@ -14,6 +14,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
@@ -28,6 +29,7 @@ const char* const usage =
     "the stage,\n"
     "\"first\" image (the renderer's start in it), \"moved\" after each move of the camera, "
     "\"edited\" after each edit;\n"
+    "\"processor\" is what each move took of all cores, with the driver's share;\n"
     "\"seen\" are the seconds until a buffer held the first of the images that led to each, "
     "which may be coarse;\n"
     "\"statistics\" are numbers of the renderer's own, \"device\" is what OpenGL draws on.\n"
@@ -116,6 +118,13 @@ private:
     std::vector<double> _numbers;
 };
 
+/// Of all threads of the process so far.
+double processorSeconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
 void run(const CommandLine& line) {
     Clock clock;
     JsObject seconds;
@@ -132,14 +141,16 @@ void run(const CommandLine& line) {
     Engine engine(stage, line.engine);
     const double firstSeen = engine.render();
     seconds["first"] = JsValue(clock.lap());
-    JsArray moved, edited, movedSeen, editedSeen;
+    JsArray moved, edited, movedSeen, editedSeen, processor;
     std::unique_ptr<InputEdit> edit;
     if (!line.edit.empty()) edit = std::make_unique<InputEdit>(stage, line.edit);
     for (int i = 1; i <= line.repeats; ++i) {
         clock.lap();
+        const double before = processorSeconds();
         move.Set(GfVec3d(0.01 * i, 0.0, 0.0));
         movedSeen.push_back(JsValue(engine.render()));
         moved.push_back(JsValue(clock.lap()));
+        processor.push_back(JsValue(processorSeconds() - before));
         if (!edit) continue;
         edit->apply(0.5 + 0.5 * i / line.repeats);
         editedSeen.push_back(JsValue(engine.render()));
@@ -158,6 +169,7 @@ void run(const CommandLine& line) {
         if (value.IsHolding<double>()) statistics[name] = JsValue(value.UncheckedGet<double>());
     const JsObject report = {{"seconds", JsValue(seconds)},
                              {"seen", JsValue(seen)},
+                             {"processor", JsValue(processor)},
                              {"statistics", JsValue(statistics)},
                              {"device", JsValue(engine.device())},
                              {"peakMemory", JsValue(double(used.ru_maxrss) * 1024.0)}};

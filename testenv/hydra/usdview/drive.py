@@ -5,7 +5,8 @@ camera, picks a prim, changes a material and takes screenshots.
     xvfb-run python drive.py FOLDER STAGE --renderer Patina [--defaultsettings ...]
 
 Everything after FOLDER is usdview's. Writes start.png, turned.png, edited.png (the view), the same of the whole window
-(startWindow.png, ...) and result.json to FOLDER. $PATINA_DRIVE_SIZE is the size of the view, 480x360 if not given.
+(startWindow.png, ...) and result.json to FOLDER. $PATINA_DRIVE_SIZE is the size of the view, 480x360 if not given. With
+$PATINA_DRIVE_FRAMES=N the turn is made in N moves, and the first image after each is saved too (move0.png, ...).
 Runs in the Python of OpenUSD. The stage has to have a shader at the path that $PATINA_DRIVE_SHADER names,
 with the colour input that $PATINA_DRIVE_INPUT names.
 """
@@ -79,7 +80,22 @@ class Driver:
         """As a drag with the left mouse button does."""
         settings = self.controller._dataModel.viewSettings
         self.view.switchToFreeCamera()
-        settings.freeCamera.Tumble(40.0, 15.0)
+        frames = int(os.environ.get("PATINA_DRIVE_FRAMES", "1"))
+        for i in range(frames):
+            settings.freeCamera.Tumble(40.0 / frames, 15.0 / frames)
+            if frames > 1:
+                self.look(f"move{i}")
+
+    def look(self, name):
+        """Saves the first image that is shown after a move, whole or not."""
+        end = time.monotonic() + PATIENCE
+        self.view.updateView()
+        self.events()
+        while not self.view._getRenderer().GetRenderStats().get("patina:imagesShown") and time.monotonic() < end:
+            time.sleep(0.005)
+            self.view.updateView()
+            self.events()
+        self.controller.GrabViewportShot().save(os.path.join(self.folder, name + ".png"), "PNG")
 
     def edit(self):
         stage = self.controller._dataModel.stage

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hdDelegate/film/aovTable.h"
+
+#include <glm/glm.hpp>
+
+namespace patina {
+
+/// How somebody wants the pixels of an AOV: rows without gaps.
+struct PixelForm {
+    enum class Type { Half, Float, Int };
+    Type type = Type::Float;
+    int components = 1;         ///< 1 to 4; a colour's fourth is alpha
+    bool bottomFirst = false;   ///< order of the rows
+    glm::vec4 background{0.0f}; ///< seen through what a colour does not cover
+    float nothing = 0.0f;       ///< AOVs: of pixels that show nothing; of ids the bits of an int
+};
+
+/// The image that a film would hold, where a device keeps it. Asked on the render thread alone,
+/// while a listener hears of the film.
+class FilmSource {
+public:
+    virtual ~FilmSource() = default;
+    /// Whether it has an AOV; the film has the others.
+    virtual bool has(AovId aov) const = 0;
+    /// @param bytes room for all pixels
+    /// @returns false, and leaves the bytes as they are, for forms that it cannot give
+    virtual bool read(AovId aov, const PixelForm& form, void* bytes) const = 0;
+};
+
+} // namespace patina

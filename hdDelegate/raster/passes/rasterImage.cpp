@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/raster/passes/rasterImage.h"
+
+#include "hdDelegate/raster/gl/eglContext.h"
+#include "hdDelegate/raster/passes/rasterLook.h"
+
+#include <algorithm>
+
+namespace patina {
+
+RasterImage::RasterImage(const EglContext& context, std::string& error) : _context(context) {
+    const auto make = [&](const std::string& text) {
+        return GlProgram::make(
+            {{GL_VERTEX_SHADER, "background", "#include \"shaders/raster/background.vert.glsl\"\n"},
+             {GL_FRAGMENT_SHADER, "image", text}},
+            error);
+    };
+    _accumulate = make("#include \"shaders/raster/accumulate.frag.glsl\"\n");
+    _numbers = make("#include \"shaders/raster/image.frag.glsl\"\n");
+    _ids = make("#define IDS\n#include \"shaders/raster/image.frag.glsl\"\n");
+    gl.CreateVertexArrays(1, &_vertexArray);
+}
+
+RasterImage::~RasterImage() {
+    gl.DeleteVertexArrays(1, &_vertexArray);
+}
+
+bool RasterImage::begin(int width, int height, const int window[4], const RasterCamera& camera,
+                        const GlTexture& places, const GlTexture& ids) {
+    _camera = std::make_unique<RasterCamera>(camera);
+    _placesDrawn = &places;
+    _idsDrawn = &ids;
+    _window[0] = window[0];
+    _window[1] = height - 1 - window[3];
+    _window[2] = window[2];
+    _window[3] = height - 1 - window[1];
+    _passes = 0;
+    _weight = 0.0f;
+    _hasFirst = _negative = false;
+    if (width != _width || height != _height) {
+        const auto make = [&] { return GlTexture(GL_TEXTURE_2D, GL_RGBA32F, width, height); };
+        _sums = make();
+        _smoothings = make();
+        _first = make();
+        _sumTarget = GlFramebuffer({&_sums, &_smoothings}, nullptr);
+        _firstTarget = GlFramebuffer({&_first}, nullptr);
+        _complete = _sumTarget.complete() && _firstTarget.complete();
+        _targets.clear();
+        _width = width;
+        _height = height;
+    }
+    const float none[4] = {0, 0, 0, 0};
+    for (GLint i = 0; i < 2; ++i)
+        gl.ClearNamedFramebufferfv(_sumTarget.id(), GL_COLOR, i, none);
+    gl.ClearNamedFramebufferfv(_firstTarget.id(), GL_COLOR, 0, none);
+    return _complete;
+}
+
+void RasterImage::add(const GlTexture& color, const GlTexture* difference,
+                      const RasterSample& sample, bool first, bool negative) {
+    if (sample.pass == 0) _hasFirst = first;
+    _negative = negative;
+    // A film counts the mean without the first image for as many passes as there were with it.
+    const float whole = float(RasterLook::smoothed);
+    const float weight =
+        _hasFirst && _passes >= RasterLook::smoothed ? (whole - 1.0f) / whole : 1.0f;
+    if (!first) _weight += weight;
+    ++_passes;
+    (first ? _firstTarget : _sumTarget).bind();
+    gl.Viewport(0, 0, _width, _height);
+    gl.Disable(GL_DEPTH_TEST);
+    gl.Enable(GL_BLEND);
+    gl.BlendFunc(GL_ONE, GL_ONE);
+    color.bind(0);
+    if (difference) difference->bind(1);
+    _accumulate->use();
+    gl.Uniform4i(0, _window[0], _window[1], _window[2], _window[3]);
+    gl.Uniform4i(1, sample.border(), !difference ? 0 : first ? 2 : 1, negative ? 1 : 0, 0);
+    for (size_t i = 0; i < sample.splatX.size(); ++i)
+        gl.Uniform2f(2 + GLint(i), weight * sample.splatX[i], sample.splatY[i]);
+    gl.BindVertexArray(_vertexArray);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    gl.BlendFunc(GL_ONE, GL_ZERO);
+    gl.Disable(GL_BLEND);
+}
+
+bool RasterImage::has(AovId aov) const {
+    switch (aov) {
+    case AovId::color:
+    case AovId::alpha:
+    case AovId::deviceDepth:
+    case AovId::depth:
+    case AovId::cameraDepth:
+    case AovId::primId:
+    case AovId::instanceId:
+    case AovId::elementId: return true;
+    default: return false;
+    }
+}
+
+const RasterImage::Target& RasterImage::target(GLenum format) const {
+    Target& target = _targets[format];
+    if (!target.image) {
+        target.image = GlTexture(GL_TEXTURE_2D, format, _width, _height);
+        target.framebuffer = GlFramebuffer({&target.image}, nullptr);
+        target.complete = target.framebuffer.complete();
+    }
+    return target;
+}
+
+bool RasterImage::read(AovId aov, const PixelForm& form, void* bytes) const {
+    const bool id = aov == AovId::primId || aov == AovId::instanceId || aov == AovId::elementId;
+    const bool half = form.type == PixelForm::Type::Half;
+    if (!has(aov) || _width < 1 || id != (form.type == PixelForm::Type::Int) ||
+        (aov != AovId::color && form.components != 1))
+        return false;
+    const EglContext::Use use(_context);
+    if (!use.ok()) return false;
+    const bool many = aov == AovId::color;
+    const Target& to = target(id     ? GL_R32I
+                              : half ? (many ? GL_RGBA16F : GL_R16F)
+                                     : (many ? GL_RGBA32F : GL_R32F));
+    if (!to.complete) return false;
+    to.framebuffer.bind();
+    gl.Viewport(0, 0, _width, _height);
+    gl.Disable(GL_DEPTH_TEST);
+    _sums.bind(0);
+    _smoothings.bind(1);
+    _first.bind(2);
+    _placesDrawn->bind(3);
+    _idsDrawn->bind(4);
+    (id ? _ids : _numbers)->use();
+    const int wanted = aov == AovId::color         ? Color
+                       : aov == AovId::alpha       ? Alpha
+                       : aov == AovId::deviceDepth ? WindowDepth
+                       : aov == AovId::depth       ? AxisDepth
+                                                   : CentreDepth;
+    const int last = !id ? int(half) : aov == AovId::primId ? 0 : aov == AovId::instanceId ? 1 : 2;
+    gl.Uniform4i(0, _window[0], _window[1], _window[2], _window[3]);
+    gl.Uniform4i(1, wanted, form.bottomFirst ? 0 : 1, _negative ? 1 : 0, last);
+    if (id) {
+        gl.Uniform1i(3, glm::floatBitsToInt(form.nothing));
+    } else {
+        gl.Uniform4f(2, _weight, _hasFirst ? 0.0f : RasterLook::share(_passes),
+                     !_hasFirst    ? 0.0f
+                     : _passes < 2 ? 1.0f
+                                   : RasterLook::shareOfFirst(_passes),
+                     0.0f);
+        const vec4 other = aov == AovId::color ? form.background : vec4(form.nothing);
+        gl.Uniform4f(3, other.x, other.y, other.z, other.w);
+        const CameraFrame& frame = _camera->frame();
+        gl.UniformMatrix4fv(4, 1, GL_FALSE, &_camera->worldToCamera()[0][0]);
+        gl.Uniform4f(8, frame.clipNear, frame.clipFar, frame.orthographic ? 1.0f : 0.0f,
+                     frame.radial ? 1.0f : 0.0f);
+    }
+    gl.BindVertexArray(_vertexArray);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    const GLenum formats[4] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    const size_t size = size_t(form.components) * (half ? 2 : 4);
+    _download.read(to.image, id ? GL_RED_INTEGER : formats[form.components - 1],
+                   id     ? GL_INT
+                   : half ? GL_HALF_FLOAT
+                          : GL_FLOAT,
+                   size * size_t(_width) * size_t(_height), bytes);
+    return true;
+}
+
+} // namespace patina

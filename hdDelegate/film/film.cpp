@@ -137,7 +137,7 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
 void Film::resetTo(const FilmSource* source, int width, int height,
                    const std::vector<AovSpec>& aovs) {
     _source = source;
-    _pixels.clear();
+    std::vector<Pixel>().swap(_pixels);
     clear(width, height, aovs);
 }
 

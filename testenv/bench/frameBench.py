@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the processor does for a frame of the rasterizer after a camera move, in the host that usdview has, beside Storm's.
 
-Mesa's GALLIUM_NOOP=1 takes all commands of OpenGL and draws nothing, so that what is left is the processor's share of a frame on a
-machine with a graphics card: host, renderer, and the part of the driver that takes commands. Milliseconds of all threads
-together, medians over the moves, in processes one after another. Where `perf` is installed, so is whose code they were.
+Mesa's GALLIUM_NOOP=1 takes all commands of OpenGL and draws nothing, so that what is left is the processor's share of a
+frame on a machine with a graphics card: host, renderer, and the part of the driver that takes commands. Milliseconds of all
+threads together, medians over the moves, in processes one after another. Where `perf` is installed, it tells whose code that
+was, with the start of the process.
 """
 import argparse
 import json
@@ -54,8 +55,8 @@ def owners(stage, camera, renderer, options):
         command = ["perf", "record", "-q", "-F", "999", "-o", samples, "--", hydraBuild.folder("engineHost"), str(stage),
                    *map(str, flags(camera, renderer, options))]
         subprocess.run(command, env=hydraBuild.environment(**NOTHING), capture_output=True, check=False)
-        process = subprocess.run(["perf", "report", "-i", samples, "--stdio", "--sort", "dso", "-g", "none"], capture_output=True,
-                                 text=True, check=False)
+        process = subprocess.run(["perf", "report", "-i", samples, "--stdio", "--sort", "dso", "-g", "none"],
+                                 capture_output=True, text=True, check=False)
     shares = dict.fromkeys((*OWNERS, "others"), 0.0)
     for line in process.stdout.splitlines():
         words = line.split()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The rasterizer's image in an interactive host, which stays on the device, beside the film of another host, which asks for the
 number of samples too."""
+import json
 import os
 
 import numpy as np
@@ -9,7 +10,8 @@ import pytest
 import hydraBuild
 import stages
 
-# 3: smoothed; 20: past the first image and the smoothing. Light that is taken away; a lens; fibres, which have a box of their own.
+# 3: smoothed; 20: past the first image and the smoothing. Light that is taken away; a lens; fibres, which have a box of their
+# own.
 CASES = [("shaderball", 3), ("lightDome", 1), ("lightDome", 20), ("lightNegative", 20), ("depthOfField", 20), ("hair", 3)]
 SIZE = "48x32"
 
@@ -40,6 +42,14 @@ def test_is_the_films(tmp_path, scene, samples):
     bound = 4 * (samples + 4) * 2.0 ** -24
     for name, values in film.items():
         assert np.abs(device[name] - values).max() <= bound * np.abs(values).max(), name
+
+
+def test_tells_where_its_time_went(tmp_path):
+    report = tmp_path / "report.json"
+    hydraBuild.run_host(os.path.join(stages.SCENES, "diffuseBox.usda"), tmp_path / "image.exr", "--camera", "/World/camera",
+                        "--size", SIZE, "--set", "backend=raster", "--set", "samples=1", "--json", report)
+    stats = json.loads(report.read_text())["stats"]
+    assert all(stats[f"patina:seconds{share}"] > 0.0 for share in ("Aovs", "Shadows", "Surfaces"))
 
 
 @pytest.mark.parametrize("form, step", [("float16vec4", 2.0 ** -10), ("float16vec3", 2.0 ** -10), ("unorm8vec4", 1 / 255),

@@ -282,7 +282,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
             drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true);
             if (image) {
                 image->add(_color, &_look->differenceImage(), sample, true, film.allowsNegative());
-                return;
+                return _timer.collect(_seconds);
             }
             readColor(pixels);
             _look->read(smoothing, _download);
@@ -296,7 +296,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     if (image) {
         image->add(_color, look ? &_look->differenceImage() : nullptr, sample, false,
                    film.allowsNegative());
-        return;
+        return _timer.collect(_seconds);
     }
     readColor(pixels);
     if (!_first.empty()) {

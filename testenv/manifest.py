@@ -155,6 +155,8 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     # The program usdrecord with the assets that test_oneTruth.py draws in a process of its own; usdview in the older way.
     ("testenv/hydra/test_usdrecord.py::test_asset[[]*", "long", None),
     ("testenv/hydra/test_usdview.py::test_turn_pick_edit[[]delegate[]]", "long", None),
+    # A million and a half pixels, as Blender's own screen has them.
+    ("testenv/hydra/test_blender.py::test_the_viewport*", "long", None),
     # Half a minute of compiling shaders each, for stages that Hydra's tests draw too.
     *((f"testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]assets/{name}[]]", "long", None)
       for name in ("AnimatedCube", "CesiumMan", "InterpolationTest", "Teapot", "axis")),

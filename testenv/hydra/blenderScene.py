@@ -4,10 +4,11 @@
   python blenderScene.py EXTENSION.zip FOLDER [ENGINE...] [SETTING=NUMBER...]
 
 FOLDER gets scene.usda and ENGINE.exr of each engine (PATINA, CYCLES), and passes.npz with the passes of Patina by the names of
-their channels. Settings are Patina's."""
+their channels. Settings are Patina's. VIEWPORT writes viewport.npz, see write_viewport()."""
 import math
 import os
 import sys
+import time
 
 import bpy
 import numpy as np
@@ -172,6 +173,48 @@ def write_passes(scene, folder):
     np.savez(os.path.join(folder, "passes.npz"), **found)
 
 
+def write_viewport(scene, folder):
+    """Draws what a viewport shows from the camera's place, until it changes no more: pixels (rows from the bottom), and the
+    matrices that it looks by. A Blender without windows draws none, so the engine is asked within a render, which makes one."""
+    import gpu
+    from mathutils import Matrix
+
+    gpu.init()
+    window = bpy.context.window_manager.windows[0]
+    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    space, view = area.spaces.active, area.spaces.active.region_3d
+    space.shading.type, space.lens = "RENDERED", scene.camera.data.lens
+    view.view_perspective, view.view_matrix = "PERSP", scene.camera.matrix_world.inverted()
+    view.update()
+    width, height = region.width, region.height
+    pixelwise = Matrix(((2 / width, 0, 0, -1), (0, 2 / height, 0, -1), (0, 0, -1, 0), (0, 0, 0, 1)))
+    shown = [np.zeros(1)]
+
+    def draw(engine, depsgraph):
+        target = gpu.types.GPUOffScreen(width, height, format="RGBA32F")
+        with bpy.context.temp_override(window=window, area=area, region=region, space_data=space):
+            engine.view_update(bpy.context, depsgraph)
+            same, end = 0, time.monotonic() + 300
+            while same < 8 and time.monotonic() < end:
+                time.sleep(0.25)
+                with target.bind():
+                    gpu.matrix.load_matrix(Matrix.Identity(4))
+                    gpu.matrix.load_projection_matrix(pixelwise)
+                    engine.view_draw(bpy.context, depsgraph)
+                    read = gpu.state.active_framebuffer_get().read_color(0, 0, width, height, 4, 0, "FLOAT")
+                pixels = np.array(read.to_list(), np.float32).reshape(height, width, 4)
+                same = same + 1 if pixels.any() and np.array_equal(pixels, shown[0]) else 0
+                shown[0] = pixels
+
+    engine = next(one for one in bpy.types.HydraRenderEngine.__subclasses__() if getattr(one, "bl_idname", "") == "PATINA")
+    kept = engine.update, engine.render
+    engine.update, engine.render = lambda *_: None, draw
+    bpy.ops.render.render()
+    engine.update, engine.render = kept
+    np.savez(os.path.join(folder, "viewport.npz"), pixels=shown[0], view=view.view_matrix, window=view.window_matrix)
+
+
 def main(extension, folder, words):
     engines = [word for word in words if "=" not in word]
     settings = dict(word.split("=") for word in words if "=" in word)
@@ -184,6 +227,12 @@ def main(extension, folder, words):
     scene.hydra.export_method = "USD"  # the quick one has other strengths of lights than the exporter
     for name, value in settings.items():
         setattr(scene.patina, name, type(getattr(scene.patina, name))(value))
+    if "VIEWPORT" in engines:
+        engines.remove("VIEWPORT")
+        import gpu
+        scene.render.engine = "PATINA"
+        if hasattr(gpu, "init"):  # since Blender 5.3
+            write_viewport(scene, folder)
     for engine in engines:
         scene.render.engine = engine
         if engine == "CYCLES":

@@ -44,10 +44,10 @@ def run(made, *words):
     assert done.returncode == 0 and os.path.exists(made / "scene.usda"), done.stdout[-2000:] + done.stderr[-4000:]
 
 
-def tiles(image):
-    """:returns: means of tiles of 8 x 8 pixels"""
-    height, width = (n // 8 for n in image.shape[:2])
-    return image[:height * 8, :width * 8].reshape(height, 8, width, 8, 3).mean(axis=(1, 3))
+def tiles(image, side):
+    """:returns: means of tiles of so many pixels along a side"""
+    height, width = (n // side for n in image.shape[:2])
+    return image[:height * side, :width * side].reshape(height, side, width, side, 3).mean(axis=(1, 3))
 
 
 def test_blender_shows_what_the_exported_stage_is(tmp_path):
@@ -57,15 +57,49 @@ def test_blender_shows_what_the_exported_stage_is(tmp_path):
     stage = inProcess.Stage(str(tmp_path / "scene.usda"), "--camera", CAMERA, "--frames", str(FRAME), "-w", str(SIZE[0]),
                             "--samples", str(SAMPLES), "--maxDepth", str(DEPTH), image_height=SIZE[1])
     own = np.array(_patina.read_image(str(tmp_path / "PATINA.exr")).pixels)[..., :3]
-    seeds = [tiles(stage.image(seed)) for seed in (11, 12, 13, 14)]
     assert own.shape == (SIZE[1], SIZE[0], 3) and own.mean() > 0.1
+    check_tiles(own, stage)
+    compare_passes(np.load(tmp_path / "passes.npz"), stage)
+
+
+def test_the_viewport_shows_what_the_exported_stage_is(tmp_path):
+    run(tmp_path, "VIEWPORT", f"maxDepth={DEPTH}", "samples=4")
+    if not os.path.exists(tmp_path / "viewport.npz"):
+        pytest.skip("this Blender draws nothing without a window")
+    found = np.load(tmp_path / "viewport.npz")
+    own, place, window = found["pixels"][::-1, :, :3], np.linalg.inv(found["view"].astype(np.float64)).T, found["window"]
+    rows = ", ".join(f"({', '.join(map(repr, map(float, row)))})" for row in place)
+    (tmp_path / "view.usda").write_text(f"""#usda 1.0
+(
+    subLayers = [@scene.usda@]
+    upAxis = "Z"
+    metersPerUnit = 1
+)
+def Camera "view"
+{{
+    float focalLength = 50
+    float horizontalAperture = {100 / window[0, 0]}
+    float verticalAperture = {100 / window[1, 1]}
+    float2 clippingRange = (0.01, 10000)
+    matrix4d xformOp:transform = ({rows})
+    uniform token[] xformOpOrder = ["xformOp:transform"]
+}}
+""", encoding="utf-8")
+    height, width = own.shape[:2]
+    stage = inProcess.Stage(str(tmp_path / "view.usda"), "--camera", "/view", "--frames", str(FRAME), "-w", str(width),
+                            "--samples", "2", "--maxDepth", str(DEPTH), image_height=height)
+    check_tiles(own, stage, 32)
+
+
+def check_tiles(own, stage, side=8):
+    """Asserts that an image has the means of the stage's, tile by tile."""
+    seeds = [tiles(stage.image(seed), side) for seed in (11, 12, 13, 14)]
     mean, error = np.mean(seeds, axis=0), np.std(seeds, axis=0, ddof=1)
     # A tile's own error is known from four seeds alone: that of all tiles stands beside it. Six of them, which one tile in
     # 1e9 exceeds.
     bound = 6.0 * np.sqrt(1.25) * np.sqrt(error**2 + np.median(error) ** 2) + 0.002 * mean
-    off = np.abs(tiles(own) - mean) > bound
+    off = np.abs(tiles(own, side) - mean) > bound
     assert off.mean() < 0.01, np.argwhere(off.any(axis=2))[:20].tolist()
-    compare_passes(np.load(tmp_path / "passes.npz"), stage)
 
 
 def spread(values):

@@ -304,7 +304,6 @@ void Film::copyFrom(const Film& other) {
         reset(other._width, other._height, other._aovs);
         _allowsNegative = other._allowsNegative;
         _planes = other._planes;
-        AovSpec spec;
         const std::vector<float> color = other.resolve("color"), alpha = other.resolve("alpha");
         const auto everyPixel = [&](auto take) {
             parallelFor(0, _height, [&](int y) {

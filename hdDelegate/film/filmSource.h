@@ -14,7 +14,7 @@ struct PixelForm {
     int components = 1;         ///< 1 to 4; a colour's fourth is alpha
     bool bottomFirst = false;   ///< order of the rows
     glm::vec4 background{0.0f}; ///< seen through what a colour does not cover
-    float nothing = 0.0f;       ///< AOVs: of pixels that show nothing; of ids the bits of an int
+    float nothing = 0.0f;       ///< value of pixels that show nothing; for ids the bits of an int
 };
 
 /// The image that a film would hold, where a device keeps it. Asked on the render thread alone,
@@ -26,6 +26,7 @@ public:
     virtual bool has(AovId aov) const = 0;
     /// @param bytes room for all pixels
     /// @returns false, and leaves the bytes as they are, for forms that it cannot give
+    /// @throws std::runtime_error where the device fails
     virtual bool read(AovId aov, const PixelForm& form, void* bytes) const = 0;
 };
 

@@ -51,7 +51,8 @@ public:
 
 private:
     void release() {
-        if (_film && _film->source()) _film->reset(0, 0, {});
+        if (_film && _film->source() && _passes && _film->source() == _passes->image())
+            _film->reset(0, 0, {});
         _lights.reset();
         _passes.reset();
         _raster.reset();

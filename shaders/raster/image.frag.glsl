@@ -35,7 +35,7 @@ vec4 colorOf(ivec2 pixel) {
         mean = vec4(mix(mean.rgb, first.rgb, shares.z), shares.x > 0.0 ? mean.a : first.a);
     }
     if (options.z == 0) mean.rgb = max(mean.rgb, vec3(0.0));
-    return mean + (1.0 - mean.a) * other;
+    return mean;
 }
 
 float depthOf(vec3 p) {
@@ -57,10 +57,11 @@ void main() {
 #ifdef IDS
     outValue = ivec4(drawn ? texelFetch(ids, pixel, 0)[options.w] : nothing);
 #else
+    vec4 color = options.x <= ALPHA ? colorOf(pixel) : vec4(0.0);
     if (options.x == COLOR)
-        outValue = colorOf(pixel);
+        outValue = color + (1.0 - color.a) * other;
     else if (options.x == ALPHA)
-        outValue = vec4(colorOf(pixel).a);
+        outValue = vec4(color.a == 0.0 ? other.x : color.a);
     else
         outValue = vec4(drawn ? depthOf((worldToCamera * vec4(place.xyz, 1.0)).xyz) : other.x);
     if (options.w != 0) outValue = clamp(outValue, vec4(-65504.0), vec4(65504.0));

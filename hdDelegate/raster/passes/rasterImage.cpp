@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/passes/rasterImage.h"
 
+#include "hdDelegate/raster/gl/deviceError.h"
 #include "hdDelegate/raster/gl/eglContext.h"
 #include "hdDelegate/raster/passes/rasterLook.h"
 
@@ -48,6 +49,9 @@ bool RasterImage::begin(int width, int height, const int window[4], const Raster
         _targets.clear();
         _width = width;
         _height = height;
+        // Those that hosts ask for as a rule: that there is no room shows before anything is drawn.
+        for (const GLenum format : {GL_RGBA16F, GL_R32F, GL_R32I})
+            _complete = target(format).complete && _complete;
     }
     const float none[4] = {0, 0, 0, 0};
     for (GLint i = 0; i < 2; ++i)
@@ -72,7 +76,7 @@ void RasterImage::add(const GlTexture& color, const GlTexture* difference,
     gl.Enable(GL_BLEND);
     gl.BlendFunc(GL_ONE, GL_ONE);
     color.bind(0);
-    if (difference) difference->bind(1);
+    (difference ? *difference : color).bind(1); // not what is drawn into
     _accumulate->use();
     gl.Uniform4i(0, _window[0], _window[1], _window[2], _window[3]);
     gl.Uniform4i(1, sample.border(), !difference ? 0 : first ? 2 : 1, negative ? 1 : 0, 0);
@@ -115,12 +119,12 @@ bool RasterImage::read(AovId aov, const PixelForm& form, void* bytes) const {
         (aov != AovId::color && form.components != 1))
         return false;
     const EglContext::Use use(_context);
-    if (!use.ok()) return false;
+    if (!use.ok()) throw DeviceError("the OpenGL context cannot be used");
     const bool many = aov == AovId::color;
     const Target& to = target(id     ? GL_R32I
                               : half ? (many ? GL_RGBA16F : GL_R16F)
                                      : (many ? GL_RGBA32F : GL_R32F));
-    if (!to.complete) return false;
+    if (!to.complete) throw DeviceError("the driver has no room for an image of this size");
     to.framebuffer.bind();
     gl.Viewport(0, 0, _width, _height);
     gl.Disable(GL_DEPTH_TEST);
@@ -162,6 +166,7 @@ bool RasterImage::read(AovId aov, const PixelForm& form, void* bytes) const {
                    : half ? GL_HALF_FLOAT
                           : GL_FLOAT,
                    size * size_t(_width) * size_t(_height), bytes);
+    if (gl.GetError() != GL_NO_ERROR) throw DeviceError("the driver gives no image");
     return true;
 }
 

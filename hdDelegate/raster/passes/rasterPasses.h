@@ -41,6 +41,7 @@ public:
 
     /// Begins an image that stays on the device.
     const FilmSource& beginImage(const EglContext& context, const RasterCamera& camera);
+    const FilmSource* image() const { return _image.get(); } ///< of before, or null
 
     /// Ids and positions through the pixels' centres, and what else the AOVs need.
     /// @param inSteps shadow maps may have some larger texels, so that small moves of the camera

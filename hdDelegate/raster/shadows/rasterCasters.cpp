@@ -14,6 +14,7 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
         _shadowMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layers);
         _shadowSlopes = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RG16F, size, size, layers);
         _shadowLayers = layers;
+        _shownShadows = {};
         for (const GlTexture* maps : {&_shadowMaps, &_shadowSlopes}) {
             maps->parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
             maps->parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);

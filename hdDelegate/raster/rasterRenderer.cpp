@@ -98,7 +98,7 @@ private:
         }
     }
 
-    /// @param standIns shows displayColor where programs are not ready, instead of waiting
+    /// @param standIns shows them where programs are not ready, instead of waiting
     void build(const SceneState& state, const RasterCamera& camera, bool standIns) {
         if (!_compiled || _compiled->scene() != _scene) {
             release();

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/raster/gl/deviceError.h"
 #include "hdDelegate/raster/gl/glFaults.h"
+#include "materialNetwork/standIn.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -86,8 +87,10 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
                  ? std::next(it)
                  : _materials.erase(it);
     }
-    for (auto& item : _materials)
+    for (auto& item : _materials) {
         item.second.lit = false;
+        if (item.second.standIn) item.second.standIn->lit = false;
+    }
 }
 
 bool RasterMaterials::edit(const SceneDelta::Paths& edited, const SceneState& state,
@@ -144,14 +147,18 @@ RasterMaterials::Cached& RasterMaterials::asked(const std::string& path, const s
                                                 const SceneState& state,
                                                 const RenderSettings& settings) {
     Cached& cached = compiled(path, user, state, settings);
+    ask(cached, cached.prim ? path : std::string(), settings);
+    return cached;
+}
+
+void RasterMaterials::ask(Cached& cached, const std::string& key, const RenderSettings& settings) {
     RasterMaterial& m = cached.material;
     const bool first = !cached.built;
     if (first) m.glsl = makeGlslMaterial(m.program->ir());
     const bool relit = !cached.lit && light(cached, settings);
-    if (!first && !relit) return cached;
+    if (!first && !relit) return;
     cached.built = true;
     cached.taken = false;
-    const std::string key = cached.prim ? path : std::string();
     if (first)
         for (const std::string& line : m.glsl.leftOut)
             _diagnostics.warn(key, "", line);
@@ -160,7 +167,6 @@ RasterMaterials::Cached& RasterMaterials::asked(const std::string& path, const s
         primvars.push_back(p.name);
     m.primvars = _aovs.with(primvars);
     cached.pending = build(m.glsl, int(m.primvars.size()), cached.lighting, key);
-    return cached;
 }
 
 void RasterMaterials::prepare(const std::string& path, const SceneState& state,
@@ -186,12 +192,24 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
     Cached& cached = asked(path, user, state, settings);
     if (cached.taken) return cached.material;
     const std::string key = cached.prim ? path : std::string();
-    if (!cached.pending->done && _showStandIns && !key.empty()) {
-        ++_standIns;
-        if (cached.standIn.programs != get(std::string(), user, state, settings).programs)
-            copyDisplayColor(cached.standIn, user, state, settings);
-        return cached.standIn;
+    if (!cached.pending->done && _showStandIns && !key.empty()) return standIn(cached, settings);
+    if (!take(cached, key)) copyDisplayColor(cached.material, user, state, settings);
+    return cached.material;
+}
+
+const RasterMaterial& RasterMaterials::standIn(Cached& cached, const RenderSettings& settings) {
+    ++_standIns;
+    if (!cached.standIn) {
+        cached.standIn = std::make_unique<Cached>();
+        cached.standIn->material.program =
+            _compiledMaterials.compile(makeStandInNetwork(*cached.material.program));
     }
+    ask(*cached.standIn, std::string(), settings);
+    if (!cached.standIn->taken) take(*cached.standIn, std::string());
+    return cached.standIn->material;
+}
+
+bool RasterMaterials::take(Cached& cached, const std::string& key) {
     await(*cached.pending);
     if (cached.pending->failure) std::rethrow_exception(cached.pending->failure);
     cached.taken = true;
@@ -204,12 +222,11 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
                           "shown: " +
                               cached.pending->error);
         if (key.empty()) throw DeviceError("the driver does not take the shader of displayColor");
-        copyDisplayColor(m, user, state, settings);
-        return m;
+        return false;
     }
     m.parameters = GlBuffer(m.glsl.parameters);
     m.textures = _uploaded.units(m.glsl.textures);
-    return m;
+    return true;
 }
 
 void RasterMaterials::await(const PendingPrograms& pending) {
@@ -363,7 +380,7 @@ std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial
         }
         pending->done = true;
     };
-    // displayColor stands in for all others.
+    // displayColor and what stands in for others are shown at once.
     if (_compiler && !user.empty())
         _compiler->add(make);
     else

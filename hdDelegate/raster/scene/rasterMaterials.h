@@ -67,7 +67,7 @@ public:
     /// The same until one more is ready, or for so long.
     void waitForMore(std::chrono::milliseconds maximum);
     Ready ready() const;
-    /// Whether get() gives displayColor in place of what is not ready, instead of waiting for it.
+    /// Whether get() gives makeStandInNetwork() in place of what is not ready, instead of waiting.
     void showStandIns(bool show) { _showStandIns = show; }
     /// How often get() has done so since update().
     size_t standIns() const { return _standIns; }
@@ -85,7 +85,7 @@ public:
     /// before: with other primvars, with displacement or with light of its own
     bool edit(const SceneDelta::Paths& edited, const SceneState& state,
               const RenderSettings& settings);
-    /// Whether materials in use are there themselves, and no displayColor for them.
+    /// Whether materials in use are there themselves, and nothing for them.
     bool areShown(const SceneDelta::Paths& edited) const;
     /// The outputs of programs beside light.
     const RasterAovRequest& aovs() const { return _aovs; }
@@ -120,7 +120,7 @@ private:
         bool built = false;               ///< its text, and its programs are asked for
         bool taken = false;               ///< its GPU objects are there
         std::shared_ptr<const PendingPrograms> pending;
-        RasterMaterial standIn; ///< until it is taken
+        std::unique_ptr<Cached> standIn; ///< what was shown until it was taken
     };
 
     /// The programs of one text, and when they were last seen in use.
@@ -137,6 +137,13 @@ private:
                      const RenderSettings& settings);
     Cached& asked(const std::string& path, const std::string& user, const SceneState& state,
                   const RenderSettings& settings);
+    /// Makes a material's text and asks for its programs, where that is not done.
+    /// @param key of the material; empty: this thread makes them at once
+    void ask(Cached& cached, const std::string& key, const RenderSettings& settings);
+    /// Makes the GPU objects of a material whose programs are done.
+    /// @returns false, after a warning, where the driver does not take them
+    bool take(Cached& cached, const std::string& key);
+    const RasterMaterial& standIn(Cached& cached, const RenderSettings& settings);
     std::shared_ptr<const PendingPrograms> build(const GlslMaterial& glsl, int primvars,
                                                  const std::string& lighting,
                                                  const std::string& user);

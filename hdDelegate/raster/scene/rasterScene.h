@@ -77,7 +77,7 @@ public:
     /// are too coarse for shadows where places are large beside what is seen
     /// @param lights that materials are lit by: with a tolerance they decide how
     /// @param compiling is told how far the programs are; empty: what is not ready is shown as
-    /// displayColor, instead of being waited for
+    /// a stand-in, instead of being waited for
     void update(const SceneState& state, const vec3& origin, const RasterCamera& camera,
                 const RenderSettings& settings, const RasterLightPlan& lights,
                 const std::atomic<bool>& stop, const Compiling& compiling);
@@ -85,7 +85,7 @@ public:
     bool lightsMayDiffer() const { return _lightsMayDiffer; }
     /// How far the programs are that update() has asked for.
     RasterMaterials::Ready programsReady() const { return _materials.ready(); }
-    /// How many materials displayColor stands in for since update().
+    /// How many materials something stands in for since update().
     size_t standIns() const { return _materials.standIns(); }
     /// Waits until one more is ready, or for so long.
     void waitForPrograms(std::chrono::milliseconds maximum) { _materials.waitForMore(maximum); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images while programs are compiled: what is not ready shows displayColor, and nothing of that
-// reaches the final image.
+// Images while programs are compiled: something simple stands in for what is not ready, and nothing
+// of that reaches the final image.
 
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
@@ -33,9 +33,9 @@ struct SlowPrograms {
     }
 };
 
-/// Three squares beside each other, which glow red, green and blue and have a grey displayColor,
-/// without lights.
-std::shared_ptr<Scene> makeScene() {
+/// Three squares beside each other, without lights. They glow red, green and blue; or they are
+/// metals of these colours.
+std::shared_ptr<Scene> makeScene(bool metals = false) {
     auto scene = std::make_shared<Scene>();
     SceneEdit edit = scene->edit();
     for (int i = 0; i < 3; ++i) {
@@ -57,6 +57,16 @@ std::shared_ptr<Scene> makeScene() {
         surface.id = "ND_surface";
         surface.connections["edf"] = {i == 2 ? twice.path : glow.path, ""};
         material->network.nodes = {glow, twice, surface};
+        if (metals) {
+            NetworkNode metal;
+            metal.path = surface.path;
+            metal.id = "UsdPreviewSurface";
+            metal.inputs["diffuseColor"] =
+                Value::makeColor3(0.4f * color.x, 0.4f * color.y, 0.4f * color.z);
+            metal.inputs["metallic"] = Value::makeFloat(1.0f);
+            metal.inputs["clearcoat"] = Value::makeFloat(i == 1 ? 0.1f : 0.0f);
+            material->network.nodes = {metal};
+        }
         material->network.terminals["surface"] = {surface.path, ""};
         edit.set(std::shared_ptr<const MaterialPrim>(material));
         auto mesh = std::make_shared<Mesh>();
@@ -75,6 +85,13 @@ std::shared_ptr<Scene> makeScene() {
     place[3] = vec4(0, 0, 8, 1);
     camera->transform = place;
     edit.set(std::shared_ptr<const Camera>(camera));
+    if (metals) {
+        auto sky = std::make_shared<Light>();
+        sky->path = "/sky";
+        sky->type = LightType::Dome;
+        sky->cameraVisible = false;
+        edit.set(std::shared_ptr<const Light>(sky));
+    }
     return scene;
 }
 
@@ -84,7 +101,7 @@ struct Shown {
     std::vector<float> last;
 };
 
-Shown render(bool interactive, int threads, std::string& error) {
+Shown render(bool interactive, int threads, std::string& error, bool metals = false) {
     Shown shown;
     const auto renderer = makeRasterRenderer(error);
     if (!renderer) return shown;
@@ -99,7 +116,7 @@ Shown render(bool interactive, int threads, std::string& error) {
         shown.images.push_back(f.resolve("color"));
         shown.reported.push_back(p);
     });
-    renderer->start(makeScene(), "/camera", settings, film);
+    renderer->start(makeScene(metals), "/camera", settings, film);
     renderer->wait();
     error = renderer->progress().error;
     shown.last = film->resolve("color");
@@ -132,11 +149,35 @@ TEST(EarlyImages, ShowWhatIsReadyAndLeaveNothingInTheLast) {
         ASSERT_GT(shown.images.size(), 1u);
         const auto& first = shown.reported.front().statistics;
         EXPECT_LT(first.at("materialsReady"), first.at("materialsWanted")) << threads;
-        // A surface that is not ready is grey, and no light changes that.
+        // What stands in for a surface that glows is black.
         EXPECT_LT(sum(shown.images.front()), 0.9f * sum(batch.last)) << threads;
         EXPECT_FALSE(shown.reported.front().converged);
         EXPECT_TRUE(shown.reported.back().converged);
         EXPECT_EQ(shown.last, batch.last) << "the order of programs reached the image: " << threads;
+    }
+}
+
+TEST(EarlyImages, HaveTheColorsOfTheirMaterials) {
+    PATINA_NEED_CONTEXT();
+    const SlowPrograms slow("1500");
+    std::string error;
+    const Shown shown = render(true, 1, error, true);
+    ASSERT_EQ(error, "");
+    ASSERT_GT(shown.images.size(), 1u);
+    const auto& first = shown.reported.front().statistics;
+    EXPECT_LT(first.at("materialsReady"), first.at("materialsWanted"));
+    const auto colorOf = [](const std::vector<float>& image, int square) {
+        vec3 sum(0.0f); // over a third of each row
+        for (int y = 0; y < 12; ++y)
+            for (int x = 8 * square; x < 8 * square + 8; ++x)
+                for (int c = 0; c < 3; ++c)
+                    sum[c] += image[size_t(3 * (y * 24 + x) + c)];
+        return sum;
+    };
+    for (int i = 0; i < 3; ++i) {
+        const vec3 early = colorOf(shown.images.front(), i), last = colorOf(shown.last, i);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(early[c], last[c], 0.1f * last[i]) << "square " << i << " channel " << c;
     }
 }
 

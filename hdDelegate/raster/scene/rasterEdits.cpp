@@ -47,7 +47,7 @@ void RasterScene::findBounds() {
 }
 
 void RasterScene::addResized(const SceneState& state, const RasterCamera& camera,
-                             SceneEdits& edits) {
+                             const std::atomic<bool>& stop, SceneEdits& edits) {
     RasterInstances places(_parts.placements, camera.timeCode(0.5f), _origin);
     for (const auto& [path, span] : _spans) {
         if (span.byEdge.empty()) continue;
@@ -58,8 +58,9 @@ void RasterScene::addResized(const SceneState& state, const RasterCamera& camera
         const auto& where = places.places(prim->second->group);
         bool same = true;
         for (const auto& [edge, list] : span.byEdge)
-            for (size_t i = 0; same && i < list.size(); ++i)
+            for (size_t i = 0; same && !stop && i < list.size(); ++i)
                 same = list[i] < where.size() && detail.edgeAt(where[list[i]]) == edge;
+        if (stop) return; // the next update looks at everything
         if (same) continue;
         edits.delta.geometry.emplace(path, PrimEdit::Set);
         edits.touched.insert(path);

@@ -52,7 +52,7 @@ void RasterScene::update(const SceneState& state, const vec3& origin, const Rast
                       _parts.meshLights == before.meshLights &&
                       lights.needsFilters() == _filtered && lights.text() == _lightText;
     auto edits = same ? _compiled.editsSince(_version, state) : std::nullopt;
-    if (edits && moved) addResized(state, camera, *edits);
+    if (edits && moved) addResized(state, camera, stop, *edits);
     if (!edits || edits->delta.size() != edits->delta.cameras.size()) ++_shadowVersion;
     _complete = false;
     _origin = origin;

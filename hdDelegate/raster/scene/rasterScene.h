@@ -151,7 +151,8 @@ private:
     bool updateTouched(const SceneEdits& edits, const SceneState& state, const RasterCamera& camera,
                        const std::atomic<bool>& stop, const Compiling& compiling);
     /// Adds the prims that another camera sees finer or coarser.
-    void addResized(const SceneState& state, const RasterCamera& camera, SceneEdits& edits);
+    void addResized(const SceneState& state, const RasterCamera& camera,
+                    const std::atomic<bool>& stop, SceneEdits& edits);
     bool redraw(const std::shared_ptr<const Geometry>& prim, const SceneState& state,
                 const RasterCamera& camera, RasterInstances& places);
     void showMaterials(const Geometry& prim, const SceneState& state);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/raster/passBlock.glsl"
 #include "shaders/raster/instance.glsl"
+#include "shaders/raster/draws.glsl"
 
 #ifdef SHADOW
 layout(location = 2) uniform mat4 worldToMap;
@@ -12,7 +13,6 @@ layout(location = 3) uniform int category; // of what casts, -1: everything
 layout(std430, binding = 6) readonly buffer Primvars { vec4 primvars[]; };
 // Per instance of a draw: in xy the low and high 16 bits of what it has, then PRIMVARS values.
 layout(std430, binding = 11) readonly buffer InstanceValues { vec4 instanceValues[]; };
-layout(location = 1) uniform ivec4 drawInfo; // w: where the draw's values begin, plus 1; 0: it has none
 #endif
 
 invariant gl_Position; // depths that were drawn before are met again
@@ -26,6 +26,8 @@ out vec3 vNormal; // of strips: along the curve
 out vec2 vAcross; // of strips, see onStrip()
 flat out mat3 vNormalMatrix;
 flat out float vScale;
+flat out ivec4 drawInfo; // as DrawRecord has it
+flat out ivec2 drawRows; // the same, first two
 flat out ivec4 vInstance; // id, row of links, bits of primvars that are those of an instance, place of the prim
 #if PRIMVARS > 0
 out vec4 vPrimvars[PRIMVARS];
@@ -43,11 +45,14 @@ void main() {
     vAcross = onStrip();
     vNormal = inPosition.w != 0.0 ? alongStrip() : vNormalMatrix * inNormal;
     vInstance = ivec4(instanceIds.xy, 0, instanceIds.w);
+    DrawRecord draw = draws[firstDraw + DRAW_OF_CALL];
+    drawInfo = draw.info;
+    drawRows = draw.rows.xy;
 #if PRIMVARS > 0
     for (int i = 0; i < PRIMVARS; ++i)
-        vPrimvars[i] = primvars[gl_VertexID * PRIMVARS + i];
-    if (drawInfo.w > 0) {
-        int at = drawInfo.w - 1 + instanceIds.z * (PRIMVARS + 1);
+        vPrimvars[i] = primvars[draw.rows.z + (gl_VertexID - draw.rows.w) * PRIMVARS + i];
+    if (draw.info.w > 0) {
+        int at = draw.info.w - 1 + instanceIds.z * (PRIMVARS + 1);
         vInstance.z = int(instanceValues[at].x) | int(instanceValues[at].y) << 16;
         for (int i = 0; i < PRIMVARS; ++i)
             if ((vInstance.z & (1 << i)) != 0) vPrimvars[i] = instanceValues[at + 1 + i];

@@ -142,9 +142,9 @@ bool isEnough(std::string& error) {
         const char* what;
     };
     for (const Limit& limit :
-         {Limit{GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 2, "storage buffers in vertex shaders"},
+         {Limit{GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 3, "storage buffers in vertex shaders"},
           Limit{GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS, 8, "storage buffers in fragment shaders"},
-          Limit{GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, 12, "bindings of storage buffers"},
+          Limit{GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, 13, "bindings of storage buffers"},
           Limit{GL_MAX_UNIFORM_BLOCK_SIZE, 63232, "bytes in a uniform block"}}) {
         GLint there = 0;
         gl.GetIntegerv(limit.name, &there);

@@ -14,6 +14,7 @@ namespace patina {
 ///   shadow)
 /// - `material:PATH` the program of that material does not compile
 /// - `compiling:N`   programs of a material take N milliseconds more
+/// - `singleDraws:1` shaders are not told which draw of a call they run for
 /// - `storageBlocks:N` shaders may read N buffers
 /// - `uniformBlock:N` uniform blocks hold N bytes
 /// - `textureSize:N` textures of materials may have N x N pixels

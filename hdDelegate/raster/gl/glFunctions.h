@@ -48,7 +48,6 @@ namespace patina {
     X(DispatchCompute, DISPATCHCOMPUTE)                                                            \
     X(DrawArrays, DRAWARRAYS)                                                                      \
     X(DrawArraysInstanced, DRAWARRAYSINSTANCED)                                                    \
-    X(DrawElementsInstancedBaseInstance, DRAWELEMENTSINSTANCEDBASEINSTANCE)                        \
     X(Enable, ENABLE)                                                                              \
     X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)                                            \
     X(FenceSync, FENCESYNC)                                                                        \
@@ -67,11 +66,13 @@ namespace patina {
     X(GetShaderInfoLog, GETSHADERINFOLOG)                                                          \
     X(GetShaderiv, GETSHADERIV)                                                                    \
     X(GetString, GETSTRING)                                                                        \
+    X(GetStringi, GETSTRINGI)                                                                      \
     X(GetTextureSubImage, GETTEXTURESUBIMAGE)                                                      \
     X(GetUniformLocation, GETUNIFORMLOCATION)                                                      \
     X(LinkProgram, LINKPROGRAM)                                                                    \
     X(MapNamedBufferRange, MAPNAMEDBUFFERRANGE)                                                    \
     X(MemoryBarrier, MEMORYBARRIER)                                                                \
+    X(MultiDrawElementsIndirect, MULTIDRAWELEMENTSINDIRECT)                                        \
     X(NamedBufferStorage, NAMEDBUFFERSTORAGE)                                                      \
     X(NamedBufferSubData, NAMEDBUFFERSUBDATA)                                                      \
     X(NamedFramebufferDrawBuffers, NAMEDFRAMEBUFFERDRAWBUFFERS)                                    \
@@ -116,6 +117,8 @@ struct GlFunctions {
 #define PATINA_GL_DECLARE(name, NAME) PFNGL##NAME##PROC name = nullptr;
     PATINA_GL_FUNCTIONS(PATINA_GL_DECLARE)
 #undef PATINA_GL_DECLARE
+    /// Vertex shaders know which draw of a call they run for (ARB_shader_draw_parameters).
+    bool tellsDraws = false;
 };
 
 /// OpenGL as EGL gives it; filled by the first EglContext. Call only while a context is current.

@@ -24,8 +24,14 @@ std::string log(GLuint object, PFNGLGETSHADERIVPROC get, PFNGLGETSHADERINFOLOGPR
 /// The text as the driver gets it.
 ShaderText sourceOf(const GlStage& stage, std::string& error) {
     ShaderText source = flattenShader(stage.name, stage.text, error);
-    source.text =
-        "#version 450 core\n#line 1 0\n" + withoutUnusedFunctions(withoutDeadBranches(source.text));
+    // The number of a draw in its call.
+    const std::string draw = stage.type != GL_VERTEX_SHADER ? ""
+                             : gl.tellsDraws
+                                 ? "#extension GL_ARB_shader_draw_parameters : require\n"
+                                   "#define DRAW_OF_CALL gl_DrawIDARB\n"
+                                 : "#define DRAW_OF_CALL 0\n";
+    source.text = "#version 450 core\n" + draw + "#line 1 0\n" +
+                  withoutUnusedFunctions(withoutDeadBranches(source.text));
     if (glFault("program") == stage.name) source.text += "#error asked for by PATINA_GL_FAULT\n";
     return source;
 }

@@ -79,7 +79,7 @@ void HeldFences::install() {
     PATINA_GL_CLEAR(ClearNamedFramebufferiv, CLEARNAMEDFRAMEBUFFERIV)
     PATINA_GL_HOLD(DrawArrays, DRAWARRAYS, draws)
     PATINA_GL_HOLD(DrawArraysInstanced, DRAWARRAYSINSTANCED, draws)
-    PATINA_GL_HOLD(DrawElementsInstancedBaseInstance, DRAWELEMENTSINSTANCEDBASEINSTANCE, draws)
+    PATINA_GL_HOLD(MultiDrawElementsIndirect, MULTIDRAWELEMENTSINDIRECT, draws)
     PATINA_GL_HOLD(QueryCounter, QUERYCOUNTER, drawsApart)
     PATINA_GL_HOLD(CopyImageSubData, COPYIMAGESUBDATA, drawsApart)
     PATINA_GL_HOLD(DeleteBuffers, DELETEBUFFERS, ends)

@@ -2,6 +2,7 @@
 #include "hdDelegate/raster/passes/rasterPasses.h"
 
 #include "hdDelegate/raster/gl/deviceError.h"
+#include "hdDelegate/raster/passes/rasterDrawList.h"
 #include "hdDelegate/raster/passes/rasterPassBlock.h"
 #include "shaders/shaders.h"
 
@@ -115,15 +116,28 @@ static bool isDrawnByDepth(const RasterDraw& d) {
            !d.material->glsl.transmits && !d.culls();
 }
 
+namespace {
+
+/// What the driver is told before draws.
+struct DrawState {
+    const GlProgram* program = nullptr;
+    const RasterMaterial* material = nullptr;
+    vec4 glow{0.0f};
+    int table = -1;     ///< of a mesh light
+    bool known = false; ///< its depth is drawn already
+    bool operator==(const DrawState& o) const {
+        return program == o.program && material == o.material && glow == o.glow &&
+               table == o.table && known == o.known;
+    }
+};
+
+} // namespace
+
 void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which,
                                 const RasterLightFilters* filters) const {
     const bool aovs = which == AllForAovs;
-    scene.bind(_vertexArray);
-    const GlProgram* last = nullptr;
-    const RasterMaterial* lastMaterial = nullptr;
-    vec4 lastGlow(NAN);
-    int lastTable = INT_MIN;
-    bool lastKnown = false;
+    RasterDrawList list;
+    std::vector<std::pair<DrawState, size_t>> states; ///< and the first draw of each
     for (const RasterDraw& d : scene.draws()) {
         if (!visible.shows(d)) continue;
         const GlslMaterial& glsl = d.material->glsl;
@@ -132,62 +146,65 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
             : aovs                   ? glsl.volumeOnly
                                      : glsl.transmits != (which == Transmitting))
             continue;
-        const GlProgram* program = (which == ColoredPresence ? programs.tint
-                                    : aovs                   ? programs.aovs
-                                                             : programs.color)
-                                       .get();
-        if (program != last) {
-            program->use();
-            lastGlow = vec4(NAN);
-            lastTable = INT_MIN;
-        }
-        last = program;
-        if (d.material != lastMaterial) {
-            d.material->parameters.bindUniform(1);
-            for (size_t i = 0; i < d.material->textures.size(); ++i)
-                d.material->textures[i]->bind(GLuint(i));
-        }
-        lastMaterial = d.material;
-        gl.Uniform4i(1, d.surface->primvarBits, d.primId, d.flags, d.values);
-        if (aovs && !_aovRequest.primvars.empty()) {
-            int slots[RasterAovRequest::maxPrimvars] = {-1, -1, -1, -1};
-            for (size_t i = 0; i < _aovRequest.primvars.size(); ++i)
-                slots[i] = RasterAovRequest::slot(d.material->primvars, _aovRequest.primvars[i]);
-            gl.Uniform4i(8, slots[0], slots[1], slots[2], slots[3]);
-        }
+        DrawState state;
+        state.program = (which == ColoredPresence ? programs.tint
+                         : aovs                   ? programs.aovs
+                                                  : programs.color)
+                            .get();
+        state.material = d.material;
         if (!aovs) {
-            const vec4 glow(d.meshLight.radiance, float(d.meshLight.mode));
-            if (glow != lastGlow) gl.Uniform4f(7, glow.x, glow.y, glow.z, glow.w);
-            lastGlow = glow;
-            const int table = filters ? filters->tableOfMesh(d.meshLight.filtered) : -1;
-            if (table != lastTable) gl.Uniform1i(13, table);
-            lastTable = table;
+            state.glow = vec4(d.meshLight.radiance, float(d.meshLight.mode));
+            state.table = filters ? filters->tableOfMesh(d.meshLight.filtered) : -1;
         }
-        const bool known = which == Solid && isDrawnByDepth(d);
-        if (known != lastKnown) gl.DepthFunc(known ? GL_LEQUAL : GL_LESS);
-        lastKnown = known;
-        drawRuns(d, *d.surface, visible, true);
+        state.known = which == Solid && isDrawnByDepth(d);
+        if (states.empty() || !(states.back().first == state))
+            states.emplace_back(state, list.size());
+        list.add(d, *d.surface, visible);
+    }
+    list.upload(true);
+    scene.bind(_vertexArray);
+    DrawState last;
+    for (size_t i = 0; i < states.size(); ++i) {
+        const auto& [state, first] = states[i];
+        const bool fresh = state.program != last.program;
+        if (fresh) state.program->use();
+        if (state.material != last.material) {
+            state.material->bind();
+            if (aovs && !_aovRequest.primvars.empty()) {
+                int slots[RasterAovRequest::maxPrimvars] = {-1, -1, -1, -1};
+                for (size_t p = 0; p < _aovRequest.primvars.size(); ++p)
+                    slots[p] =
+                        RasterAovRequest::slot(state.material->primvars, _aovRequest.primvars[p]);
+                gl.Uniform4i(8, slots[0], slots[1], slots[2], slots[3]);
+            }
+        }
+        if (!aovs && (fresh || state.glow != last.glow))
+            gl.Uniform4f(7, state.glow.x, state.glow.y, state.glow.z, state.glow.w);
+        if (!aovs && (fresh || state.table != last.table)) gl.Uniform1i(13, state.table);
+        if (state.known != last.known) gl.DepthFunc(state.known ? GL_LEQUAL : GL_LESS);
+        last = state;
+        list.draw(_vertexArray, first, i + 1 < states.size() ? states[i + 1].second : list.size(),
+                  true);
+        const RasterPrograms& programs = *state.material->programs;
         if (!aovs && which != ColoredPresence && !programs.drawn) {
             programs.drawn = true;
             if (_firstDraws) _firstDraws();
         }
     }
-    if (lastKnown) gl.DepthFunc(GL_LESS);
+    if (last.known) gl.DepthFunc(GL_LESS);
 }
 
 void RasterPasses::drawDepths(const RasterScene& scene, const RasterVisible& visible) const {
-    bool used = false;
-    for (const RasterDraw& d : scene.draws()) {
-        if (!isDrawnByDepth(d) || !visible.shows(d)) continue;
-        if (!used) {
-            scene.bind(_vertexArray);
-            _depthOnly->use();
-            gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        }
-        used = true;
-        drawRuns(d, *d.surface, visible, false);
-    }
-    if (used) gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    RasterDrawList list;
+    for (const RasterDraw& d : scene.draws())
+        if (isDrawnByDepth(d)) list.add(d, *d.surface, visible);
+    if (list.empty()) return;
+    list.upload(false);
+    scene.bind(_vertexArray);
+    _depthOnly->use();
+    gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    list.draw(_vertexArray, 0, list.size(), false);
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t from,
@@ -246,13 +263,13 @@ void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisibl
     const auto transmits = [](const RasterDraw& d) { return d.material->glsl.transmits; };
     if (std::none_of(scene.draws().begin(), scene.draws().end(), transmits)) return;
     needRefraction();
+    RasterDrawList backs;
+    for (const RasterDraw& d : scene.draws())
+        if (transmits(d)) backs.add(d, *d.surface, visible);
+    backs.upload(true);
     _refraction->keep(_color, _depth);
     _refraction->beginBacks();
-    for (const RasterDraw& d : scene.draws()) {
-        if (!transmits(d)) continue;
-        gl.Uniform4i(1, 0, d.primId, d.flags, 0);
-        drawRuns(d, *d.surface, visible, true);
-    }
+    backs.draw(_vertexArray, 0, backs.size(), true);
     _look->target().bind();
     _refraction->bind();
     drawSurfaces(scene, visible, Transmitting, &filters);

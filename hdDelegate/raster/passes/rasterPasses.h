@@ -129,9 +129,6 @@ private:
     void smooth(const RasterSample& sample, bool look, std::vector<vec4>& pixels, Film& film);
     void beginFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
     void showFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
-    /// @param shades the program has the fragment stage of surface.frag.glsl
-    void drawRuns(const RasterDraw& draw, const RasterSurface& surface,
-                  const RasterVisible& visible, bool shades) const;
     void measureReceivers(const RasterScene& scene, const RasterCamera& camera, bool inSteps);
 
     std::unique_ptr<GlProgram> _shadow, _shadowAround, _depthOnly, _receivers;

@@ -37,6 +37,12 @@ std::string lightingText(const std::string& dome, const std::string& area) {
 
 } // namespace
 
+void RasterMaterial::bind() const {
+    parameters.bindUniform(1);
+    for (size_t i = 0; i < textures.size(); ++i)
+        textures[i]->bind(GLuint(i));
+}
+
 RasterMaterials::RasterMaterials(CompiledScene& compiled, ProgramCompiler* compiler)
     : _compiler(compiler), _diagnostics(compiled.scene()->diagnostics()),
       _compiledMaterials(compiled.materials()), _uploaded(compiled.textures(), _diagnostics) {}

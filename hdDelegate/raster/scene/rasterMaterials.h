@@ -39,6 +39,8 @@ struct PendingPrograms {
 
 /// A material on the GPU.
 struct RasterMaterial {
+    void bind() const; ///< its parameters and textures, for a program that is its own
+
     std::shared_ptr<const MaterialProgram> program;
     GlslMaterial glsl;
     std::shared_ptr<const RasterPrograms> programs; ///< displayColor's where its own do not compile

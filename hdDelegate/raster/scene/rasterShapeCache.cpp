@@ -136,7 +136,7 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Request& reques
         const TriangleMesh& mesh = made->mesh;
         if (mesh.positions.empty() || mesh.triangles.empty()) return shape;
         describe(*shape, mesh);
-        RasterSurfaceBuilder builder(mesh, storageLimit(), HeldFences::mostTriangles());
+        RasterSurfaceBuilder builder(mesh, _heap, storageLimit(), HeldFences::mostTriangles());
         for (size_t subset = 0; subset < request.primvars.size(); ++subset)
             shape->surfaces.push_back(
                 builder.make(subset, request.primvars[subset], request.tangentSets[subset]));
@@ -154,7 +154,7 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Request& reques
     if (!form.seen.halfWidth.empty()) shape->flags = RasterShape::strip;
     const auto fill = [&](const RasterTriangles& triangles, std::vector<RasterSurface>& surfaces) {
         if (triangles.mesh.triangles.empty()) return;
-        RasterSurfaceBuilder builder(triangles, storageLimit(), HeldFences::mostTriangles());
+        RasterSurfaceBuilder builder(triangles, _heap, storageLimit(), HeldFences::mostTriangles());
         for (size_t subset = 0; subset < request.primvars.size(); ++subset)
             surfaces.push_back(
                 builder.make(subset, request.primvars[subset], request.tangentSets[subset]));

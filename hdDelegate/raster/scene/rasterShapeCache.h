@@ -72,6 +72,7 @@ private:
     std::shared_ptr<const RasterShape> build(const Request& request);
 
     CompiledShapes& _compiled;
+    BufferHeap _heap;
     bool _retains = false;
     std::vector<std::shared_ptr<const PrimShape>> _retained;
     std::map<std::tuple<std::string, float, float>, Entry> _entries; ///< by name, edge and time

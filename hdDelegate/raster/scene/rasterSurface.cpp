@@ -12,9 +12,9 @@ namespace patina {
 namespace {
 
 constexpr uint32_t none = ~0u;
-constexpr size_t alignment = 256; ///< the largest that OpenGL lets a driver ask for
 
-template <class T> size_t append(std::vector<char>& bytes, const std::vector<T>& values) {
+template <class T>
+size_t append(std::vector<char>& bytes, size_t alignment, const std::vector<T>& values) {
     const size_t offset = (bytes.size() + alignment - 1) / alignment * alignment;
     bytes.resize(offset + std::max<size_t>(values.size() * sizeof(T), 16));
     if (!values.empty()) std::memcpy(&bytes[offset], values.data(), values.size() * sizeof(T));
@@ -23,34 +23,53 @@ template <class T> size_t append(std::vector<char>& bytes, const std::vector<T>&
 
 } // namespace
 
-RasterChunk::RasterChunk(const std::vector<Vertex>& vertices, const std::vector<vec4>& primvars,
-                         const std::vector<Triangle>& triangles,
+RasterChunk::RasterChunk(BufferHeap& heap, const std::vector<Vertex>& vertices,
+                         const std::vector<vec4>& primvars, const std::vector<Triangle>& triangles,
                          const std::vector<uint32_t>& indices)
-    : _indexCount(GLsizei(indices.size())) {
+    : _indexCount(GLuint(indices.size())) {
+    static_assert(BufferHeap::grain % sizeof(Vertex) == 0 &&
+                  BufferHeap::grain % sizeof(Triangle) == 0 &&
+                  BufferHeap::grain % sizeof(vec4) == 0);
     std::vector<char> bytes;
-    append(bytes, vertices);
-    _primvars = append(bytes, primvars);
-    _triangles = append(bytes, triangles);
-    _indices = append(bytes, indices);
-    _buffer = GlBuffer(bytes);
+    const auto fill = [&](size_t alignment) {
+        bytes.clear();
+        _vertices = append(bytes, alignment, vertices);
+        _primvars = append(bytes, alignment, primvars);
+        _triangles = append(bytes, alignment, triangles);
+        _indices = append(bytes, alignment, indices);
+    };
+    fill(BufferHeap::grain);
+    // One that is large has storage bindings of its own parts, for which drivers may ask for a
+    // multiple of 256: a binding cannot show all of the buffer.
+    const bool alone = bytes.size() > BufferHeap::largestPage / 4;
+    if (alone) fill(256);
+    _range = heap.make(bytes, alone);
+    for (size_t* offset : {&_vertices, &_primvars, &_triangles, &_indices})
+        *offset += _range.offset();
 }
 
 void RasterChunk::bind(GLuint vertexArray, bool shades) const {
-    gl.VertexArrayVertexBuffer(vertexArray, 0, _buffer.id(), 0, sizeof(Vertex));
-    gl.VertexArrayElementBuffer(vertexArray, _buffer.id());
+    const GlBuffer& buffer = _range.buffer();
+    gl.VertexArrayVertexBuffer(vertexArray, 0, buffer.id(), 0, sizeof(Vertex));
+    gl.VertexArrayElementBuffer(vertexArray, buffer.id());
     if (!shades) return;
-    _buffer.bindStorage(2, _triangles, _indices - _triangles);
-    _buffer.bindStorage(6, _primvars, _triangles - _primvars);
+    if (_range.alone()) {
+        buffer.bindStorage(2, _triangles, _indices - _triangles);
+        buffer.bindStorage(6, _primvars, _triangles - _primvars);
+    } else {
+        buffer.bindStorage(2);
+        buffer.bindStorage(6);
+    }
 }
 
-RasterSurfaceBuilder::RasterSurfaceBuilder(const TriangleMesh& mesh, size_t storageLimit,
-                                           size_t mostTriangles)
-    : _mesh(mesh), _storageLimit(storageLimit), _mostTriangles(mostTriangles),
+RasterSurfaceBuilder::RasterSurfaceBuilder(const TriangleMesh& mesh, BufferHeap& heap,
+                                           size_t storageLimit, size_t mostTriangles)
+    : _mesh(mesh), _heap(heap), _storageLimit(storageLimit), _mostTriangles(mostTriangles),
       _first(mesh.positions[0].size(), none) {}
 
-RasterSurfaceBuilder::RasterSurfaceBuilder(const RasterTriangles& triangles, size_t storageLimit,
-                                           size_t mostTriangles)
-    : RasterSurfaceBuilder(triangles.mesh, storageLimit, mostTriangles) {
+RasterSurfaceBuilder::RasterSurfaceBuilder(const RasterTriangles& triangles, BufferHeap& heap,
+                                           size_t storageLimit, size_t mostTriangles)
+    : RasterSurfaceBuilder(triangles.mesh, heap, storageLimit, mostTriangles) {
     _form = &triangles;
 }
 
@@ -140,7 +159,7 @@ RasterChunk::Triangle RasterSurfaceBuilder::triangle(unsigned t) const {
 }
 
 RasterChunk RasterSurfaceBuilder::take() {
-    RasterChunk chunk(_vertices, _primvars, _triangles, _indices);
+    RasterChunk chunk(_heap, _vertices, _primvars, _triangles, _indices);
     for (const uint32_t position : _used)
         _first[position] = none;
     _used.clear();

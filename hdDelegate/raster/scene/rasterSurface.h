@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hdDelegate/geometry/tangentFrames.h"
-#include "hdDelegate/raster/gl/glResources.h"
+#include "hdDelegate/raster/gl/bufferHeap.h"
 #include "hdDelegate/raster/scene/rasterShapes.h"
 
 #include <cstddef>
@@ -16,8 +16,8 @@ namespace patina {
 #define PATINA_FIELDS "shaders/raster/triangleFields.glsl"
 #include "shaders/gpuStruct.inc"
 
-/// Triangles in one buffer: vertices (position, normal), primvars (a vec4 each per vertex), what
-/// belongs to whole triangles, and indices.
+/// Triangles in one range of a buffer: vertices (position, normal), primvars (a vec4 each per
+/// vertex), what belongs to whole triangles, and indices.
 class RasterChunk {
 public:
     using Triangle = TriangleRows; ///< as shaders/raster/triangles.glsl has it
@@ -27,20 +27,28 @@ public:
         vec3 normal{0.0f};
     };
 
-    RasterChunk(const std::vector<Vertex>& vertices, const std::vector<vec4>& primvars,
-                const std::vector<Triangle>& triangles, const std::vector<uint32_t>& indices);
+    RasterChunk(BufferHeap& heap, const std::vector<Vertex>& vertices,
+                const std::vector<vec4>& primvars, const std::vector<Triangle>& triangles,
+                const std::vector<uint32_t>& indices);
 
-    /// Vertices and indices to a vertex array (binding 0), and where something shades with them the
-    /// rest to storage bindings 2 and 6.
+    /// Binds the buffer: vertices and indices to a vertex array (binding 0), and where something
+    /// shades with them the rest to storage bindings 2 and 6.
     void bind(GLuint vertexArray, bool shades) const;
-    GLsizei indexCount() const { return _indexCount; }
-    const void* firstIndex() const { return reinterpret_cast<const void*>(_indices); }
-    size_t bytes() const { return _buffer.size(); }
+    bool sharesBindings(const RasterChunk& o) const {
+        return _range.buffer().id() == o._range.buffer().id();
+    }
+    GLuint indexCount() const { return _indexCount; }
+    // Where it begins in what is bound.
+    GLuint firstIndex() const { return GLuint(_indices / sizeof(uint32_t)); }
+    GLint firstVertex() const { return GLint(_vertices / sizeof(Vertex)); }
+    int firstTriangle() const { return _range.alone() ? 0 : int(_triangles / sizeof(Triangle)); }
+    int firstPrimvar() const { return _range.alone() ? 0 : int(_primvars / sizeof(vec4)); }
+    size_t bytes() const { return _range.size(); }
 
 private:
-    GlBuffer _buffer;
-    size_t _primvars = 0, _triangles = 0, _indices = 0; ///< offsets in bytes
-    GLsizei _indexCount = 0;
+    BufferHeap::Range _range;
+    size_t _vertices = 0, _primvars = 0, _triangles = 0, _indices = 0; ///< bytes of the buffer
+    GLuint _indexCount = 0;
 };
 
 /// The triangles of one prim that share a material.
@@ -55,13 +63,13 @@ class RasterSurfaceBuilder {
 public:
     static constexpr size_t noLimit = ~size_t(0);
 
+    /// @param heap of the buffers; like mesh and triangles it must outlive this
     /// @param storageLimit in bytes, of what one storage binding shows; more triangles go into
     ///        further chunks
     /// @param mostTriangles of a chunk
-    RasterSurfaceBuilder(const TriangleMesh& mesh, size_t storageLimit,
+    RasterSurfaceBuilder(const TriangleMesh& mesh, BufferHeap& heap, size_t storageLimit,
                          size_t mostTriangles = noLimit);
-    /// @param triangles must outlive this
-    RasterSurfaceBuilder(const RasterTriangles& triangles, size_t storageLimit,
+    RasterSurfaceBuilder(const RasterTriangles& triangles, BufferHeap& heap, size_t storageLimit,
                          size_t mostTriangles = noLimit);
 
     /// @param subset as of TriangleMesh::triangleSubset
@@ -77,6 +85,7 @@ private:
     RasterChunk take();
 
     const TriangleMesh& _mesh;
+    BufferHeap& _heap;
     const RasterTriangles* _form = nullptr;
     size_t _storageLimit, _mostTriangles;
     const MeshAttribute* _tangents = nullptr; ///< the uv set that they follow, or null

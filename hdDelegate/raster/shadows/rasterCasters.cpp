@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Casters of shadows, drawn into the maps of lights and of the sky's cells.
 
+#include "hdDelegate/raster/passes/rasterDrawList.h"
 #include "hdDelegate/raster/passes/rasterPasses.h"
 
 #include <algorithm>
@@ -59,7 +60,6 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     const uint64_t version = scene.moves() ? 0 : scene.shadowVersion();
     if (version != 0 && now.version == version && now.pass == pass && now.view == view) return;
     now = {view, pass, version};
-    scene.bind(_vertexArray);
     gl.BindFramebuffer(GL_FRAMEBUFFER, _shadowTarget);
     gl.Viewport(0, 0, maps.width(), maps.height());
     const GLenum color = slopes ? GL_COLOR_ATTACHMENT0 : GL_NONE;
@@ -75,32 +75,51 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     // emitter.
     const RasterVisible inside =
         view.own != ShadowView::Nothing ? scene.visible(view.worldToLight) : RasterVisible();
-    if (view.clampsNear) gl.Enable(GL_DEPTH_CLAMP);
-    const GlProgram* last = nullptr;
+    struct State {
+        const GlProgram* program;
+        const RasterMaterial* material; ///< null where only its shape counts
+        bool around;
+        size_t first;
+    };
+    RasterDrawList list;
+    std::vector<State> states;
+    bool evaluates = false;
     for (const RasterDraw& d : scene.draws()) {
         if (!d.prim->visibility.shadow || d.material->glsl.volumeOnly || !visible.shows(d))
             continue;
         const GlProgram* own = d.material->programs->shadow.get();
         const bool around = inside.shows(d);
-        const GlProgram* program = own ? own : around ? _shadowAround.get() : _shadow.get();
-        if (program != last) {
-            program->use();
+        const State state{own      ? own
+                          : around ? _shadowAround.get()
+                                   : _shadow.get(),
+                          own ? d.material : nullptr, around, list.size()};
+        if (states.empty() || states.back().program != state.program ||
+            states.back().material != state.material)
+            states.push_back(state);
+        evaluates |= own != nullptr;
+        list.add(d, *d.casting, visible);
+    }
+    list.upload(evaluates);
+    scene.bind(_vertexArray);
+    if (view.clampsNear) gl.Enable(GL_DEPTH_CLAMP);
+    const GlProgram* last = nullptr;
+    for (size_t i = 0; i < states.size(); ++i) {
+        const State& state = states[i];
+        if (state.program != last) {
+            state.program->use();
             gl.UniformMatrix4fv(2, 1, GL_FALSE, &view.worldToMap[0][0]);
             gl.Uniform1i(3, view.category);
             gl.Uniform4f(6, to.x, to.y, to.z, to.w);
-            if (own || around) {
+            if (state.material || state.around) {
                 gl.UniformMatrix4fv(11, 1, GL_FALSE, &view.worldToLight[0][0]);
                 gl.Uniform1i(12, int(view.own));
             }
         }
-        last = program;
-        if (own) {
-            d.material->parameters.bindUniform(1);
-            for (size_t t = 0; t < d.material->textures.size(); ++t)
-                d.material->textures[t]->bind(GLuint(t));
-            gl.Uniform4i(1, d.casting->primvarBits, d.primId, d.flags, d.values);
-        }
-        drawRuns(d, *d.casting, visible, own != nullptr);
+        last = state.program;
+        if (state.material) state.material->bind();
+        list.draw(_vertexArray, state.first,
+                  i + 1 < states.size() ? states[i + 1].first : list.size(),
+                  state.material != nullptr);
     }
     gl.Disable(GL_DEPTH_CLAMP);
 }

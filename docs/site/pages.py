@@ -11,7 +11,7 @@ TOPS = {"README.md": "index.md", "ARCHITECTURE.md": "architecture.md", "CONTRIBU
 LEFT_OUT = ("docs/site",)
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 INDEX_TITLES = {"design": "Design", "generated": "Generated reference", "measurements": "Measurements",
-                "howto": "How to add one", "tutorials": "Tutorials"}
+                "history": "Earlier versions", "howto": "How to add one", "tutorials": "Tutorials"}
 
 
 def place_of(path):

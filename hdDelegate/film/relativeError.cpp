@@ -11,7 +11,7 @@ namespace {
 
 constexpr double meanOfHalfNormal = 0.79788456080286536; // sqrt(2 / pi)
 constexpr double minLuminance = 0.01;                    // black pixels do not decide
-// Derived in docs/tolerance.md, "Thresholds".
+// Derived in docs/measurements/tolerance.md, "Thresholds".
 constexpr double fewFinds = 5.0;   // samples of a pixel that find light: halves tell too little
 constexpr double manyAround = 0.2; // of nine pixels: two or more
 constexpr double margin = 2.0;     // standard errors

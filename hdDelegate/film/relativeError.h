@@ -32,8 +32,8 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1);
 ///
 /// Well spread samples err less than their changes tell: by how fast the changes get smaller the
 /// estimate is corrected, as far as there are pixels enough to know. Two standard errors of
-/// what chance makes of the pixels are added: next to nothing for many pixels. docs/tolerance.md
-/// derives them, and says how often the true error is above.
+/// what chance makes of the pixels are added: next to nothing for many pixels.
+/// docs/measurements/tolerance.md derives them, and says how often the true error is above.
 double relativeError(const ErrorSums& sums, PixelNoise noise = PixelNoise::Independent);
 double relativeError(const Film& film, int x0, int y0, int x1, int y1,
                      PixelNoise noise = PixelNoise::Independent);

@@ -5,7 +5,7 @@
 
 The ways are the command line with the path tracer and with the rasterizer, and Hydra in both modes: the delegate's way and
 scene indices. Each draws with the same camera and the same light; a stage that has none gets them. Hydra's pictures are
-compared with the path tracer's, tile by tile (agreement.py).
+compared with the path tracer's, tile by tile (agreement.py). The rasterizer takes one sample: only faults are looked for.
 
 FOLDER may be NAME=FOLDER, so that results call it NAME, or a single stage. Each finished stage is a line of
 OUTPUT/results.jsonl; a later run goes on after it. OUTPUT/index.html shows all, with pictures of other renderers where they lie

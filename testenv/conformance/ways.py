@@ -14,17 +14,20 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 
 @dataclasses.dataclass(frozen=True)
 class Way:
-    """`title`: of the page; `backend`: of the command line, None for Hydra; `scene_index`: Hydra's mode"""
+    """`title`: of the page; `backend`: of the command line, None for Hydra; `scene_index`: Hydra's mode; `samples`: per pixel
+    in place of those that are asked for, where the picture is compared with no other"""
     name: str
     title: str
     backend: str = None
     scene_index: bool = False
+    samples: int = None
 
     def command(self, shot, image, told, samples, seed):
         """:param shot: dict of prepare.py
         :param told: file for statistics
         :returns: the words of the command"""
         width, height = shot["size"]
+        samples = self.samples or samples
         if self.backend:
             return [sys.executable, "-m", "patina", "record", shot["stage"], image, "--backend", self.backend, "--camera",
                     shot["camera"], "-w", width, "--imageHeight", height, "--samples", samples, "--seed", seed,
@@ -49,7 +52,7 @@ class Way:
 
 WAYS = {way.name: way for way in (
     Way("embree", "path tracer", backend="embree"),
-    Way("raster", "rasterizer", backend="raster"),
+    Way("raster", "rasterizer", backend="raster", samples=1),
     Way("delegate", "Hydra, delegate's way"),
     Way("sceneIndex", "Hydra, scene indices", scene_index=True))}
 COMPARED = ("delegate", "sceneIndex")  # each with the path tracer of the command line: the rasterizer may differ

@@ -148,6 +148,7 @@ def page():
     head = ("fuzzer", "tries", "inputs", "hours", "inputs per second", "lines reached", "plateau", *kinds, "command")
     most = max(by_machine, key=lambda name: by_machine[name]["inputs"])
     share = 100 * by_machine[most]["inputs"] / max(total, 1)
+    reads = FUZZERS[most].reads if most in FUZZERS else OTHERS[most][0]
     mended = [(item["what"], item["by"], f"`{item['test']}`") for item in table["mended"]]
     mistakes = [(f"`{item['fuzzer']}`", item["counted"], item["was"]) for item in table["mistakes"]]
     return ["# Trust, in figures", "",
@@ -155,11 +156,12 @@ def page():
             f"values that are no numbers. The runs below took {seconds / 3600:.1f} hours on two cores that other work",
             f"shared, and tried {total:,} inputs. [SECURITY.md](../SECURITY.md) says what Patina claims,",
             "[limits](generated/limits.md) how much an input may ask for.", "",
-            "`./patina fuzz NAME --results` runs a fuzzer, and adds a row to `testenv/fuzz/results.json`. This page is",
-            "made from that file.", "",
+            f"**The total says little**: {by_machine[most]['inputs']:,} of the inputs ({share:.0f} %) are those of `{most}`",
+            f"({reads}), which took {by_machine[most]['seconds'] / 3600:.2f} hours.", "",
+            "`./patina fuzz NAME --results` runs a fuzzer, and adds a row to `testenv/fuzz/results.json`, from which this",
+            "page is made.", "",
             "## Runs", "",
-            f"Inputs do not weigh the same: {share:.0f} % are those of `{most}`, which",
-            "take the least time. *Lines reached* is the share of [a parser's sources](#coverage-of-the-parsers) that the",
+            "*Lines reached* is the share of [a parser's sources](#coverage-of-the-parsers) that the",
             "kept inputs run. *Plateau* is for how many minutes of the longest such run no new edge of the program was",
             "reached. Where an hour reaches none, more inputs of the kind say little: such an hour is the aim, and no number",
             "of inputs. A fuzzer that has had it ends, and leaves the rest of its time to the others.", "",

@@ -89,9 +89,9 @@ TEST(RelativeError, DoesNotForgetLightThatFewSamplesFind) {
 }
 
 TEST(RelativeError, OfFewFindsFollowsFromPoissonsLaw) {
-    // The numbers of docs/tolerance.md, "Thresholds", where samples find 1 / chance or nothing. The
-    // relative variance of |n| is 0.57 and that of the halves 0.19, so 3840 pixels tell a ratio to
-    // 0.014: 0.055 is four standard errors.
+    // The numbers of docs/measurements/tolerance.md, "Thresholds", where samples find 1 / chance or
+    // nothing. The relative variance of |n| is 0.57 and that of the halves 0.19, so 3840 pixels
+    // tell a ratio to 0.014: 0.055 is four standard errors.
     constexpr int side = 64, rows = 60, samples = 256;
     for (const auto& [finds, byHalves] : {std::pair{1, 0.77}, {5, 0.93}, {16, 0.97}}) {
         Film film;

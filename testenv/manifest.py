@@ -137,7 +137,6 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/render/test_convergence.py::test_error_falls_with_samples*", "long", None),
     ("testenv/tests/test_runner.py::*", "smoke", None),
     ("testenv/raster/test_bothBackEnds.py::*", None, "raster embree lights shaders"),
-    ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]texturedDiffuse]", "smoke", None),
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]outOfView/rect]", "smoke", None),
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]outOfView/sun]", "smoke", None),
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]Te*", "long", None),

@@ -26,7 +26,8 @@ def record(stage, image, *arguments, **environment):
     report = str(image) + ".json"
     command = ["record", stage, str(image), *SIZE, "--json=" + report, *arguments]
     # Mesa reads its variables once, and the functions of OpenGL are loaded once.
-    if any(name.startswith("MESA_") for name in environment) or "lostAtCall" in environment.get("PATINA_GL_FAULT", ""):
+    fault = environment.get("PATINA_GL_FAULT", "")
+    if any(name.startswith("MESA_") for name in environment) or "lostAtCall" in fault or "singleDraws" in fault:
         process = subprocess.run([sys.executable, "-m", "patina", *command], capture_output=True, text=True,
                                  env=dict(os.environ, **environment), check=False)
     else:
@@ -141,6 +142,17 @@ def test_textures_larger_than_the_driver_takes_are_shown_smaller(textured, tmp_p
     smaller = bothBackEnds.pixels(image)
     assert abs(textured.mean() - smaller.mean()) < 0.05 * textured.mean()
     assert (textured != smaller).any()
+
+
+def test_without_numbers_of_draws_each_is_a_call(opengl, tmp_path):
+    images = []
+    for fault in ("", "singleDraws:1"):
+        image = tmp_path / f"image{fault[:6]}.exr"
+        process, statistics = record(os.path.join(bothBackEnds.SCENES, "instanceValues.usda"), image, "--backend", "raster",
+                                     PATINA_GL_FAULT=fault)
+        assert process.returncode == 0 and statistics["backend"] == "raster"
+        images.append(bothBackEnds.pixels(image))
+    assert images[0].std() > 0.0 and (images[0] == images[1]).all()
 
 
 def test_samples_of_two_back_ends_are_never_mixed(opengl, traced, tmp_path):

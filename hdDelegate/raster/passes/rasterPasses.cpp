@@ -136,10 +136,19 @@ struct DrawState {
 void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which,
                                 const RasterLightFilters* filters) const {
     const bool aovs = which == AllForAovs;
+    // What the depth test sorts is drawn material by material.
+    std::vector<std::pair<size_t, const RasterDraw*>> shown;
+    std::map<const RasterMaterial*, size_t> ranks;
+    for (const RasterDraw& d : scene.draws())
+        if (visible.shows(d))
+            shown.emplace_back(ranks.emplace(d.material, ranks.size()).first->second, &d);
+    if (aovs || which == Solid)
+        std::stable_sort(shown.begin(), shown.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
     RasterDrawList list;
     std::vector<std::pair<DrawState, size_t>> states; ///< and the first draw of each
-    for (const RasterDraw& d : scene.draws()) {
-        if (!visible.shows(d)) continue;
+    for (const auto& [rank, draw] : shown) {
+        const RasterDraw& d = *draw;
         const GlslMaterial& glsl = d.material->glsl;
         const RasterPrograms& programs = *d.material->programs;
         if (which == ColoredPresence ? !programs.tint

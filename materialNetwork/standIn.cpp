@@ -54,7 +54,7 @@ Reflectance measured(const MaterialProgram& program) {
     UvPrimvars primvars(program);
     float glossy = 0.0f;
     constexpr int all = side * side * directions;
-    const int count = program.constant() ? 1 : side * side;
+    const int count = program.constant() && program.isOpaque() ? 1 : side * side;
     for (int i = 0; i < count; ++i) {
         ShadingPoint point;
         primvars.uv = (glm::vec2(float(i % side), float(i / side)) + 0.5f) / float(side);
@@ -85,6 +85,14 @@ Reflectance measured(const MaterialProgram& program) {
 }
 
 } // namespace
+
+bool hasStandIn(const MaterialProgram& program) {
+    const auto& primvars = program.primvars();
+    return !program.isVolumeOnly() &&
+           std::all_of(primvars.begin(), primvars.end(), [](const MaterialPrimvar& primvar) {
+               return primvar.type == ValueType::Vec2 || !setOfTangents(primvar.name).empty();
+           });
+}
 
 Network makeStandInNetwork(const MaterialProgram& program) {
     const Reflectance seen = measured(program);

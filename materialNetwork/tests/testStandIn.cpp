@@ -81,6 +81,15 @@ TEST(StandIn, IsHalfTransparentForGlass) {
     EXPECT_FALSE(standIn.program->hasTransmission());
 }
 
+TEST(StandIn, IsThereForSurfacesThatShowNoPrimvars) {
+    EXPECT_TRUE(hasStandIn(*Compiled(previewNetwork()).program));
+    EXPECT_FALSE(hasStandIn(*Compiled(makeDisplayColorNetwork()).program));
+    Network fog = makeNetwork({makeNode("vdf", "ND_absorption_vdf", {{"absorption", grey(1.0f)}}),
+                               makeNode("surface", "ND_volume", {}, {{"vdf", {"vdf", ""}}})});
+    fog.terminals = {{"volume", fog.terminals["surface"]}};
+    EXPECT_FALSE(hasStandIn(*Compiled(fog).program));
+}
+
 TEST(StandIn, LeavesOutLight) {
     const Compiled glowing(
         makeNetwork({makeNode("edf", "ND_uniform_edf", {{"color", grey(2.0f)}}),
@@ -93,12 +102,26 @@ TEST(StandIn, LeavesOutLight) {
 TEST(StandIn, HasOneTextForAll) {
     const auto textOf = [](const Network& network) {
         const Compiled standIn(makeStandInNetwork(*Compiled(network).program));
-        return makeGlslMaterial(standIn.program->ir()).text;
+        const GlslMaterial glsl = makeGlslMaterial(standIn.program->ir());
+        return glsl.text + (glsl.presence ? "// present" : "");
     };
     const std::string first = textOf(opaqueCases().front().network);
     EXPECT_FALSE(first.empty());
     for (const Case& c : opaqueCases())
         EXPECT_EQ(textOf(c.network), first) << c.name;
+    const Network glass =
+        bsdfNetwork({makeNode("bsdf", "ND_dielectric_bsdf", {{"scatter_mode", text("RT")}})});
+    const Network gauze =
+        previewNetwork({{"opacity", number(0.3f)}, {"opacityMode", text("presence")}});
+    const Network cutOut = previewNetwork(
+        {{"opacityThreshold", number(0.6f)}}, {{"opacity", {"image", "r"}}},
+        {makeNode("image", "UsdUVTexture", {{"file", text("a.png")}}, {{"st", {"st", "result"}}}),
+         makeNode("st", "UsdPrimvarReader_float2", {{"varname", text("st")}})});
+    EXPECT_NE(textOf(glass), first);
+    EXPECT_EQ(textOf(gauze), textOf(glass));
+    EXPECT_EQ(textOf(cutOut), textOf(glass));
+    const Compiled leaf(makeStandInNetwork(*Compiled(cutOut).program));
+    EXPECT_NEAR(leaf.program->opacity(ShadingPoint()), 0.5f, 0.26f) << "two of four columns";
 }
 
 } // namespace patina

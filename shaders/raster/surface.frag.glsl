@@ -7,7 +7,7 @@ in vec3 vNormal;
 in vec2 vAcross;
 flat in mat3 vNormalMatrix;
 flat in float vScale;
-flat in ivec4 vInstance; // id, row of links, bits of primvars that are those of an instance, place of the prim
+flat in ivec4 vInstance; // id, row of links, bits of primvars that there are, place of the prim
 #if PRIMVARS > 0
 in vec4 vPrimvars[PRIMVARS];
 #endif
@@ -17,19 +17,18 @@ vec3 vBitangent;
 vec3 vGeometricNormal;
 float vUvPerLength;
 ivec4 vIds; // element, instance, row of links, place of the prim
-flat in ivec4 drawInfo; // as DrawRecord has it
-flat in ivec2 drawRows; // the same, first two
+flat in ivec4 drawInfo; // random numbers: what triangles are counted from; prim id; flags; first of Triangles
 
 vec4 primvar(int slot, vec4 fallback) {
 #if PRIMVARS > 0
-    if (slot >= 0 && slot < PRIMVARS && ((drawInfo.x | vInstance.z) & (1 << slot)) != 0)
+    if (slot >= 0 && slot < PRIMVARS && (vInstance.z & (1 << slot)) != 0)
         return vPrimvars[slot];
 #endif
     return fallback;
 }
 
 void loadTriangle() {
-    Triangle t = triangles[drawRows.y + gl_PrimitiveID];
+    Triangle t = triangles[drawInfo.w + gl_PrimitiveID];
     mat3 n = vNormalMatrix;
     vec3 ng = n * t.normal;
     vGeometricNormal = ng / max(length(ng), 1e-30);
@@ -67,7 +66,7 @@ void setOnStrip(vec3 view) {
     // Interpolated over parts of a pixel it is only as exact as corners are, which drivers round: below an
     // eighth of a pixel any place across is taken, which are all as likely.
     if (fwidth(vAcross.x) > 16.0) {
-        uint id = uint(drawRows.x + gl_PrimitiveID);
+        uint id = uint(drawInfo.x + gl_PrimitiveID);
         uvec2 strip = uvec2(id & 1023u, id >> 22u);
         float there = 2.0 * randomAt(uvec2(gl_FragCoord.xy) + strip, uint(passIndex), 30u).x - 1.0;
         point.position += across * ((there - h) * tubeRadius);
@@ -76,7 +75,7 @@ void setOnStrip(vec3 view) {
     float front = sqrt(1.0 - h * h) * tubeRadius;
     vec3 facing = cross(across, along);
     vec3 around = across * h + facing * sqrt(1.0 - h * h);
-    float slope = triangles[drawRows.y + gl_PrimitiveID].slope;
+    float slope = triangles[drawInfo.w + gl_PrimitiveID].slope;
     point.normal = slope == 0.0 ? around : towardsViewer(normalize(around - along * slope), view);
     point.geometricNormal = point.normal;
     point.position += facing * (front - vAcross.y * tubeRadius);
@@ -114,7 +113,7 @@ void setPoint(vec3 view, float coneWidth) {
     point.objectPosition = vObjectPosition;
     point.geometricNormal = vGeometricNormal;
     point.view = view;
-    tubeRadius = length(triangles[drawRows.y + gl_PrimitiveID].dPdu) * vScale;
+    tubeRadius = length(triangles[drawInfo.w + gl_PrimitiveID].dPdu) * vScale;
     if ((drawInfo.z & STRIP) != 0) {
         setOnStrip(view);
     } else {
@@ -153,7 +152,7 @@ void setPointFromCamera() {
 // Whether this pass shows the surface at all: presence as a chance (stochastic transparency).
 // Numbers of one triangle in one pixel, so that what lies behind each other is drawn apart.
 float ownRandom(uint set) {
-    uint id = hash(uint(drawRows.x + gl_PrimitiveID) + hash(uint(vInstance.x)));
+    uint id = hash(uint(drawInfo.x + gl_PrimitiveID) + hash(uint(vInstance.x)));
     return randomAt(uvec2(gl_FragCoord.xy) + uvec2(id & 1023u, id >> 22u), uint(passIndex), set).x;
 }
 bool isPresent() {

@@ -26,9 +26,8 @@ out vec3 vNormal; // of strips: along the curve
 out vec2 vAcross; // of strips, see onStrip()
 flat out mat3 vNormalMatrix;
 flat out float vScale;
-flat out ivec4 drawInfo; // as DrawRecord has it
-flat out ivec2 drawRows; // the same, first two
-flat out ivec4 vInstance; // id, row of links, bits of primvars that are those of an instance, place of the prim
+flat out ivec4 drawInfo; // random numbers: what triangles are counted from; prim id; flags; first of Triangles
+flat out ivec4 vInstance; // id, row of links, bits of primvars that there are, place of the prim
 #if PRIMVARS > 0
 out vec4 vPrimvars[PRIMVARS];
 #endif
@@ -44,18 +43,20 @@ void main() {
 #endif
     vAcross = onStrip();
     vNormal = inPosition.w != 0.0 ? alongStrip() : vNormalMatrix * inNormal;
-    vInstance = ivec4(instanceIds.xy, 0, instanceIds.w);
+#ifndef DEPTH_ONLY
     DrawRecord draw = draws[firstDraw + DRAW_OF_CALL];
-    drawInfo = draw.info;
-    drawRows = draw.rows.xy;
+    drawInfo = ivec4(draw.rows.x, draw.info.yz, draw.rows.y);
+    vInstance = ivec4(instanceIds.xy, draw.info.x, instanceIds.w);
+#endif
 #if PRIMVARS > 0
     for (int i = 0; i < PRIMVARS; ++i)
         vPrimvars[i] = primvars[draw.rows.z + (gl_VertexID - draw.rows.w) * PRIMVARS + i];
     if (draw.info.w > 0) {
         int at = draw.info.w - 1 + instanceIds.z * (PRIMVARS + 1);
-        vInstance.z = int(instanceValues[at].x) | int(instanceValues[at].y) << 16;
+        int own = int(instanceValues[at].x) | int(instanceValues[at].y) << 16;
+        vInstance.z |= own;
         for (int i = 0; i < PRIMVARS; ++i)
-            if ((vInstance.z & (1 << i)) != 0) vPrimvars[i] = instanceValues[at + 1 + i];
+            if ((own & (1 << i)) != 0) vPrimvars[i] = instanceValues[at + 1 + i];
     }
 #endif
 #ifdef SHADOW

@@ -144,15 +144,15 @@ def test_textures_larger_than_the_driver_takes_are_shown_smaller(textured, tmp_p
     assert (textured != smaller).any()
 
 
-def test_without_numbers_of_draws_each_is_a_call(opengl, tmp_path):
+def test_images_do_not_depend_on_how_draws_are_grouped(opengl, tmp_path):
     images = []
-    for fault in ("", "singleDraws:1"):
+    for fault in ("", "singleDraws:1", "ownPages:1"):
         image = tmp_path / f"image{fault[:6]}.exr"
         process, statistics = record(os.path.join(bothBackEnds.SCENES, "instanceValues.usda"), image, "--backend", "raster",
                                      PATINA_GL_FAULT=fault)
         assert process.returncode == 0 and statistics["backend"] == "raster"
         images.append(bothBackEnds.pixels(image))
-    assert images[0].std() > 0.0 and (images[0] == images[1]).all()
+    assert images[0].std() > 0.0 and (images[0] == images[1]).all() and (images[0] == images[2]).all()
 
 
 def test_samples_of_two_back_ends_are_never_mixed(opengl, traced, tmp_path):

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/gl/bufferHeap.h"
 
+#include "hdDelegate/raster/gl/glFaults.h"
+
 #include <algorithm>
 
 namespace patina {
@@ -31,7 +33,13 @@ void giveBack(std::map<size_t, size_t>& free, size_t offset, size_t size) {
 } // namespace
 
 BufferHeap::Range::~Range() {
-    if (_page && !_alone) giveBack(_page->free, _offset, whole(_size));
+    if (!_page || _alone) return;
+    giveBack(_page->free, _offset, whole(_size));
+    _page->tooLarge = SIZE_MAX;
+}
+
+bool BufferHeap::isAlone(size_t bytes) {
+    return bytes > largestPage / 4 || !glFault("ownPages").empty();
 }
 
 void BufferHeap::Range::swap(Range& o) noexcept {
@@ -55,9 +63,13 @@ BufferHeap::Range BufferHeap::make(const std::vector<char>& bytes, bool alone) {
                                 [](const auto& page) { return page.expired(); }),
                  _pages.end());
     const auto takeFrom = [&](const std::shared_ptr<Page>& page) {
+        if (size >= page->tooLarge) return false;
         const auto room = std::find_if(page->free.begin(), page->free.end(),
                                        [&](const auto& item) { return item.second >= size; });
-        if (room == page->free.end()) return false;
+        if (room == page->free.end()) {
+            page->tooLarge = size;
+            return false;
+        }
         range._page = page;
         range._offset = room->first;
         const size_t left = room->second - size;
@@ -70,7 +82,7 @@ BufferHeap::Range BufferHeap::make(const std::vector<char>& bytes, bool alone) {
         found = takeFrom(it->lock());
     if (!found) {
         const auto page = std::make_shared<Page>();
-        const size_t all = whole(std::max(_next, 4 * size));
+        const size_t all = std::min(whole(std::max(_next, 4 * size)), largestPage);
         page->buffer = GlBuffer(all, nullptr);
         page->free[0] = all;
         _next = std::min(2 * all, largestPage);

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/raster/gl/glResources.h"
 
+#include <cstdint>
 #include <map>
 #include <memory>
 
@@ -16,6 +17,7 @@ public:
     struct Page {
         GlBuffer buffer;
         std::map<size_t, size_t> free; ///< offset to size, both multiples of `grain`; none touch
+        size_t tooLarge = SIZE_MAX;    ///< there was no room for, since something was given back
     };
 
     /// A part of a page, which it gives back in the end. Movable, empty when default constructed.
@@ -44,10 +46,12 @@ public:
 
     /// Bytes that offsets are multiples of: of the strides of all that is kept in pages.
     static constexpr size_t grain = 336;
-    static constexpr size_t largestPage = size_t(1) << 24; ///< of pages with several ranges, bytes
+    /// Bytes of a page with several ranges: what a storage binding shows in every driver, 16 MB.
+    static constexpr size_t largestPage = (size_t(1) << 24) / grain * grain;
+    /// Whether so many bytes have a page of their own: more than a fourth of one.
+    static bool isAlone(size_t bytes);
 
-    /// @param alone in a page of its own, which has no other ranges: for what is as large as a
-    /// fourth of a page
+    /// @param alone in a page of its own, as isAlone() says
     Range make(const std::vector<char>& bytes, bool alone);
     size_t pages() const; ///< that are in use
 

@@ -134,6 +134,16 @@ std::string text(GLenum name) {
     return s ? reinterpret_cast<const char*>(s) : "";
 }
 
+bool has(const char* extension) {
+    GLint count = 0;
+    gl.GetIntegerv(GL_NUM_EXTENSIONS, &count);
+    for (GLint i = 0; i < count; ++i) {
+        const GLubyte* name = gl.GetStringi(GL_EXTENSIONS, GLuint(i));
+        if (name && !std::strcmp(reinterpret_cast<const char*>(name), extension)) return true;
+    }
+    return false;
+}
+
 /// Features that OpenGL 4.5 leaves open and the shaders need, with a context current.
 bool isEnough(std::string& error) {
     struct Limit {
@@ -186,6 +196,7 @@ std::unique_ptr<EglContext> EglContext::create(std::string& error) {
         static bool loaded = false;
         if (!loaded && !(loaded = loadGlFunctions(why))) continue;
         if (!isEnough(why)) continue;
+        gl.tellsDraws = has("GL_ARB_shader_draw_parameters") && glFault("singleDraws").empty();
         made->_renderer = text(GL_RENDERER);
         made->_version = text(GL_VERSION);
         if (HeldFences::neededBy(made->_renderer)) made->_fences = std::make_unique<HeldFences>();

@@ -8,7 +8,6 @@
 #include <EGL/egl.h>
 
 #include <cstdlib>
-#include <cstring>
 
 namespace patina {
 
@@ -23,14 +22,6 @@ bool loadGlFunctions(std::string& error) {
     }
     PATINA_GL_FUNCTIONS(PATINA_GL_LOAD)
 #undef PATINA_GL_LOAD
-    GLint extensions = 0;
-    gl.GetIntegerv(GL_NUM_EXTENSIONS, &extensions);
-    for (GLint i = 0; i < extensions; ++i) {
-        const GLubyte* name = gl.GetStringi(GL_EXTENSIONS, GLuint(i));
-        if (name &&
-            !std::strcmp(reinterpret_cast<const char*>(name), "GL_ARB_shader_draw_parameters"))
-            gl.tellsDraws = glFault("singleDraws").empty();
-    }
     HeldFences::install();
     const std::string losing = glFault("lostAtCall");
     if (!losing.empty()) loseContextAtCall(std::atol(losing.c_str()));

@@ -7,6 +7,12 @@
 
 namespace patina {
 
+namespace {
+
+constexpr size_t bindable = size_t(1) << 18; ///< records that one binding shows, 8 MB
+
+} // namespace
+
 void RasterDrawList::add(const RasterDraw& draw, const RasterSurface& surface,
                          const RasterVisible& visible) {
     const auto [begin, end] = visible.group[size_t(draw.group)];
@@ -16,8 +22,8 @@ void RasterDrawList::add(const RasterDraw& draw, const RasterSurface& surface,
         const uint32_t triangles = std::max(1u, chunk.indexCount() / 3);
         Record record;
         record.info = glm::ivec4(surface.primvarBits, draw.primId, draw.flags, draw.values);
-        record.rows =
-            glm::ivec4(int(first), chunk.firstTriangle(), chunk.firstPrimvar(), chunk.firstVertex());
+        record.rows = glm::ivec4(int(first), chunk.firstTriangle(), chunk.firstPrimvar(),
+                                 chunk.firstVertex());
         first += triangles;
         const int most =
             int(std::clamp<size_t>(HeldFences::mostTriangles() / triangles, 1, 1 << 30));
@@ -46,7 +52,12 @@ void RasterDrawList::draw(GLuint vertexArray, size_t first, size_t last, bool sh
     if (!_bound) gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, _commandBuffer.id());
     for (size_t i = first, next; i < last; i = next) {
         const RasterChunk& chunk = *_chunks[i];
-        if (shades && !(_bound && _boundShades)) _recordBuffer.bindStorage(12);
+        const size_t firstRecord = i / bindable * bindable;
+        if (shades && (!(_bound && _boundShades) || firstRecord != _firstRecord))
+            _recordBuffer.bindStorage(12, firstRecord * sizeof(Record),
+                                      std::min(bindable, _records.size() - firstRecord) *
+                                          sizeof(Record));
+        if (shades) _firstRecord = firstRecord;
         if (!_bound || !chunk.sharesBindings(*_bound) || (shades && !_boundShades))
             chunk.bind(vertexArray, shades);
         _boundShades = shades || (_bound && _boundShades && chunk.sharesBindings(*_bound));
@@ -55,11 +66,12 @@ void RasterDrawList::draw(GLuint vertexArray, size_t first, size_t last, bool sh
         for (next = i; next < last; ++next) {
             const Command& c = _commands[next];
             triangles += size_t(c.count) / 3 * c.instances;
-            if (next > i && (triangles > HeldFences::mostTriangles() || !gl.tellsDraws ||
+            if (next > i && (triangles > HeldFences::mostTriangles() ||
+                             (shades && (!gl.tellsDraws || next % bindable == 0)) ||
                              !_chunks[next]->sharesBindings(chunk)))
                 break;
         }
-        if (shades) gl.Uniform1i(18, GLint(i));
+        if (shades) gl.Uniform1i(18, GLint(i - firstRecord));
         gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
                                      reinterpret_cast<const void*>(i * sizeof(Command)),
                                      GLsizei(next - i), 0);

@@ -17,7 +17,8 @@ public:
     /// Brings the list to the device, once all is added.
     /// @param shades programs read records of draws, see shaders/raster/draws.glsl
     void upload(bool shades);
-    /// Draws [first, last) with the program in use.
+    /// Draws [first, last) with the program in use. From one call to the next it takes the bindings
+    /// that it has made to be there still.
     /// @param shades the program has the stages of surface.vert.glsl and surface.frag.glsl
     void draw(GLuint vertexArray, size_t first, size_t last, bool shades) const;
 
@@ -35,6 +36,7 @@ private:
     std::vector<const RasterChunk*> _chunks;
     mutable const RasterChunk* _bound = nullptr; ///< whose bindings there are
     mutable bool _boundShades = false;
+    mutable size_t _firstRecord = 0; ///< of those that are bound
     GlBuffer _commandBuffer, _recordBuffer;
 };
 

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <unordered_map>
 
 namespace patina {
 
@@ -37,11 +38,11 @@ RasterPasses::RasterPasses(std::string& error)
     if (!_shadowAround) return;
     _look = std::make_unique<RasterLook>(error);
     if (!_look->ok()) return;
-    _depthOnly =
-        GlProgram::make({{GL_VERTEX_SHADER, "surface",
-                          "#define PRIMVARS 0\n#include \"shaders/raster/surface.vert.glsl\"\n"},
-                         {GL_FRAGMENT_SHADER, "shadow", "void main() {}\n"}},
-                        error);
+    _depthOnly = GlProgram::make({{GL_VERTEX_SHADER, "surface",
+                                   "#define PRIMVARS 0\n#define DEPTH_ONLY\n"
+                                   "#include \"shaders/raster/surface.vert.glsl\"\n"},
+                                  {GL_FRAGMENT_SHADER, "shadow", "void main() {}\n"}},
+                                 error);
     if (!_depthOnly) return;
     _receivers = GlProgram::make(
         {{GL_COMPUTE_SHADER, "receivers", "#include \"shaders/raster/receivers.comp.glsl\"\n"}},
@@ -137,24 +138,25 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
                                 const RasterLightFilters* filters) const {
     const bool aovs = which == AllForAovs;
     // What the depth test sorts is drawn material by material.
+    const bool sorts = aovs || which == Solid;
     std::vector<std::pair<size_t, const RasterDraw*>> shown;
-    std::map<const RasterMaterial*, size_t> ranks;
-    for (const RasterDraw& d : scene.draws())
-        if (visible.shows(d))
-            shown.emplace_back(ranks.emplace(d.material, ranks.size()).first->second, &d);
-    if (aovs || which == Solid)
+    std::unordered_map<const RasterMaterial*, size_t> ranks; ///< by first draws, in view or not
+    for (const RasterDraw& d : scene.draws()) {
+        if (which == ColoredPresence ? !d.material->programs->tint
+            : aovs                   ? d.material->glsl.volumeOnly
+                                     : d.material->glsl.transmits != (which == Transmitting))
+            continue;
+        const size_t rank = sorts ? ranks.emplace(d.material, ranks.size()).first->second : 0;
+        if (visible.shows(d)) shown.emplace_back(rank, &d);
+    }
+    if (sorts)
         std::stable_sort(shown.begin(), shown.end(),
                          [](const auto& a, const auto& b) { return a.first < b.first; });
     RasterDrawList list;
     std::vector<std::pair<DrawState, size_t>> states; ///< and the first draw of each
     for (const auto& [rank, draw] : shown) {
         const RasterDraw& d = *draw;
-        const GlslMaterial& glsl = d.material->glsl;
         const RasterPrograms& programs = *d.material->programs;
-        if (which == ColoredPresence ? !programs.tint
-            : aovs                   ? glsl.volumeOnly
-                                     : glsl.transmits != (which == Transmitting))
-            continue;
         DrawState state;
         state.program = (which == ColoredPresence ? programs.tint
                          : aovs                   ? programs.aovs

@@ -25,6 +25,10 @@ MethodChoices drawable(MethodChoices methods, double tolerance) {
     return methods;
 }
 
+const std::string standInKey = "/standIn"; ///< in place of a path
+/// For textured stand-ins of one update; what is not done by then shows displayColor.
+constexpr double mostStandInSeconds = 0.2;
+
 /// Text that the default methods do not need is kept from the driver: compiling it takes long.
 std::string lightingText(const std::string& dome, const std::string& area) {
     const std::string text = dome == "filtered"      ? "#define DOME_METHOD DOME_FILTERED\n"
@@ -82,6 +86,7 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
     }
     _domeMethods.clear();
     _standIns = 0;
+    _standInSeconds = 0.0;
     _environmentSamples = std::max(settings.environmentSamples, 0);
     for (auto it = _materials.begin(); it != _materials.end();) {
         const auto found = state.materials.find(it->first);
@@ -95,6 +100,7 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
     }
     for (auto& item : _materials) {
         item.second.lit = false;
+        if (item.second.taken) item.second.standIn.reset();
         if (item.second.standIn) item.second.standIn->lit = false;
     }
 }
@@ -153,11 +159,12 @@ RasterMaterials::Cached& RasterMaterials::asked(const std::string& path, const s
                                                 const SceneState& state,
                                                 const RenderSettings& settings) {
     Cached& cached = compiled(path, user, state, settings);
-    ask(cached, cached.prim ? path : std::string(), settings);
+    ask(cached, cached.prim ? path : std::string(), !cached.prim, settings);
     return cached;
 }
 
-void RasterMaterials::ask(Cached& cached, const std::string& key, const RenderSettings& settings) {
+void RasterMaterials::ask(Cached& cached, const std::string& key, bool atOnce,
+                          const RenderSettings& settings) {
     RasterMaterial& m = cached.material;
     const bool first = !cached.built;
     if (first) m.glsl = makeGlslMaterial(m.program->ir());
@@ -172,7 +179,7 @@ void RasterMaterials::ask(Cached& cached, const std::string& key, const RenderSe
     for (const MaterialPrimvar& p : m.program->primvars())
         primvars.push_back(p.name);
     m.primvars = _aovs.with(primvars);
-    cached.pending = build(m.glsl, int(m.primvars.size()), cached.lighting, key);
+    cached.pending = build(m.glsl, int(m.primvars.size()), cached.lighting, key, atOnce);
 }
 
 void RasterMaterials::prepare(const std::string& path, const SceneState& state,
@@ -198,24 +205,44 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
     Cached& cached = asked(path, user, state, settings);
     if (cached.taken) return cached.material;
     const std::string key = cached.prim ? path : std::string();
-    if (!cached.pending->done && _showStandIns && !key.empty()) return standIn(cached, settings);
-    if (!take(cached, key)) copyDisplayColor(cached.material, user, state, settings);
+    if (!cached.pending->done && _showStandIns && !key.empty())
+        return standIn(cached, user, state, settings);
+    if (take(cached)) return cached.material;
+    if (key.empty()) throw DeviceError("the driver does not take the shader of displayColor");
+    _diagnostics.warn(key, "",
+                      "the driver does not take the material's shader; displayColor is shown: " +
+                          cached.pending->error);
+    copyDisplayColor(cached.material, user, state, settings);
     return cached.material;
 }
 
-const RasterMaterial& RasterMaterials::standIn(Cached& cached, const RenderSettings& settings) {
+const RasterMaterial& RasterMaterials::standIn(Cached& cached, const std::string& user,
+                                               const SceneState& state,
+                                               const RenderSettings& settings) {
     ++_standIns;
+    const MaterialProgram& program = *cached.material.program;
     if (!cached.standIn) {
-        cached.standIn = std::make_unique<Cached>();
-        cached.standIn->material.program =
-            _compiledMaterials.compile(makeStandInNetwork(*cached.material.program));
+        // Textures are read for it, which may take long. Of UDIM sets no tile is known to be there.
+        const auto tiled = [](const GlslTexture& texture) { return !texture.tiles.empty(); };
+        const std::vector<GlslTexture>& textures = cached.material.glsl.textures;
+        if (!hasStandIn(program) || (!textures.empty() && _standInSeconds > mostStandInSeconds) ||
+            std::any_of(textures.begin(), textures.end(), tiled))
+            return get(std::string(), user, state, settings);
+        const auto start = std::chrono::steady_clock::now();
+        auto made = std::make_unique<Cached>();
+        made->material.program = _compiledMaterials.compile(makeStandInNetwork(program));
+        cached.standIn = std::move(made);
+        _standInSeconds +=
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
-    ask(*cached.standIn, std::string(), settings);
-    if (!cached.standIn->taken) take(*cached.standIn, std::string());
+    ask(*cached.standIn, standInKey, true, settings);
+    if (!cached.standIn->taken && !take(*cached.standIn))
+        copyDisplayColor(cached.standIn->material, user, state, settings);
     return cached.standIn->material;
 }
 
-bool RasterMaterials::take(Cached& cached, const std::string& key) {
+bool RasterMaterials::take(Cached& cached) {
+    if (cached.taken) return true;
     await(*cached.pending);
     if (cached.pending->failure) std::rethrow_exception(cached.pending->failure);
     cached.taken = true;
@@ -223,11 +250,6 @@ bool RasterMaterials::take(Cached& cached, const std::string& key) {
     m.programs = cached.pending->programs;
     if (!m.programs) {
         throwIfLost();
-        _diagnostics.warn(key, "",
-                          "the driver does not take the material's shader; displayColor is "
-                          "shown: " +
-                              cached.pending->error);
-        if (key.empty()) throw DeviceError("the driver does not take the shader of displayColor");
         return false;
     }
     m.parameters = GlBuffer(m.glsl.parameters);
@@ -327,10 +349,9 @@ std::shared_ptr<const RasterPrograms> makePrograms(const ProgramTexts& texts, st
 
 } // namespace
 
-std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial& glsl,
-                                                              int primvars,
-                                                              const std::string& lighting,
-                                                              const std::string& user) {
+std::shared_ptr<const PendingPrograms>
+RasterMaterials::build(const GlslMaterial& glsl, int primvars, const std::string& lighting,
+                       const std::string& user, bool atOnce) {
     const bool faulty = !user.empty() && glFault("material") == user;
     const std::string head =
         "#define PRIMVARS " + std::to_string(primvars) + "\n" +
@@ -344,7 +365,11 @@ std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial
         (glsl.thin ? "true\n" : "false\n") + glsl.definitions;
     const std::string aovs = _aovs.text();
     const std::string lights = _lights.text();
-    Kept& kept = _programs[lights + head + lighting + aovs + glsl.text + (faulty ? "faulty" : "")];
+    std::string key = lights + head + lighting + aovs + glsl.text + (faulty ? "faulty" : "");
+    // What waits in the queue of the compiler is not waited for.
+    const auto known = atOnce ? _programs.find(key) : _programs.end();
+    if (known != _programs.end() && !known->second.programs->done) key += "at once";
+    Kept& kept = _programs[key];
     kept.lastUse = ++_turn;
     std::shared_ptr<PendingPrograms>& shared = kept.programs;
     if (shared) return shared;
@@ -387,7 +412,7 @@ std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial
         pending->done = true;
     };
     // displayColor and what stands in for others are shown at once.
-    if (_compiler && !user.empty())
+    if (_compiler && !atOnce)
         _compiler->add(make);
     else
         make();

@@ -140,15 +140,18 @@ private:
     Cached& asked(const std::string& path, const std::string& user, const SceneState& state,
                   const RenderSettings& settings);
     /// Makes a material's text and asks for its programs, where that is not done.
-    /// @param key of the material; empty: this thread makes them at once
-    void ask(Cached& cached, const std::string& key, const RenderSettings& settings);
+    /// @param key of the material
+    /// @param atOnce this thread makes them
+    void ask(Cached& cached, const std::string& key, bool atOnce, const RenderSettings& settings);
     /// Makes the GPU objects of a material whose programs are done.
-    /// @returns false, after a warning, where the driver does not take them
-    bool take(Cached& cached, const std::string& key);
-    const RasterMaterial& standIn(Cached& cached, const RenderSettings& settings);
+    /// @returns false where the driver does not take them
+    bool take(Cached& cached);
+    /// What is shown for a material that is not ready.
+    const RasterMaterial& standIn(Cached& cached, const std::string& user, const SceneState& state,
+                                  const RenderSettings& settings);
     std::shared_ptr<const PendingPrograms> build(const GlslMaterial& glsl, int primvars,
                                                  const std::string& lighting,
-                                                 const std::string& user);
+                                                 const std::string& user, bool atOnce);
     void await(const PendingPrograms& pending);
     /// Shows displayColor in place of a material.
     void copyDisplayColor(RasterMaterial& to, const std::string& user, const SceneState& state,
@@ -169,6 +172,7 @@ private:
     uint64_t _turn = 0;                    ///< grows with each use of a program
     bool _showStandIns = false;
     size_t _standIns = 0;
+    double _standInSeconds = 0.0; ///< that materials were looked at, since update()
     RasterTextures _uploaded;
     size_t _built = 0;
 };

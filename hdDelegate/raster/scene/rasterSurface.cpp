@@ -41,7 +41,7 @@ RasterChunk::RasterChunk(BufferHeap& heap, const std::vector<Vertex>& vertices,
     fill(BufferHeap::grain);
     // One that is large has storage bindings of its own parts, for which drivers may ask for a
     // multiple of 256: a binding cannot show all of the buffer.
-    const bool alone = bytes.size() > BufferHeap::largestPage / 4;
+    const bool alone = BufferHeap::isAlone(bytes.size());
     if (alone) fill(256);
     _range = heap.make(bytes, alone);
     for (size_t* offset : {&_vertices, &_primvars, &_triangles, &_indices})

@@ -23,8 +23,8 @@ namespace {
 
 /// Makes every material take so long, without the files of earlier runs.
 struct SlowPrograms {
-    explicit SlowPrograms(const char* milliseconds) {
-        setenv("PATINA_GL_FAULT", (std::string("compiling:") + milliseconds).c_str(), 1);
+    explicit SlowPrograms(const std::string& milliseconds, const std::string& more = "") {
+        setenv("PATINA_GL_FAULT", ("compiling:" + milliseconds + more).c_str(), 1);
         setenv("PATINA_CACHE", "", 1);
     }
     ~SlowPrograms() {
@@ -176,9 +176,28 @@ TEST(EarlyImages, HaveTheColorsOfTheirMaterials) {
     };
     for (int i = 0; i < 3; ++i) {
         const vec3 early = colorOf(shown.images.front(), i), last = colorOf(shown.last, i);
+        ASSERT_GT(last[i], 1.0f);
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(early[c], last[c], 0.1f * last[i]) << "square " << i << " channel " << c;
     }
+}
+
+TEST(EarlyImages, ADriverThatDoesNotTakeTheStandInShowsDisplayColor) {
+    PATINA_NEED_CONTEXT();
+    const SlowPrograms slow("1500", ",material:/standIn");
+    std::string error;
+    const Shown shown = render(true, 1, error, true);
+    ASSERT_EQ(error, "");
+    ASSERT_GT(shown.images.size(), 1u);
+    const auto& image = shown.images.front();
+    float seen = 0.0f; // the second of two programs, which nothing has compiled yet
+    for (size_t i = 0; i < image.size(); i += 3) {
+        if (i / 3 % 24 < 9 || i / 3 % 24 > 14) continue;
+        EXPECT_NEAR(image[i], image[i + 1], 1e-3f * image[i]) << "it is grey";
+        seen += image[i];
+    }
+    EXPECT_GT(seen, 0.0f);
+    EXPECT_GT(brightest(shown.last), 0.5f);
 }
 
 TEST(EarlyImages, AStoppedRenderDoesNotWaitForPrograms) {

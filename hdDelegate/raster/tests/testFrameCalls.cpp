@@ -6,6 +6,7 @@
 #include "hdDelegate/raster/tests/rasterFixture.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <atomic>
 #include <map>
 #include <string>
@@ -166,5 +167,10 @@ TEST(FrameCalls, AfterAMoveFollowWhatIsInView) {
     // its first draw for each, in two passes.
     EXPECT_EQ(of(varied, draw), 1 + 2 * 8);
     EXPECT_LE(sum(varied) - sum(many), 3 * 2 * 8);
+    // Where shaders are not told their draw, each has a call of its own in passes that ask.
+    setenv("PATINA_GL_FAULT", "singleDraws:1", 1);
+    const auto single = frame(64, 1, error);
+    unsetenv("PATINA_GL_FAULT");
+    EXPECT_EQ(of(single, draw), 1 + 2 * 64);
     RecordProperty("calls", std::to_string(sum(many)));
 }

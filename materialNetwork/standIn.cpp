@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "materialNetwork/standIn.h"
+#include "materialNetwork/material.h"
 
 #include "base/maths.h"
 

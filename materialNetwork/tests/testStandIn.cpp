@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Simple materials that look like others.
-#include "materialNetwork/standIn.h"
-
 #include "materialNetwork/glsl/glslMaterial.h"
 #include "materialNetwork/tests/materialFixture.h"
 

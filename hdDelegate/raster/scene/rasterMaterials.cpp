@@ -3,7 +3,7 @@
 
 #include "hdDelegate/raster/gl/deviceError.h"
 #include "hdDelegate/raster/gl/glFaults.h"
-#include "materialNetwork/standIn.h"
+#include "materialNetwork/material.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -3,8 +3,6 @@
 #include "materialNetwork/glsl/glslMaterial.h"
 #include "materialNetwork/tests/materialFixture.h"
 
-#include <functional>
-
 namespace patina {
 
 namespace {

@@ -59,15 +59,15 @@ Network makeDisplayColorNetwork();
 /// A simple material that looks much like another: for renderers that have to show something before
 /// the other is ready. It is a UsdPreviewSurface of constants, which give back the mean reflectance
 /// of the other seen from straight ahead, and how rough that is. Textures are taken by their means.
-/// Light of its own, displacement and media are left out. Surfaces
-/// that transmit are half transparent.
+/// Light of its own, displacement and media are left out. Surfaces that transmit are half
+/// transparent.
 ///
-/// All such networks compile to one of two texts, for opaque ones and for all others, so that two
-/// programs of a graphics processor draw any material.
+/// All such networks compile to one of two texts: one for opaque materials, one for all others. So
+/// two programs of a graphics processor draw them all.
 Network makeStandInNetwork(const MaterialProgram& program);
 
-/// Whether that looks like the other: not where it shows primvars beside texture coordinates, nor
-/// where it is no surface.
+/// Whether such a material looks like this one: not where it reads other primvars than texture
+/// coordinates, and not where it is a volume alone.
 bool hasStandIn(const MaterialProgram& program);
 
 } // namespace patina

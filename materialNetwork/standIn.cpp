@@ -2,6 +2,7 @@
 #include "materialNetwork/material.h"
 
 #include "base/maths.h"
+#include "materialNetwork/planner/planProbes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +13,6 @@ namespace {
 
 constexpr int side = 4;       ///< places in a row of the unit square of texture coordinates
 constexpr int directions = 8; ///< drawn at each place
-
-/// Number i of a sequence that fills the unit interval evenly; dimensions are 0 to 3 (Roberts
-/// 2018).
-float spread(int i, int dimension) {
-    constexpr double steps[] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
-                                0.5385972572236101};
-    const double x = 0.5 + steps[dimension] * (i + 1);
-    return float(x - std::floor(x));
-}
 
 /// Has texture coordinates and no other primvars.
 class UvPrimvars : public PrimvarReader {

@@ -11,6 +11,13 @@
 
 namespace patina {
 
+float spread(int i, int dimension) {
+    constexpr double steps[] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
+                                0.5385972572236101};
+    const double x = 0.5 + steps[dimension & 3] * (i + 1) + 0.618 * (dimension >> 2);
+    return float(x - std::floor(x));
+}
+
 namespace {
 
 constexpr int varyingPlaces = 64;
@@ -20,14 +27,6 @@ constexpr int cosines = 4;
 float amountOf(const glm::vec3& c) {
     const float y = luminance(c);
     return std::isfinite(y) && y > 0.0f ? y : 0.0f;
-}
-
-/// Number i of a sequence that fills the unit interval evenly (Roberts 2018).
-float spread(int i, int dimension) {
-    constexpr double steps[] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
-                                0.5385972572236101};
-    const double x = 0.5 + steps[dimension & 3] * (i + 1) + 0.618 * (dimension >> 2);
-    return float(x - std::floor(x));
 }
 
 /// Every primvar takes all values from 0 to 1, place by place.

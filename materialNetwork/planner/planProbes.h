@@ -26,6 +26,10 @@ struct DirectionProbe {
     std::vector<ClosureContribution> closures;
 };
 
+/// Number i of a sequence that fills the unit interval evenly; each dimension is one of its own
+/// (Roberts 2018).
+float spread(int i, int dimension);
+
 /// Probes a material: at one place when it is constant, else at some that spread over its
 /// textures, with primvars from 0 to 1; each from the middles of the quarters of the cosine.
 /// @param code with the default methods

@@ -17,7 +17,7 @@ public:
     struct Page {
         GlBuffer buffer;
         std::map<size_t, size_t> free; ///< offset to size, both multiples of `grain`; none touch
-        size_t tooLarge = SIZE_MAX;    ///< there was no room for, since something was given back
+        size_t tooLarge = SIZE_MAX;    ///< bytes that did not fit; until something is given back
     };
 
     /// A part of a page, which it gives back in the end. Movable, empty when default constructed.

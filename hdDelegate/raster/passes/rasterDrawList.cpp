@@ -47,7 +47,7 @@ void RasterDrawList::upload(bool shades) {
     if (shades) _recordBuffer = GlBuffer(_records);
 }
 
-void RasterDrawList::draw(GLuint vertexArray, size_t first, size_t last, bool shades) const {
+void RasterDrawList::draw(GLuint vertexArray, size_t first, size_t last, bool shades) {
     if (first >= last) return;
     if (!_bound) gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, _commandBuffer.id());
     for (size_t i = first, next; i < last; i = next) {

@@ -17,10 +17,10 @@ public:
     /// Brings the list to the device, once all is added.
     /// @param shades programs read records of draws, see shaders/raster/draws.glsl
     void upload(bool shades);
-    /// Draws [first, last) with the program in use. From one call to the next it takes the bindings
-    /// that it has made to be there still.
+    /// Draws [first, last) with the program in use. Between calls nobody else may change the
+    /// bindings of the vertex array, of indirect draws, and of storage 2, 6 and 12.
     /// @param shades the program has the stages of surface.vert.glsl and surface.frag.glsl
-    void draw(GLuint vertexArray, size_t first, size_t last, bool shades) const;
+    void draw(GLuint vertexArray, size_t first, size_t last, bool shades);
 
 private:
     struct Command { ///< as OpenGL reads it
@@ -34,9 +34,9 @@ private:
     std::vector<Command> _commands;
     std::vector<Record> _records;
     std::vector<const RasterChunk*> _chunks;
-    mutable const RasterChunk* _bound = nullptr; ///< whose bindings there are
-    mutable bool _boundShades = false;
-    mutable size_t _firstRecord = 0; ///< of those that are bound
+    const RasterChunk* _bound = nullptr; ///< the last one drawn, with its bindings
+    bool _boundShades = false;
+    size_t _firstRecord = 0; ///< of those that are bound
     GlBuffer _commandBuffer, _recordBuffer;
 };
 

@@ -7,7 +7,6 @@
 #include "shaders/shaders.h"
 
 #include <algorithm>
-#include <climits>
 #include <cmath>
 #include <map>
 #include <set>

@@ -69,7 +69,7 @@ public:
     /// The same until one more is ready, or for so long.
     void waitForMore(std::chrono::milliseconds maximum);
     Ready ready() const;
-    /// Whether get() gives makeStandInNetwork() in place of what is not ready, instead of waiting.
+    /// Whether get() gives stand-ins for what is not ready, instead of waiting for it.
     void showStandIns(bool show) { _showStandIns = show; }
     /// How often get() has done so since update().
     size_t standIns() const { return _standIns; }
@@ -87,7 +87,7 @@ public:
     /// before: with other primvars, with displacement or with light of its own
     bool edit(const SceneDelta::Paths& edited, const SceneState& state,
               const RenderSettings& settings);
-    /// Whether materials in use are there themselves, and nothing for them.
+    /// Whether materials in use are drawn by their own programs, and nothing stands in for them.
     bool areShown(const SceneDelta::Paths& edited) const;
     /// The outputs of programs beside light.
     const RasterAovRequest& aovs() const { return _aovs; }
@@ -172,7 +172,7 @@ private:
     uint64_t _turn = 0;                    ///< grows with each use of a program
     bool _showStandIns = false;
     size_t _standIns = 0;
-    double _standInSeconds = 0.0; ///< that materials were looked at, since update()
+    double _standInSeconds = 0.0; ///< taken by making stand-ins since update()
     RasterTextures _uploaded;
     size_t _built = 0;
 };

@@ -11,33 +11,38 @@ from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdRender, UsdUtils
 from . import assets, compat, kinds, marks
 from .context import array, get, number, shown
 from .errors import StageError, one_line
-from .state import Found, State
+from .state import Found, State, Walked
 from .transforms import matrix_at, transform_of
 
 FRAMING = "/patinaFramingCamera"
+_APERTURE, _FOCAL = (20.955, 15.2908), 50.0  # of that camera
+_MARGIN = 1.05
 
 
 def choose(context, walked):
     """:param walked: gets the camera where it is inside of a native instance
     :returns: the Found camera to render from, None when the stage has none and is to be framed
     :raises StageError: when the one that was asked for is not there"""
-    chosen = _choice(context, walked)
+    chosen, named = _choice(context, walked)
+    if chosen and not named and len(walked.cameras) > 1:
+        context.notes.append(f"no camera was named; {chosen.path} of {len(walked.cameras)} is used")
     if chosen and not any(found is chosen for found in walked.cameras):
         walked.cameras.append(chosen)
     return chosen
 
 
 def _choice(context, walked):
+    """:returns: (Found or None, whether the user or the stage names it)"""
     wanted, founds = context.options.camera, walked.cameras
     by_path = {found.path: found for found in founds}
     if wanted:
         wanted = str(wanted)
         found = by_path.get(wanted) or _inside(context, wanted)
         if found:
-            return found
+            return found, True
         named = [found for found in founds if found.prim.GetName() == wanted] or _inner(context, walked, {wanted})
         if named:
-            return named[0]
+            return named[0], True
         there = ", ".join(list(by_path)[:12]) or "none"
         raise StageError(f"there is no camera {wanted} (there are: {there}{', ...' if len(by_path) > 12 else ''})")
     settings = UsdRender.Settings.GetStageRenderSettings(context.stage)
@@ -45,12 +50,32 @@ def _choice(context, walked):
         for target in settings.GetCameraRel().GetForwardedTargets():
             found = by_path.get(str(target)) or _inside(context, str(target))
             if found:
-                return found
+                return found, True
     primary = [found for found in founds if found.prim.GetName() == UsdUtils.GetPrimaryCameraName()]
-    chosen = (primary or founds or _inner(context, walked, walked.inner_cameras) or [None])[0]
-    if chosen and len(founds) > 1:
-        context.notes.append(f"no camera was named; {chosen.path} of {len(founds)} is used")
-    return chosen
+    return (primary or founds or _inner(context, walked, walked.inner_cameras) or [None])[0], False
+
+
+def view_of(context):
+    """:returns: Gf.Frustum of the camera of the picture, before the walk has found it"""
+    walked, stage = Walked(None), context.stage
+    prims = iter(Usd.PrimRange(stage.GetPseudoRoot()))
+    for prim in prims:
+        schemas = kinds.schemas_of(prim)
+        if "Camera" in schemas:
+            walked.cameras.append(Found(prim, State(), str(prim.GetPath())))
+        elif "PointInstancer" in schemas:
+            prims.PruneChildren()
+    walked.inner_cameras = {prim.GetName() for prototype in stage.GetPrototypes() for prim in Usd.PrimRange(prototype)
+                            if "Camera" in kinds.schemas_of(prim)}
+    try:
+        chosen, _ = _choice(context, walked)
+    except StageError:
+        chosen = None  # choose() ends the command
+    if chosen:
+        return UsdGeom.Camera(chosen.prim).GetCamera(context.time).frustum
+    framing = _framing(context, ())
+    return Gf.Camera(framing.matrix, horizontalAperture=_APERTURE[0], verticalAperture=_APERTURE[1], focalLength=_FOCAL,
+                     clippingRange=Gf.Range1f(framing.reach * 1e-4, framing.reach * 100.0)).frustum
 
 
 def _inside(context, path):
@@ -220,25 +245,37 @@ def _orientation(size, z_up):
     return turn
 
 
-def emit_framing(context, gprims):
-    """A camera that shows everything.
+@dataclass
+class _Framing:
+    """A camera that shows everything."""
+    matrix: object
+    distance: float  # to the middle of what it shows
+    reach: float  # about as far as anything is
 
-    :param gprims: all that were found
-    :returns: a Placed"""
+
+def _framing(context, gprims):
+    """:param gprims: all that were found
+    :returns: a _Framing"""
     box = _bounds(context, gprims)
     if not _is_usable(box):
         context.warn("/", "", "the stage has no extents to frame; the camera looks at the origin")
         box = Gf.Range3d(Gf.Vec3d(-1), Gf.Vec3d(1))
     matrix = _orientation(box.GetSize(), UsdGeom.GetStageUpAxis(context.stage) == UsdGeom.Tokens.z)
-    aperture, focal, margin = (20.955, 15.2908), 50.0, 1.05
     centre, inverse = box.GetMidpoint(), matrix.GetInverse()
     corners = [inverse.TransformDir(Gf.Vec3d(box.GetCorner(i)) - centre) for i in range(8)]
-    distance = max(c[2] + 2.0 * focal * margin * max(abs(c[0]) / aperture[0], abs(c[1]) / aperture[1]) for c in corners)
+    distance = max(c[2] + 2.0 * _FOCAL * _MARGIN * max(abs(c[0]) / _APERTURE[0], abs(c[1]) / _APERTURE[1]) for c in corners)
     matrix.SetTranslateOnly(centre + matrix.TransformDir(Gf.Vec3d(0, 0, distance)))
-    reach = max(box.GetSize().GetLength(), distance)
-    placed = Placed(FRAMING, np.array(matrix), False, reach * 1e-4, reach * 100.0)
-    context.edit.set_camera(FRAMING, transform=placed.transform, horizontal_aperture=aperture[0],
-                            vertical_aperture=aperture[1], focal_length=focal, focus_distance=distance,
+    return _Framing(matrix, distance, max(box.GetSize().GetLength(), distance))
+
+
+def emit_framing(context, gprims):
+    """Sets the camera of a stage that has none.
+
+    :returns: a Placed"""
+    framing = _framing(context, gprims)
+    placed = Placed(FRAMING, np.array(framing.matrix), False, framing.reach * 1e-4, framing.reach * 100.0)
+    context.edit.set_camera(FRAMING, transform=placed.transform, horizontal_aperture=_APERTURE[0],
+                            vertical_aperture=_APERTURE[1], focal_length=_FOCAL, focus_distance=framing.distance,
                             clip_near=placed.clip_near, clip_far=placed.clip_far)
     context.notes.append("the stage has no camera; it is framed")
     return placed

@@ -12,6 +12,7 @@ class Group:
     shown: str = ""  # ... and the path that stands for it in the scene
     material: str = ""  # bound by the instance; the prototype's own bindings are stronger ...
     material_rules: bool = False  # ... unless this is set
+    place: object = field(default=None, compare=False)  # of a point instancer's prototype: matrix of its nearest instance
     chain: tuple = ()  # prototypes of point instancers that this one is drawn inside of
     above: object = field(default=None, compare=False)  # state at the root of the native prototype that holds it
     outer: object = field(default=None, compare=False)  # group that it was first found in; None: it is the world
@@ -32,6 +33,7 @@ class State:
     skinning: object = None  # inside a SkelRoot: prim path -> its skinning
     draw_mode: str = "default"
     hidden: bool = False
+    level: object = None  # path of a level of detail that is drawn, whatever its own visibility says
     marks: dict = field(default_factory=dict, compare=False)  # see marks.py
     asset: str = ""  # path of the model that prims belong to, within the group
 

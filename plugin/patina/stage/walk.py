@@ -14,6 +14,7 @@ from . import drawModes, marks, portals
 from .context import Guard, get
 from .instanceValues import InstanceValues
 from .kinds import GPRIM_KINDS, Kinds
+from .levels import Levels, is_root
 from .skinning import skinning_of
 from .state import Found, Group, State, Walked
 
@@ -33,8 +34,9 @@ class Walk:
         self.context, self.bindings = context, bindings
         self.walked = Walked(InstanceValues(context))
         self._kinds = Kinds()
+        self._levels = Levels(context)
         self._pending = []  # native instances whose prototype is not chosen yet
-        self._todo = []  # (prims, state, predicate)
+        self._todo = []  # (prims, their states, predicate)
         self._native = {}  # what prims of a prototype inherit -> group
         self._pointed = {}  # (prototype of a point instancer, group that it stands in) -> name of its group
         self._above = {}  # states of prims above such prototypes
@@ -50,7 +52,8 @@ class Walk:
     def run(self):
         """:returns: Walked"""
         root = self.context.stage.GetPseudoRoot()
-        self._todo.append((root.GetChildren(), State(), Usd.PrimDefaultPredicate))
+        children = root.GetChildren()
+        self._todo.append((children, [State()] * len(children), Usd.PrimDefaultPredicate))
         while self._todo or self._pending:
             while self._todo:
                 self._walk(*self._todo.pop())
@@ -58,8 +61,8 @@ class Walk:
         self._drop_empty()
         return self.walked
 
-    def _walk(self, prims, state, predicate):
-        stack = [(prim, state) for prim in reversed(prims)]
+    def _walk(self, prims, states, predicate):
+        stack = list(zip(reversed(prims), reversed(states)))
         while stack:
             prim, state = stack.pop()
             if self._full and state.group.name:
@@ -69,7 +72,16 @@ class Walk:
             if state is not None:
                 children = prim.GetFilteredChildren(predicate if state.skinning is None else _PROXIES)
                 if children:
-                    stack.extend((child, state) for child in reversed(children))
+                    stack.extend(zip(reversed(children), reversed(self._states(prim, state.group, children, state))))
+
+    def _states(self, prim, group, children, state):
+        """:param group: that the prim is in; its children are in that of the state
+        :returns: list of the states that children begin with: of levels of detail only those that are chosen are seen"""
+        if state.hidden or not is_root(prim):
+            return [state] * len(children)
+        shown = self._levels.shown(prim, group)
+        return [state.with_(level=child.GetPath()) if child.GetName() in shown else state.with_(hidden=True)
+                for child in children]
 
     def _visit(self, prim, state):
         """:returns: the state of the prim's children, None when they are not walked"""
@@ -79,7 +91,8 @@ class Walk:
                 self._camera(prim, state)
             return state
         names = prim.GetAuthoredPropertyNames() if imageable else ()
-        if "visibility" in names and get(prim, "visibility", self.context.time) == "invisible":
+        if ("visibility" in names and prim.GetPath() != state.level
+                and get(prim, "visibility", self.context.time) == "invisible"):
             return self._visit(prim, state.with_(hidden=True))
         state, stands_for_all = self._inherit(prim, state, names)
         if stands_for_all:
@@ -175,7 +188,8 @@ class Walk:
                 material, rules = outer.material, outer.material_rules
             split = self.walked.values.split(state.primvars)
             key = (str(prototype.GetPath()), material, rules, state.purpose, state.draw_mode,
-                   tuple(sorted(state.marks.items())), split.key, outer.name if self._reaches_out(prototype, outer) else "")
+                   tuple(sorted(state.marks.items())), split.key, outer.name if self._reaches_out(prototype, outer) else "",
+                   self._levels.signature(found.prim, outer))
             group = self._native.get(key)
             if group is None:
                 if not self._has_room(found.prim, state, self._native):
@@ -183,9 +197,12 @@ class Walk:
                 above = state.with_(primvars=split.copied, asset="")
                 group = Group(name=found.path, anchor=prototype, source=str(prototype.GetPath()),
                               shown=found.path, material=material or "", material_rules=rules,
+                              place=self._levels.place_inside(found.prim, outer),
                               chain=outer.chain, above=above, outer=outer, arcs=self._arcs(found.prim))
                 self._native[key] = group
-                self._todo.append((prototype.GetChildren(), above.with_(group=group), Usd.PrimDefaultPredicate))
+                children = prototype.GetChildren()
+                states = self._states(found.prim, outer, children, above.with_(group=group))
+                self._todo.append((children, states, Usd.PrimDefaultPredicate))
             self.walked.instances.setdefault((outer.name, group.name, split.signature), []).append(found)
 
     def _arcs(self, instance):
@@ -225,11 +242,11 @@ class Walk:
         inside = root.GetPath().HasPrefix(instancer.GetPath())
         shown = outer.path(root) if inside else self._shown_below(instancer, root, outer)
         group = Group(name=name, anchor=root.GetParent(), source=str(target), shown=shown, chain=outer.chain + (str(target),),
-                      outer=outer)
+                      outer=outer, place=self._levels.nearest_place(instancer, outer, root))
         if root.IsInPrototype():  # of a native instance that the instancer is in
             group = replace(group, material=home.material, material_rules=home.material_rules, above=home.above)
         concrete = root.IsDefined() and not root.IsAbstract()
-        self._todo.append(([root], self._state_above(root, group.above).with_(group=group, asset=""),
+        self._todo.append(([root], [self._state_above(root, group.above).with_(group=group, asset="")],
                            Usd.PrimDefaultPredicate if concrete else _ANY))
         return name
 

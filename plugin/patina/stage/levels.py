@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Levels of detail, of the UsdLod of OpenUSD 26.08: which children of a prim with the LODRootAPI are drawn.
+
+An override comes first, then the first heuristic for imaging, then `lod:default:index`. Between two levels the nearer one is
+drawn. Each native instance has levels of its own; all instances of a point instancer have those of the one nearest to the
+camera.
+"""
+import math
+
+from pxr import Usd, UsdGeom
+
+from . import cameras
+from .context import get, number
+from .transforms import matrix_at
+
+try:
+    from pxr import UsdLod
+except ImportError:  # an older OpenUSD
+    UsdLod = None
+
+_DOMAIN = "imaging"
+
+
+def is_root(prim):
+    return "LODRootAPI" in prim.GetAppliedSchemas()
+
+
+class Levels:
+    """Chooses levels, from the camera of the picture."""
+
+    def __init__(self, context):
+        self.context = context
+        self._view = None  # Gf.Frustum, once it is asked for
+        self._below = {}  # path of a native prototype -> see _roots_below()
+        self._told = set()  # paths of prims that were warned of
+
+    def shown(self, prim, group):
+        """:param prim: with the LODRootAPI
+        :param group: that it is in
+        :returns: names of the children that are drawn"""
+        place = self.context.stage.GetPrimAtPath(group.path(prim)) if group.place is None else None
+        if place:
+            return self._shown(place, matrix_at(self.context, place, None, 0.0))
+        return self._shown(prim, self.place_inside(prim, group) or matrix_at(self.context, prim, group.anchor, 0.0))
+
+    def place_inside(self, prim, group):
+        """:returns: matrix of a prim of a point instancer's prototype where its nearest instance is; None elsewhere"""
+        return None if group.place is None else matrix_at(self.context, prim, group.anchor, 0.0) * group.place
+
+    def signature(self, instance, group):
+        """:param instance: native instance
+        :returns: what two instances of one prototype have to have in common to be drawn alike"""
+        if group.place is not None:
+            return ()
+        paths = self._roots_below(instance.GetPrototype())
+        if is_root(instance):
+            paths = (".", *paths)
+        place = self.context.stage.GetPrimAtPath(group.path(instance)) if paths else None
+        if not place:
+            return ()
+        roots = (place.GetPrimAtPath(path) if path != "." else place for path in paths)
+        return tuple(self._shown(root, matrix_at(self.context, root, None, 0.0)) for root in roots)
+
+    def _roots_below(self, prototype):
+        """:returns: paths of all prims with the LODRootAPI in a native prototype and in those of its instances"""
+        path = prototype.GetPath()
+        if path not in self._below:
+            found = []
+            for prim in Usd.PrimRange(prototype):
+                if prim == prototype:
+                    continue
+                own = str(prim.GetPath().MakeRelativePath(path))
+                if is_root(prim):
+                    found.append(own)
+                if prim.IsInstance():
+                    found.extend(f"{own}/{below}" for below in self._roots_below(prim.GetPrototype()))
+            self._below[path] = tuple(found)
+        return self._below[path]
+
+    def nearest_place(self, instancer, group, root):
+        """:param root: of a prototype of a point instancer
+        :returns: the matrix of its instance nearest to the camera, None where no level depends on it"""
+        if not any(is_root(prim) for prim in Usd.PrimRange(root, Usd.TraverseInstanceProxies())):
+            return None
+        api, time = UsdGeom.PointInstancer(instancer), self.context.time
+        targets = list(map(str, api.GetPrototypesRel().GetForwardedTargets()))
+        own = targets.index(str(root.GetPath())) if str(root.GetPath()) in targets else None
+        indices = api.GetProtoIndicesAttr().Get(time) or ()
+        matrices = api.ComputeInstanceTransformsAtTime(time, time, UsdGeom.PointInstancer.ExcludeProtoXform,
+                                                       UsdGeom.PointInstancer.IgnoreMask)
+        world = self.place_inside(instancer, group) or matrix_at(self.context, instancer, group.anchor, 0.0)
+        places = [m * world for m, index in zip(matrices, indices) if own in (None, index)]
+        eye = self._frustum().GetPosition()
+        return min(places, key=lambda m: (m.ExtractTranslation() - eye).GetLength(), default=world)
+
+    def _shown(self, root, matrix):
+        names = [child.GetName() for child in root.GetFilteredChildren(Usd.TraverseInstanceProxies())]
+        if not names:
+            return ()
+        index = self._index(root, matrix)
+        if index is None:
+            return tuple(names)
+        return () if index < 0 else (names[min(index, len(names) - 1)],)
+
+    def _index(self, root, matrix):
+        """:returns: of the child that is drawn; -1: none is; None: all are"""
+        default = max(int(number(self.context, root, "lod:default:index", 0.0)), 0)
+        if UsdLod is None:
+            self._tell(root, "", "levels of detail need OpenUSD 26.08 or later; lod:default:index says what is drawn")
+            return default
+        mode, index = UsdLod.OverrideAPI(root).ComputeLODOverride(self.context.time)
+        if mode in ("noLOD", "allLOD"):
+            return -1 if mode == "noLOD" else None
+        if mode != "indexedLOD":
+            index = self._by_heuristic(root, matrix)
+        return default if index is None or not math.isfinite(index) else max(math.floor(index + 0.5), 0)
+
+    def _by_heuristic(self, root, matrix):
+        """:returns: a level, None where no heuristic gives one"""
+        for path in UsdLod.RootAPI(root).GetLodHeuristicsRel().GetForwardedTargets():
+            prim = self.context.stage.GetPrimAtPath(path)
+            if not prim or not prim.IsA(UsdLod.Heuristic):
+                self._tell(root, "lod:heuristics", f"names {path}, which is no heuristic; it is passed over")
+            elif get(prim, "lod:domain", self.context.time) == _DOMAIN:
+                for type_, view in ((UsdLod.DistanceHeuristic, lambda: self._frustum().GetPosition()),
+                                    (UsdLod.ScreenSizeHeuristic, self._frustum)):
+                    if prim.IsA(type_):
+                        return type_(prim).ComputeLOD(view(), matrix, self.context.time)
+                self._tell(root, "lod:heuristics", f"names {path}, whose type {prim.GetTypeName()} is not known; it is passed over")
+        return None
+
+    def _tell(self, root, name, message):
+        if root.GetPath() not in self._told:
+            self._told.add(root.GetPath())
+            self.context.warn(root.GetPath(), name, message)
+
+    def _frustum(self):
+        if self._view is None:
+            self._view = cameras.view_of(self.context)
+        return self._view

@@ -150,7 +150,7 @@ def number(context, prim, name, fallback, value=None):
 
 
 def vector(context, prim, name, fallback, value=None):
-    """The same for three numbers; :returns: a tuple"""
+    """The same for as many numbers as the fallback has, three without one; :returns: a tuple"""
     if value is None:
         value = get(prim, name, context.time)
     if value is None:
@@ -159,9 +159,10 @@ def vector(context, prim, name, fallback, value=None):
         numbers = np.array(value, dtype=np.float32)
     except (TypeError, ValueError):
         numbers = np.zeros(0)
-    if numbers.shape != (3,) or not np.isfinite(numbers).all():
+    count = 3 if fallback is None else len(fallback)
+    if numbers.shape != (count,) or not np.isfinite(numbers).all():
         used = "the default" if fallback is None else fallback
-        context.warn(prim.GetPath(), name, f"is not three finite numbers; {used} is used")
+        context.warn(prim.GetPath(), name, f"is not {'three' if count == 3 else count} finite numbers; {used} is used")
         return fallback
     return tuple(map(float, numbers))
 

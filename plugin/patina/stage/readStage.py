@@ -2,7 +2,7 @@
 """Translates one frame of a stage into an edit of the scene."""
 from pxr import UsdGeom
 
-from . import cameras, compat, drawModes, geometry, headlight, instancers, lights, mtlxFiles, networks
+from . import backPlates, cameras, compat, drawModes, geometry, headlight, instancers, lights, mtlxFiles, networks
 from .bindings import Bindings
 from .context import Context, Guard
 from .kinds import Kinds
@@ -52,6 +52,7 @@ def _read(context):
         with Guard(context, found.prim, needed=found is chosen):
             placed = cameras.emit(context, found)
             camera = placed if found is chosen else camera
+    backPlates.emit(context, walked.cameras, chosen, _patina)
     for path, material in bindings.materials.items():
         with Guard(context, material.GetPrim()):
             edit.set_material(path, networks.network_of(context, material, path, _patina))

@@ -15,7 +15,7 @@ def emit(context, found, linking):
     is_mesh = prim.IsA(UsdGeom.Mesh)
     type_ = "mesh" if is_mesh else kinds.lights().get(kinds.schema_among(prim, kinds.lights()))
     fields = {"type": type_, "group": group.name}
-    _read_inputs(context, prim, fields)
+    _read_inputs(context, prim, type_, fields)
     fields["light_link"], fields["shadow_link"] = linking.links_of(prim)
     fields["light_group"] = _light_group(context, found)
     fields["filters"] = lightFilters.of(context, prim, group)
@@ -23,12 +23,8 @@ def emit(context, found, linking):
 
     after = None
     if type_ == "dome":
-        _read_texture(context, prim, fields)
-        fields["texture_format"] = str(shown(_input(context, prim, "texture:format") or "automatic"))
         fields["portals"] = portals.of(context, prim, group)
         after = _dome_pole(context, prim)
-    elif type_ == "rect":
-        _read_texture(context, prim, fields)
     elif type_ == "mesh":
         fields["geometry"] = found.path if is_mesh else _geometry_of(context, prim, group)
         if not fields["geometry"]:
@@ -145,29 +141,33 @@ def _is_shaped(prim):
     return prim.HasAPI(UsdLux.ShapingAPI) or any(prim.HasAttribute("inputs:" + n) or prim.HasAttribute(n) for n in names)
 
 
-def _read_inputs(context, prim, fields):
+def _read_inputs(context, prim, light_type, fields):
     """Values that are none leave the scene's own fallback, which is the schema's."""
     shaped = fields["shaping_cone_authored"] = _is_shaped(prim)
     for group, name, key, type_ in _inputs():
-        if group == "Shaping" and not shaped:
+        if group == "Shaping" and not shaped or group == "Image" and light_type not in ("dome", "rect"):
+            continue
+        if type_ == "std::string":
+            _read_text(context, prim, name, key, fields)
             continue
         value = _color(context, prim, name) if type_ == "vec3" else _input(context, prim, name)
         if value is not None and type_ == "float":
             value = number(context, prim, "inputs:" + name, None, value)
         if value is not None:
             fields[key] = bool(value) if type_ == "bool" else value
-    attribute = prim.GetAttribute("inputs:shaping:ies:file")
-    if shaped and attribute and attribute.HasAuthoredValue():
-        fields["ies_file"] = assets.resolve(context, attribute)
 
 
-def _read_texture(context, prim, fields):
-    attribute = prim.GetAttribute("inputs:texture:file")
-    if not attribute or not attribute.HasAuthoredValue():
-        attribute = prim.GetAttribute("texture:file")
-    if attribute and attribute.HasAuthoredValue():
-        fields["texture_file"] = assets.resolve(context, attribute)
-        fields["texture_color_space"] = context.color_spaces.space_of(attribute)
+def _read_text(context, prim, name, key, fields):
+    """A token, or the file that an asset names."""
+    if not context.light_fallbacks.is_authored(prim, name):
+        return
+    attribute = _attribute_of(context, prim, name, authored=True)
+    if attribute and name.endswith(":file"):
+        fields[key] = assets.resolve(context, attribute)
+        if name == "texture:file":
+            fields["texture_color_space"] = context.color_spaces.space_of(attribute)
+    elif attribute:
+        fields[key] = str(shown(attribute.Get(context.time)))
 
 
 def _dome_pole(context, prim):

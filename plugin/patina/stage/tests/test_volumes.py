@@ -37,3 +37,8 @@ def test_moved_fields_are_reported(read):
         uniform token[] xformOpOrder = ["xformOp:translate"]"""
     stage = read(VOLUME % ("rel field:heat = </v/b>", moved))
     assert any("transform is not used" in w for w in stage.warnings)
+
+
+def test_volumes_that_are_lights_are_told(read):
+    stage = read('def Volume "v" (prepend apiSchemas = ["VolumeLightAPI"]) { }')
+    assert any(w.startswith("/v : VolumeLightAPI is not read") for w in stage.warnings), stage.warnings

@@ -123,6 +123,9 @@ if(TARGET _patina)
 endif()
 
 set(CPACK_GENERATOR DEB TGZ)
+if(TARGET hdPatina AND NOT pxr_DIR MATCHES "^/usr/(lib|share)/") # other machines do not have that OpenUSD
+    set(CPACK_INSTALL_CMAKE_PROJECTS "${CMAKE_BINARY_DIR};${PROJECT_NAME};Unspecified;/;${CMAKE_BINARY_DIR};${PROJECT_NAME};library;/")
+endif()
 set(CPACK_PACKAGE_NAME hdpatina)
 set(CPACK_PACKAGE_VENDOR Patina)
 set(CPACK_PACKAGE_CONTACT "Patina <patina@localhost>")

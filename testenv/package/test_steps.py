@@ -117,3 +117,18 @@ def test_a_wheel_with_its_libraries_asks_for_the_denoiser(tmp_path):
     metadata = email.message_from_string((info / "METADATA").read_text())
     assert metadata.get_all("Requires-Dist") == ["pyoidn", 'pyoidn; extra == "denoise"']
     assert metadata["Name"] == "hdPatina" and metadata.get_payload() == "Text.\nName: no header\n"
+
+
+def test_packages_hold_hydras_plugin_only_for_an_openusd_of_the_system():
+    config = os.path.join(BUILD, "CPackConfig.cmake")
+    if not os.path.exists(config):
+        pytest.skip("there is no build that could be packed")
+    with open(os.path.join(BUILD, "CMakeCache.txt"), encoding="utf-8") as file:
+        found = next((line.split("=", 1)[1].strip() for line in file if line.startswith("pxr_DIR:")), "")
+    with open(config, encoding="utf-8") as file:
+        projects = next(line for line in file if line.startswith("set(CPACK_INSTALL_CMAKE_PROJECTS ")).split('"')[1]
+    components = projects.split(";")[2::4]
+    if not found or found.endswith("NOTFOUND") or found.startswith(("/usr/lib/", "/usr/share/")):
+        assert components == ["ALL"]
+    else:
+        assert components == ["Unspecified", "library"]

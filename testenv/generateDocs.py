@@ -3,8 +3,8 @@
 
     ./patina python testenv/generateDocs.py [--check] [PAGE ...]
 
-Pages: nodes, flags, limits, methods, aovs, marks, cameras, library, byDesign, messages, benchmarks, conformance, openUSD,
-trust (docs/trust.md).
+Pages: nodes, flags, limits, methods, aovs, marks, cameras, lights, library, byDesign, messages, benchmarks, conformance,
+openUSD, trust (docs/trust.md).
 testenv/lint/test_generatedDocs.py fails where one is stale.
 """
 import argparse
@@ -220,6 +220,26 @@ def cameras():
             "[Cameras](../design/cameras.md) has the meanings.", "", *table(("attribute", "meaning"), rows)]
 
 
+def lights():
+    from patina.cli import rows as tables
+
+    path = "hdDelegate/scene/lightTypes.inc"
+    types = [(f"`{schema}`", row.text(1)) for macro in ("PATINA_LIGHT", "PATINA_AREA_LIGHT")
+             for row in tables.read(path, macro) for schema in row.text(2).split()]
+    rows = []
+    for group, type_, _, _, name, fallback, meaning in (row.values for row in tables.read(path, "PATINA_LIGHT_INPUT")):
+        kind = {"vec3": "colour", "float": "number", "bool": "true, false"}.get(type_, "file" if "file" in name else "token")
+        value = re.sub(r"vec3\((.*)\)", r"\1", fallback).strip('"')
+        value = re.sub(r"(\.0)?f$", "", value) if value[-1:] == "f" else value
+        name = ("" if "treatAs" in name else "inputs:") + tables.argument(name)
+        rows.append((f"`{name}`", group.lower(), kind, value, tables.argument(meaning)))
+    return ["# Lights", "", f"The table is `{path}`. Fallbacks are those of UsdLux;",
+            "there a DistantLight has an intensity of 50000.",
+            "[Lights](../design/lights.md) has the meanings, and filters.", "", *table(("type", "is drawn as"), types), "",
+            "*light*: all lights have it; *shape*: some have it; *shaping*: it counts where the ShapingAPI is applied;",
+            "*image*: of domes and rects.", "", *table(("input", "of", "value", "fallback", "meaning"), rows)]
+
+
 def library():
     from patina.library import catalog
 
@@ -287,8 +307,8 @@ def open_usd():
 
 
 PAGES = {"nodes": nodes, "flags": flags, "limits": limits, "methods": methods, "aovs": aovs, "marks": marks, "cameras": cameras,
-         "library": library, "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page,
-         "conformance": conformance, "openUSD": open_usd, "trust": trust}
+         "lights": lights, "library": library, "byDesign": by_design, "messages": messages,
+         "benchmarks": benchmarks.page, "conformance": conformance, "openUSD": open_usd, "trust": trust}
 PLACES = {"trust": os.path.join(ROOT, "docs", "trust.md")}  # of pages that are not in docs/generated
 NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"
 

@@ -77,17 +77,22 @@ void readInput(const Params& p, const char* name, bool& field) {
 void readInput(const Params& p, const char* name, vec3& field) {
     p.color(name, field);
 }
+void readInput(const Params& p, const char* name, std::string& field) {
+    p.text(name, field);
+}
 
 void readInputs(const Params& p, Light& light) {
     // An applied ShapingAPI gives its cone angle, its fallback included.
     light.shapingConeAuthored =
         p.has("shaping:cone:angle") || p.has("shaping:focus") || p.has("shaping:ies:file");
-    enum class Group { Light, Shape, Shaping, Shadow };
+    const bool image = light.type == LightType::Dome || light.type == LightType::Rect;
+    enum class Group { Light, Shape, Shaping, Shadow, Image };
+    const auto counts = [&](Group group) {
+        return group == Group::Shaping ? light.shapingConeAuthored : group != Group::Image || image;
+    };
 #define PATINA_LIGHT_INPUT(group, type, field, key, input, fallback, description)                  \
-    if (Group::group != Group::Shaping || light.shapingConeAuthored)                               \
-        readInput(p, input, light.field);
+    if (counts(Group::group)) readInput(p, input, light.field);
 #include "hdDelegate/scene/lightTypes.inc"
-    if (light.shapingConeAuthored) p.text("shaping:ies:file", light.iesFile);
 }
 
 void convertColor(const HdMaterialNode& node, const char* input, HdPatinaRenderParam& param,
@@ -160,10 +165,6 @@ void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
     light.visible = delegate.GetVisible(id);
 
     readInputs(p, light);
-    if (light.type == LightType::Dome || light.type == LightType::Rect) {
-        p.text("texture:file", light.textureFile);
-        p.text("texture:format", light.textureFormat);
-    }
     if (light.type == LightType::Mesh) {
         light.geometry = id.GetParentPath().GetString(); // our scene index made it a child
         p.text("materialSyncMode", light.materialSyncMode);

@@ -45,16 +45,10 @@ struct Light {
     type field = fallback;
 #include "hdDelegate/scene/lightTypes.inc"
 
-    // textures
-    std::string textureFile; ///< dome, rect; resolved path
-    std::string textureFormat =
-        "automatic";               ///< dome: latlong, mirroredBall, angular, cubeMapVerticalCross
     std::string textureColorSpace; ///< empty or "auto": by file type
-    float guideRadius = 0.0f;
 
-    bool shapingConeAuthored =
-        false; ///< the ShapingAPI is applied: an unauthored one shapes nothing
-    std::string iesFile;
+    /// The ShapingAPI is applied: an unauthored one shapes nothing.
+    bool shapingConeAuthored = false;
 
     // linking: empty lights (or shadows) everything; else a name found in Geometry::categories
     std::string lightLink;

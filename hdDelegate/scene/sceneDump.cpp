@@ -285,11 +285,8 @@ void writeLight(Writer& w, const Light& l) {
 #define PATINA_LIGHT_INPUT(group, type, field_, key, input, fallback, description)                 \
     writeInput(w, #field_, l.field_, d.field_);
 #include "hdDelegate/scene/lightTypes.inc"
-    w.field("textureFile", l.textureFile, d.textureFile);
-    w.field("textureFormat", l.textureFormat, d.textureFormat);
     w.field("textureColorSpace", l.textureColorSpace, d.textureColorSpace);
     w.field("shapingConeAuthored", l.shapingConeAuthored, d.shapingConeAuthored);
-    w.field("iesFile", l.iesFile, d.iesFile);
     w.field("lightLink", l.lightLink, d.lightLink);
     w.field("shadowLink", l.shadowLink, d.shadowLink);
     for (const LightFilter& filter : l.filters)

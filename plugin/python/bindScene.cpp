@@ -27,12 +27,8 @@ void setLight(PythonEdit& edit, const std::string& path, const py::kwargs& value
 #define PATINA_LIGHT_INPUT(group, type, field, key, input, fallback, description)                  \
     .read(key, light->field)
 #include "hdDelegate/scene/lightTypes.inc"
-        .read("texture_file", light->textureFile)
-        .read("texture_format", light->textureFormat)
         .read("texture_color_space", light->textureColorSpace)
-        .read("guide_radius", light->guideRadius)
         .read("shaping_cone_authored", light->shapingConeAuthored)
-        .read("ies_file", light->iesFile)
         .read("light_link", light->lightLink)
         .read("shadow_link", light->shadowLink)
         .read("filters", light->filters)
@@ -143,8 +139,8 @@ void bindScene(py::module_& m) {
 #include "hdDelegate/scene/lightTypes.inc"
             return inputs;
         },
-        "Inputs of lights: (Light, Shape, Shaping or Shadow, name in the schema, keyword of "
-        "set_light(), float, bool or vec3).");
+        "Inputs of lights: (Light, Shape, Shaping, Shadow or Image, name in the schema, keyword of "
+        "set_light(), float, bool, vec3 or std::string).");
     m.def(
         "camera_inputs",
         [] {

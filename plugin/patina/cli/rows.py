@@ -20,7 +20,7 @@ class Row:
     words: dict  # word -> list of arguments: texts and numbers
 
     def text(self, i):
-        return _argument(self.values[i])
+        return argument(self.values[i])
 
 
 @functools.lru_cache(maxsize=None)
@@ -35,7 +35,7 @@ def read(path, macro):
 def _row(body):
     parts = _split(body)
     words = parts.pop() if parts[-1].startswith(".") else ""
-    return Row(tuple(parts), {call[0]: [_argument(a) for a in _split(call[1])] for call in _words(words)})
+    return Row(tuple(parts), {call[0]: [argument(a) for a in _split(call[1])] for call in _words(words)})
 
 
 def _words(text):
@@ -48,7 +48,8 @@ def _words(text):
     return found
 
 
-def _argument(text):
+def argument(text):
+    """:returns: the value that a column writes: a text, a number, or None"""
     if text.startswith('"'):
         return "".join(_STRING.findall(text)).replace('\\"', '"').replace("\\\\", "\\")
     return {"None": None, "most": float("inf")}[text] if text.isalpha() else float(text) if "." in text else int(text)

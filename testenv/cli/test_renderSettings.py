@@ -72,6 +72,17 @@ def Scope "Render"
         token patina:cullStyle = "sideways"
         int patina:samples = 1
     }
+    def RenderPass "empty" (
+        prepend apiSchemas = ["CollectionAPI:prune"]
+    )
+    {
+        rel renderSource = </Render/main>
+        rel collection:prune:includes = [</ball>, </dome>]
+    }
+    def RenderPass "twice"
+    {
+        rel renderSource = [</Render/main>, </Render/alone>]
+    }
     def RenderProduct "beauty"
     {
         token productName = "beauty.<F4>.exr"
@@ -407,3 +418,23 @@ def test_pixel_aspect_ratios_that_no_image_holds_are_refused_as_flags(folder, ca
 def test_pixel_aspect_ratios_at_the_ends_of_the_range_are_written(folder, ratio):
     assert record("a.exr", "-w", 8, "--samples", 1, "--pixelAspectRatio", ratio) == 0
     assert image("a.exr").pixel_aspect_ratio == pytest.approx(float(ratio))
+
+
+def test_a_render_pass_brings_its_settings_and_draws_its_collections(folder):
+    assert record("all.exr", "--settings", "/Render/main") == 0 and record("pass.exr", "-rp", "/Render/empty") == 0
+    whole, left = (_patina.read_image(name) for name in ("all.exr", "pass.exr"))
+    assert (left.width, left.height) == (32, 16)
+    alpha = whole.channels.index("A")
+    assert whole.pixels[..., alpha].max() == 1.0 and left.pixels[..., alpha].max() == 0.0
+
+
+@pytest.mark.parametrize("path, problem", [("/Render/none", "is not there"), ("/ball", "is no UsdRenderPass prim"),
+                                           ("/Render/twice", "has 2 prims as its renderSource")])
+def test_passes_that_cannot_be_used_are_named(folder, capfd, path, problem):
+    assert record("x.exr", "--renderPassPrimPath", path) == 1
+    assert problem in capfd.readouterr().err and not os.path.exists("x.exr")
+
+
+def test_a_pass_and_settings_are_not_given_together(folder, capfd):
+    assert record("x.exr", "-rp", "/Render/empty", "--settings", "stage") == 2
+    assert "--settings cannot be beside it" in capfd.readouterr().err

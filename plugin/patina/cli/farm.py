@@ -79,9 +79,12 @@ def run(arguments):
 
 def _with_prim(record, stage):
     """:returns: the arguments with what --settings says, as each task will have them"""
-    if not record.settings:
+    if not record.settings and not record.renderPassPrimPath:
         return record
     overrides.apply(stage, record.set)
+    record = renderSettings.with_pass(record, stage)
+    if not record.settings:
+        return record
     return renderSettings.applied(record, renderSettings.SettingsPrim(stage, record.settings, record.given))
 
 

@@ -79,6 +79,7 @@ class _Job:
         with self.statistics.phase("open"):
             self.stage = openStage.open_stage(a.stage, a.mask, a.sessionLayer, a.layer)
             overrides.apply(self.stage, a.set)
+            self.arguments = a = renderSettings.with_pass(a, self.stage)
             prim = renderSettings.SettingsPrim(self.stage, a.settings, getattr(a, "given", ())) if a.settings else None
         if prim:
             self.arguments = a = renderSettings.applied(a, prim)
@@ -187,7 +188,7 @@ class _Job:
         options = reader.StageOptions(
             frame=shot.frame, purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
             headlight=not self.arguments.disableCameraLight,
-            material_purpose=getattr(self.arguments, "materialPurpose", "full"),
+            render_pass=self.arguments.renderPassPrimPath, material_purpose=getattr(self.arguments, "materialPurpose", "full"),
             matte_names=any(aov.startswith("crypto") for shot in self.shots for aov in shot.aovs()))
         with self.scene.edit() as edit:
             edit.clear()
@@ -207,7 +208,8 @@ class _Job:
     def _film(self, shot, settings, info):
         """:returns: an empty film, or that of a checkpoint"""
         film = self.module.Film()
-        others = [info.camera, shot.frame, self.purposes, self.arguments.complexity, self.arguments.mask, self.arguments.set]
+        others = [info.camera, shot.frame, self.purposes, self.arguments.complexity, self.arguments.mask, self.arguments.set,
+                  self.arguments.renderPassPrimPath]
         token = checkpoints.token(self.stage, settings, others, self.renderer.progress()["backend"])
         if self.arguments.resume:
             problem = checkpoints.resume(film, checkpoints.path_of(shot.image), token)

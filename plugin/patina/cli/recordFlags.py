@@ -20,6 +20,8 @@ MAX_PIXELS = 1 << 28
 _SETTINGS_HELP = ("take camera, resolution, products, AOVs, purposes and `patina:` settings from this UsdRenderSettings prim; "
                   "`stage` is the one that the stage's metadata name. Flags are stronger. Without IMAGE all its products are "
                   "written to their own names; with IMAGE the first, to IMAGE")
+_PASS_HELP = ("draw what the collections of this UsdRenderPass prim say (renderVisibility, prune, cameraVisibility, "
+              "matte), with the render settings of its renderSource. It takes the place of --settings")
 _TEXTS = {"DEFAULT_SAMPLES": DEFAULT_SAMPLES, "MAX_SAMPLES": MAX_SAMPLES}  # of helps in the table of settings
 
 
@@ -54,6 +56,7 @@ def _add_stage_flags(group):
                        help="a layer over the stage, which itself is not changed (repeatable; later ones are stronger, and all "
                             "are stronger than the session layer)")
     group.add_argument("--settings", "--renderSettingsPrimPath", "-rs", metavar="PRIM", help=_SETTINGS_HELP)
+    group.add_argument("--renderPassPrimPath", "-rp", metavar="PRIM", help=_PASS_HELP)
     group.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE", help=overrides.SET_HELP)
     group.add_argument("--disableCameraLight", action="store_true",
                        help="no headlight where the stage has no lights")

@@ -106,6 +106,27 @@ class SettingsPrim:
         return None
 
 
+def with_pass(arguments, stage):
+    """:returns: the arguments with the settings that --renderPassPrimPath names by its renderSource
+    :raises CommandError: where there is no such pass"""
+    from pxr import Sdf, UsdRender
+
+    path = arguments.renderPassPrimPath
+    if not path:
+        return arguments
+    prim = stage.GetPrimAtPath(path) if Sdf.Path.IsValidPathString(path) and path.startswith("/") else None
+    if not prim or not prim.IsA(UsdRender.Pass):
+        there = [str(p.GetPath()) for p in stage.Traverse() if p.IsA(UsdRender.Pass)]
+        reason = "is no UsdRenderPass prim" if prim else "is not there"
+        raise CommandError(f"--renderPassPrimPath: {path} {reason} (there are: {', '.join(there[:12]) or 'none'})")
+    sources = prim.GetRelationship("renderSource").GetForwardedTargets() if prim.HasRelationship("renderSource") else []
+    if len(sources) > 1:
+        raise CommandError(f"--renderPassPrimPath: {path} has {len(sources)} prims as its renderSource, where one can be used")
+    if arguments.settings or not sources:
+        return arguments
+    return argparse.Namespace(**dict(vars(arguments), settings=str(sources[0])))
+
+
 def applied(arguments, prim):
     """:returns: the arguments with what the prim says where they were not given; prim.extra has the settings without a flag"""
     merged = argparse.Namespace(**vars(arguments))

@@ -92,7 +92,9 @@ def image_options(arguments, shot, output, settings):
 
 def check_usage(arguments):
     """:raises UsageError: where neither an image nor settings say what to write, or both say where"""
-    if not arguments.image and not arguments.settings:
+    if arguments.settings and arguments.renderPassPrimPath:
+        raise UsageError("patina record: --renderPassPrimPath names its own settings; --settings cannot be beside it")
+    if not arguments.image and not arguments.settings and not arguments.renderPassPrimPath:
         raise UsageError("patina record: name an IMAGE, or --settings PRIM to write its products")
     if arguments.image and arguments.outputFolder:
         raise UsageError("patina record: --outputFolder is of products, which are written where there is no IMAGE")

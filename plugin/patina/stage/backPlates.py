@@ -24,7 +24,10 @@ def emit(context, cameras, chosen, module):
     :param cameras: list of Found
     :param module: `_patina`"""
     for found in cameras:
-        for name in (schema.split(":", 1)[1] for schema in found.prim.GetAppliedSchemas() if schema.startswith("BackPlateAPI:")):
+        for schema in found.prim.GetAppliedSchemas():
+            if not schema.startswith("BackPlateAPI:"):
+                continue
+            name = schema.partition(":")[2]
             seen = get(found.prim, f"backPlate:{name}:plateVisibility", context.time, "solo")
             if seen == "all" or seen == "solo" and found is chosen:
                 _emit(context, found, f"backPlate:{name}:", f"{found.path}/{name}", module)
@@ -114,7 +117,7 @@ def _graded(context, prim, prefix, network, color):
     gain, lift, gamma = (np.array(vector(context, prim, prefix + name, fallback)) for name, fallback in
                          (("gain", (1.0, 1.0, 1.0)), ("lift", (0.0, 0.0, 0.0)), ("gamma", (1.0, 1.0, 1.0))))
     if not (gamma > 0.0).all():
-        context.warn(prim.GetPath(), prefix + "gamma", "is not above 0; 1 is used")
+        context.warn(prim.GetPath(), prefix + "gamma", "is not finite and above 0; 1 is used")
         gamma = np.ones(3)
     for operation, value, idle in (("multiply", gain - lift, 1.0), ("add", lift, 0.0), ("power", 1.0 / gamma, 1.0)):
         if (value != idle).any():

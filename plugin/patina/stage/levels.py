@@ -126,7 +126,8 @@ class Levels:
                                     (UsdLod.ScreenSizeHeuristic, self._frustum)):
                     if prim.IsA(type_):
                         return type_(prim).ComputeLOD(view(), matrix, self.context.time)
-                self._tell(root, "lod:heuristics", f"names {path}, whose type {prim.GetTypeName()} is not known; it is passed over")
+                self._tell(root, "lod:heuristics",
+                           f"names {path}, whose type {prim.GetTypeName()} is not known; it is passed over")
         return None
 
     def _tell(self, root, name, message):

@@ -15,6 +15,8 @@ def emit(context, found, linking):
     is_mesh = prim.IsA(UsdGeom.Mesh)
     type_ = "mesh" if is_mesh else kinds.lights().get(kinds.schema_among(prim, kinds.lights()))
     fields = {"type": type_, "group": group.name}
+    if context.options.render_pass and found.state.marks.get("patina:visibility:camera") == 0.0 and not is_mesh:
+        fields["camera_visible"] = False
     _read_inputs(context, prim, type_, fields)
     fields["light_link"], fields["shadow_link"] = linking.links_of(prim)
     fields["light_group"] = _light_group(context, found)

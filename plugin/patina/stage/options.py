@@ -15,6 +15,7 @@ class StageOptions:
         frames the stage when there is none
     shutter: (open, close) in time codes relative to the frame; None takes the camera's
     headlight: light a stage that has no lights
+    render_pass: path of a UsdRenderPass, whose collections say what is drawn
     matte_names: native instances get names of their own, for Cryptomatte
     material_purpose: whose bindings are looked at before those for all purposes: full, preview, or '' for these alone
     """
@@ -26,6 +27,7 @@ class StageOptions:
     headlight: bool = True
     material_purpose: str = "full"
     matte_names: bool = False
+    render_pass: object = None
 
     @property
     def refine_level(self):

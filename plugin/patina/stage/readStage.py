@@ -68,12 +68,12 @@ def _read(context):
 
 
 def _emit_lights(context, walked, linking):
-    """:returns: whether there are lights"""
+    """:returns: whether there are lights, or may be in another render pass"""
     founds = walked.lights + [f for f in walked.gprims if f.prim.IsA(UsdGeom.Mesh) and lights.is_mesh_light(f.prim)]
     for found in founds:
         with Guard(context, found.prim):
             lights.emit(context, found, linking)
-    return bool(founds)
+    return bool(founds) or walked.left_out > 0
 
 
 def _emit_geometry(context, walked, bindings, linking, module):

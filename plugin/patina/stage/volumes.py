@@ -10,7 +10,8 @@ from .context import get
 def emit(context, found, common):
     volume = UsdVol.Volume(found.prim)
     if "VolumeLightAPI" in found.prim.GetAppliedSchemas():
-        context.warn(found.prim.GetPath(), "", "VolumeLightAPI is not read; the volume emits what its material says")
+        context.warn(found.prim.GetPath(), "",
+                     "VolumeLightAPI is not read; it is left out, and the volume emits what its material says")
     names, files, grids = [], [], []
     for name, path in sorted(volume.GetFieldPaths().items()):
         prim = context.stage.GetPrimAtPath(path)

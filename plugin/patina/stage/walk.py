@@ -15,6 +15,7 @@ from .context import Guard, get
 from .instanceValues import InstanceValues
 from .kinds import GPRIM_KINDS, Kinds
 from .levels import Levels, is_root
+from .renderPass import RenderPass
 from .skinning import skinning_of
 from .state import Found, Group, State, Walked
 
@@ -35,6 +36,7 @@ class Walk:
         self.walked = Walked(InstanceValues(context))
         self._kinds = Kinds()
         self._levels = Levels(context)
+        self._pass = RenderPass(context.stage, context.options.render_pass) if context.options.render_pass else None
         self._pending = []  # native instances whose prototype is not chosen yet
         self._todo = []  # (prims, their states, predicate)
         self._native = {}  # what prims of a prototype inherit -> group
@@ -100,8 +102,10 @@ class Walk:
                 self._add(prim, state, names, self.walked.boxes)
             return None
         if kind == "instancer":
-            if self._has_room(prim, state, self.walked.instancers):
-                self._instancer(Found(prim, state, state.group.path(prim), names))
+            path = state.group.path(prim)
+            state = self._pass.state_of(path, state) if self._pass else state
+            if state and self._has_room(prim, state, self.walked.instancers):
+                self._instancer(Found(prim, state, path, names))
             return None
         if kind == "skelRoot":
             state = state.with_(skinning=skinning_of(self.context, prim))
@@ -153,9 +157,12 @@ class Walk:
         return state.purpose in self.context.purposes
 
     def _add(self, prim, state, names, found):
-        """Adds a prim to what was found of a kind, if there is room."""
-        if self._has_room(prim, state, found):
-            found.append(Found(prim, state, state.group.path(prim), names))
+        """Adds a prim to what was found of a kind, if there is room, and the pass has it."""
+        path = state.group.path(prim)
+        state = self._pass.state_of(path, state) if self._pass else state
+        if state and self._has_room(prim, state, found):
+            found.append(Found(prim, state, path, names))
+        self.walked.left_out += state is None
 
     def _has_room(self, prim, state, found, limit="prims"):
         """:param found: what there is of a kind
@@ -189,7 +196,7 @@ class Walk:
             split = self.walked.values.split(state.primvars)
             key = (str(prototype.GetPath()), material, rules, state.purpose, state.draw_mode,
                    tuple(sorted(state.marks.items())), split.key, outer.name if self._reaches_out(prototype, outer) else "",
-                   self._levels.signature(found.prim, outer))
+                   self._levels.signature(found.prim, outer), self._pass.signature(found.path) if self._pass else "")
             group = self._native.get(key)
             if group is None:
                 if not self._has_room(found.prim, state, self._native):

@@ -13,7 +13,10 @@ def LODDistanceHeuristic "by" {
     uniform token lod:domain = "imaging"  uniform float[] thresholds = [5, 50]  %s
 }
 """
-CAMERA = 'def Camera "camera" { double3 xformOp:translate = (0, 0, %g)  uniform token[] xformOpOrder = ["xformOp:translate"] }\n'
+CAMERA = """def Camera "camera" {
+    double3 xformOp:translate = (0, 0, %g)  uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
 BY = "rel lod:heuristics = </by>"
 
 
@@ -80,7 +83,8 @@ def test_an_override_stands_above_heuristics_and_is_inherited(read, usd_lod, mod
 
 def test_roots_in_levels_that_are_not_drawn_choose_nothing(read, usd_lod):
     inner = ROOT.replace('"root"', '"inner"') % ("", "", "")
-    text = f'def Xform "root" (prepend apiSchemas = ["LODRootAPI"]) {{ int lod:default:index = %d\n{inner}  def Cone "far" {{ }} }}'
+    text = ('def Xform "root" (prepend apiSchemas = ["LODRootAPI"]) {\nint lod:default:index = %d\n'
+            + inner + '\ndef Cone "far" { }\n}')
     assert drawn(read(text % 0), "/root/inner") == ["near"] and not drawn(read(text % 0))
     assert not drawn(read(text % 1), "/root/inner") and drawn(read(text % 1)) == ["far"]
 

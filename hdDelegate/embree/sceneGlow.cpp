@@ -43,6 +43,8 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene, L
                              Diagnostics& diagnostics) {
     const auto meshLight = _meshLights.find(&surface);
     const bool isMeshLight = meshLight != _meshLights.end();
+    // Glow lights what the rays that see it come from. Those that do find it by chance.
+    if (!isMeshLight && (surface.prim->visibility.mask() & RayIndirect) != RayIndirect) return;
     const std::vector<uvec3>& triangles = surface.topology().triangles;
     int glowing = 0;
     for (unsigned t = 0; t < triangles.size(); ++t)

@@ -126,6 +126,44 @@ def test_a_mirror_shows_what_specular_rays_see(kind, seen):
     assert (image.mean() < 0.35) == seen  # half of the sky's radiance
 
 
+GLOW = """
+def Material "glow"
+{
+    token outputs:surface.connect = </glow/s.outputs:surface>
+    def Shader "s"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor = (0, 0, 0)
+        color3f inputs:emissiveColor = (3, 3, 3)
+        token outputs:surface
+    }
+}
+"""
+
+
+def glow(mark, backend="embree", samples=4):
+    """:returns: what a card that glows adds to a floor"""
+    down = 'uniform token orientation = "leftHanded"\nrel material:binding = </glow>'
+    card = quad("card", 2.0, marks=mark, more=down, **CARD)
+    dark = 'def SphereLight "dark"\n{\n    float inputs:intensity = 0\n}\n'
+    return render(quad("floor") + GLOW + card + dark, samples=samples, backend=backend)["color"][~MIDDLE]
+
+
+@pytest.mark.parametrize("backend", ["embree", "raster"])
+def test_glow_that_scattered_rays_do_not_see_lights_nothing(backend):
+    if backend == "raster" and without_opengl():
+        pytest.skip(without_opengl())
+    assert glow("", backend).mean() > 0.1
+    assert (glow("bool primvars:patina:visibility:indirect = 0", backend) == 0.0).all()
+
+
+def test_glow_that_diffuse_rays_see_lights_a_floor_as_brightly_without_light_samples():
+    """Both means have standard errors of 0.3 % at most, by the spread of the samples; the bound is six of their difference."""
+    sampled = glow("", samples=256).mean()
+    found = glow("bool primvars:patina:visibility:specular = 0", samples=256).mean()
+    assert found == pytest.approx(sampled, rel=0.02)
+
+
 @pytest.mark.parametrize("mark", ["bool primvars:patina:matte = 1", "bool primvars:patina:holdout = 1",
                                   "bool primvars:arnold:matte = 1",
                                   "int primvars:ri:attributes:Ri:Matte = 1", "int primvars:karma:object:holdoutmode = 1"])

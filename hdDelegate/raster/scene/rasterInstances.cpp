@@ -30,7 +30,8 @@ const char* notShownInRaster(const Marked& prim) {
         return v.shadow ? "is hidden from the camera: the rasterizer draws no shadow of it either"
                         : nullptr;
     if (prim.catching.any()) return "mattes and catchers are shown as they are by the rasterizer";
-    return (v.mask() & RayIndirect) == RayIndirect
+    const unsigned seenBy = v.mask() & RayIndirect;
+    return seenBy == RayIndirect || seenBy == 0u
                ? nullptr
                : "rays that scattered are not told apart by the rasterizer";
 }

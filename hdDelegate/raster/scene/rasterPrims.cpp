@@ -223,7 +223,9 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
         for (size_t subset = 0; subset < materials.size(); ++subset) {
             draw.material = materials[subset];
             if (!draw.material->programs) continue;
-            if (settings.enableSceneLights && group.shape->mesh)
+            const bool lights =
+                prim->visibility.diffuse || draw.meshLight.mode != RasterMeshLight::NoLight;
+            if (settings.enableSceneLights && group.shape->mesh && lights)
                 for (const uint32_t i : group.places)
                     _emitters.add(group.shape->mesh, subset, draw.material->program, draw.meshLight,
                                   mat4(places[i].groupToWorld * toGroup), lit,

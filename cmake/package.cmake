@@ -76,6 +76,7 @@ if(NOT SKBUILD)
     install(DIRECTORY base hdDelegate materialNetwork shaders DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina
         FILES_MATCHING PATTERN "*.h" PATTERN "*.def" PATTERN "*.inc" PATTERN "*.glsl"
         PATTERN hydra EXCLUDE PATTERN tests EXCLUDE PATTERN bake EXCLUDE PATTERN measure EXCLUDE)
+    install(FILES cmake/package/patina.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina)
     install(FILES ${CMAKE_BINARY_DIR}/shaders/everyLobe.glsl ${CMAKE_BINARY_DIR}/shaders/everyShape.glsl
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina/shaders)
     set(configFolder ${CMAKE_INSTALL_LIBDIR}/cmake/Patina)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Renders a red ball under a white sky: host IMAGE [BACKEND]
-#include <hdDelegate/backends/backends.h>
-#include <hdDelegate/film/imageFile.h>
-#include <hdDelegate/scene/scene.h>
+#include <patina.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -22,22 +20,22 @@ static std::shared_ptr<Scene> makeScene() {
     surface.connections["bsdf"] = {"/red/bsdf", ""};
     red->network.nodes = {bsdf, surface};
     red->network.terminals["surface"] = {"/red/surface", ""};
-    edit.set(std::shared_ptr<const MaterialPrim>(red));
+    edit.set(red);
 
     auto ball = std::make_shared<Implicit>();
     ball->path = "/ball";
     ball->material = "/red";
-    edit.set(std::shared_ptr<const Geometry>(ball));
+    edit.set(ball);
 
     auto sky = std::make_shared<Light>();
     sky->path = "/sky";
     sky->type = LightType::Dome;
-    edit.set(std::shared_ptr<const Light>(sky));
+    edit.set(sky);
 
     auto camera = std::make_shared<Camera>();
     camera->path = "/camera";
     camera->transform = glm::translate(dmat4(1.0), dvec3(0.0, 0.0, 8.0));
-    edit.set(std::shared_ptr<const Camera>(camera));
+    edit.set(camera);
     return scene;
 }
 

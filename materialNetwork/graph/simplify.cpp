@@ -18,8 +18,10 @@ public:
     Graph run() {
         _out.path = _in.path;
         _map.resize(_in.nodes.size());
+        _reasons.resize(_in.nodes.size());
         for (size_t i = 0; i < _in.nodes.size(); ++i)
             visit(i);
+        tellCuts();
         for (const auto& [name, operand] : _in.terminals)
             _out.terminals[name] = mapped(operand);
         return prune();
@@ -43,12 +45,32 @@ private:
                                   : rewriteClosure(_out, node, replacement, reason);
         if (replaced) {
             results = {replacement};
-            if (!reason.empty()) _cuts.push_back(node.path + ": " + reason);
+            _reasons[index] = std::move(reason);
             return;
         }
         const int merged = add(node);
         for (size_t k = 0; k < node.def->outputs.size(); ++k)
             results.push_back({merged, int(k), {}});
+    }
+
+    /// Of a branch that is left out, what is left out in it is not told.
+    void tellCuts() {
+        std::vector<bool> met(_in.nodes.size(), false);
+        const auto meet = [&](const Operand& operand) {
+            if (!operand.isConstant()) met[size_t(operand.node)] = true;
+        };
+        for (const auto& [name, operand] : _in.terminals)
+            meet(operand);
+        for (size_t i = _in.nodes.size(); i-- > 0;) {
+            const GraphNode& node = _in.nodes[i];
+            const bool mixes = node.def->closure == ClosureKind::Mix;
+            for (size_t k = 0; met[i] && k < node.inputs.size(); ++k)
+                if (!mixes || k > 1 || !isConstantValue(mapped(node.inputs[2]), float(k)))
+                    meet(node.inputs[k]);
+        }
+        for (size_t i = 0; i < met.size(); ++i)
+            if (met[i] && !_reasons[i].empty())
+                _cuts.push_back(_in.nodes[i].path + ": " + _reasons[i]);
     }
 
     /// Runs the pattern function when all inputs are constants.
@@ -125,6 +147,7 @@ private:
     std::vector<std::string>& _cuts;
     Graph _out;
     std::vector<std::vector<Operand>> _map; ///< per input node and output
+    std::vector<std::string> _reasons;      ///< why an input node is left out, or a part of it
     std::map<std::string, int> _known;
 };
 

@@ -157,11 +157,11 @@ def test_glow_that_scattered_rays_do_not_see_lights_nothing(backend):
     assert (glow("bool primvars:patina:visibility:indirect = 0", backend) == 0.0).all()
 
 
-def test_glow_that_diffuse_rays_see_lights_a_floor_as_brightly_without_light_samples():
-    """Both means have standard errors of 0.3 % at most, by the spread of the samples; the bound is six of their difference."""
+def test_glow_is_as_bright_where_some_rays_do_not_see_it_and_none_of_these_is_there():
+    """The mean without light samples has a standard error of 0.24 % (eight seeds), the other of 0.01 %; the bound is six of them."""
     sampled = glow("", samples=256).mean()
-    found = glow("bool primvars:patina:visibility:specular = 0", samples=256).mean()
-    assert found == pytest.approx(sampled, rel=0.02)
+    found = glow("bool primvars:patina:visibility:transmission = 0", samples=256).mean()
+    assert found == pytest.approx(sampled, rel=0.015)
 
 
 @pytest.mark.parametrize("mark", ["bool primvars:patina:matte = 1", "bool primvars:patina:holdout = 1",

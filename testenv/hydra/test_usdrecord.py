@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """usdrecord with our renderer: every test scene and every stage of the assets becomes an image, with and
 without a GL context, from UsdImagingDelegate and from scene indices."""
+import json
 import os
+import shlex
+import shutil
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -168,3 +173,24 @@ def test_products_are_written(tmp_path, scene_index):
     assert product.exists(), process.stderr
     assert "Missing generated" not in process.stderr
     assert color(product).shape == (30, 40, 3) and shown(product)
+
+
+def test_a_delegate_is_held_to_golden_images_of_the_command_line(tmp_path):
+    """`pytest --patina-scenes --renderer`: this plugin through usdrecord shows what `patina record` does."""
+    pytest.importorskip("scipy")
+    shutil.copy(os.path.join(stages.SCENES, "lightSphere.usda"), tmp_path)
+    # The delegate repeats its noise, which counts as a difference: the margin is for that.
+    how = {"arguments": ["-w", "32", "--samples", "256"], "renders": 4, "margin": 0.03, "sees": 0.1}
+    (tmp_path / "scenes.json").write_text(json.dumps({"*": how}))
+    command = [sys.executable, "-m", "pytest", "-p", "patina.regression.plugin", "-p", "no:cacheprovider", "--patina-scenes",
+               str(tmp_path)]
+    environment = dict(os.environ, PYTEST_DISABLE_PLUGIN_AUTOLOAD="1")
+    made = subprocess.run([*command, "--patina-update"], cwd=tmp_path, env=environment, capture_output=True, text=True)
+    assert made.returncode == 0, made.stdout + made.stderr
+    values = hydraBuild.environment(True)
+    own = [f"{name}={value}" for name, value in values.items() if os.environ.get(name) != value]
+    script = os.path.join(hydraBuild.folder("root"), "bin", "usdrecord")
+    usdrecord = shlex.join(["env", *own, hydraBuild.folder("python"), script, "--disableGpu"])
+    done = subprocess.run([*command, "--renderer", "HdPatinaRendererPlugin", "--usdrecord", usdrecord], cwd=tmp_path,
+                          env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr

@@ -37,7 +37,13 @@ def render(stage, seed, arguments):
             status = main.main(["record", stage, image, "--seed", str(seed), "--quiet", *arguments])
         if status != 0 or not os.path.exists(image):
             raise RenderError(said.getvalue().strip() or f"patina record ended with {status}")
-        pixels = color_of(image)
+        return checked_color(image)
+
+
+def checked_color(path):
+    """:returns: as color_of()
+    :raises RenderError: where the image has values that are no numbers"""
+    pixels = color_of(path)
     bad = int((~np.isfinite(pixels)).sum())
     if bad:
         raise RenderError(f"the image has {bad} values that are no numbers")
@@ -64,9 +70,10 @@ class Golden:
     version: str
 
     @classmethod
-    def made(cls, stage, scene):
-        """:returns: (the Golden, the mean image, why a test by it sees too little or an empty text)"""
-        images = [render(stage, FIRST_SEED + i, scene.arguments) for i in range(scene.renders)]
+    def made(cls, stage, scene, draw=render):
+        """:param draw: makes one image, as render() does
+        :returns: (the Golden, the mean image, why a test by it sees too little or an empty text)"""
+        images = [draw(stage, FIRST_SEED + i, scene.arguments) for i in range(scene.renders)]
         height, width = images[0].shape[:2]
         means = welch.tiles(images)
         made = cls(means, digest(images[0]), (width, height), list(scene.arguments), __version__)
@@ -101,21 +108,21 @@ class Result:
     sees: float = 0.0
 
 
-def compare(stage, scene, golden):
-    """Renders a stage again. Where the first render has the bits of the golden one, it is the same and that is all. Else as
-    many renders as the golden ones, with other seeds, are compared by `welch`.
+def compare(stage, scene, golden, draw=render):
+    """Renders a stage again, by `draw`. Where the first render has the bits of the golden one, it is the same and that is all.
+    Else as many renders as the golden ones, with other seeds, are compared by `welch`.
 
     :raises RenderError: where the stage cannot be rendered"""
     if golden.arguments != list(scene.arguments):
         return Result(f"the golden image was made with {' '.join(golden.arguments)}, the test asks for "
                       f"{' '.join(scene.arguments)}")
-    again = render(stage, FIRST_SEED, scene.arguments)
+    again = draw(stage, FIRST_SEED, scene.arguments)
     if again.shape[1::-1] != golden.size:
         return Result(f"the image is {again.shape[1]} x {again.shape[0]}, the golden one {golden.size[0]} x {golden.size[1]}",
                       again)
     if digest(again) == golden.first:
         return Result()
-    images = [render(stage, OTHER_SEEDS + i, scene.arguments) for i in range(scene.renders)]
+    images = [draw(stage, OTHER_SEEDS + i, scene.arguments) for i in range(scene.renders)]
     interval = welch.compare(welch.tiles(images), golden.means)
     result = Result(image=np.mean(images, axis=0), sees=seen(interval, scene))
     which = interval.outside(scene.margin)

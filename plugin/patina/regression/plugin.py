@@ -4,6 +4,7 @@
   pytest --patina-scenes FOLDER                     the tests
   pytest --patina-scenes FOLDER --patina-update     makes the golden images, or makes them anew
   pytest --patina-scenes FOLDER -k kitchen          one of them
+  pytest --patina-scenes FOLDER --renderer Storm    another Hydra delegate's pictures against the same golden images
 
 An installed Patina registers the plugin by itself; from a checkout it is `./patina python -m pytest -p
 patina.regression.plugin --patina-scenes FOLDER`. The tests need SciPy.
@@ -26,6 +27,10 @@ def pytest_addoption(parser):
     group = parser.getgroup("patina", "stages rendered by Patina")
     group.addoption("--patina-scenes", metavar="FOLDER", help="test every stage of this folder against its golden image")
     group.addoption("--patina-update", action="store_true", help="make the golden images anew; every stage passes that renders")
+    group.addoption("--renderer", metavar="NAME", help="render by this Hydra delegate, as usdrecord calls it, or by the name "
+                    "of its plugin (HdStormRendererPlugin). With --patina-update the golden images are its own")
+    group.addoption("--usdrecord", metavar="COMMAND", default="usdrecord", help="the usdrecord that renders then, with its "
+                    "arguments (default: usdrecord)")
     group.addoption("--patina-out", metavar="FOLDER", help="where images of failed tests go (default: `failed` in the folder)")
 
 
@@ -35,9 +40,13 @@ def pytest_configure(config):
         return
     if not importlib.util.find_spec("scipy"):  # before anything is rendered, not at the first difference
         raise pytest.UsageError("--patina-scenes needs SciPy: pip install scipy")
+    from patina.regression import golden, usdrecord
+
+    name = config.getoption("--renderer")
     try:
         config.patina_folder = Folder(folder)
-    except SceneError as error:
+        config.patina_draw = usdrecord.UsdRecord(name, config.getoption("--usdrecord")) if name else golden.render
+    except (SceneError, golden.RenderError) as error:
         raise pytest.UsageError(str(error)) from None
     named = getattr(config, "args_source", None) == pytest.Config.ArgsSource.ARGS
     args = config.args if named or hasattr(config, "workerinput") else []
@@ -79,7 +88,7 @@ class _Stage(pytest.Item):
         kept = folder.golden(self.name, ".npz")
         try:
             if self.config.getoption("--patina-update"):
-                made, image, problem = golden.Golden.made(stage, scene)
+                made, image, problem = golden.Golden.made(stage, scene, self.config.patina_draw)
                 made.write(kept)
                 _write(folder.golden(self.name, ".exr"), image)
                 if problem:
@@ -87,7 +96,7 @@ class _Stage(pytest.Item):
                 return
             if not os.path.exists(kept):
                 raise SceneFailure(f"there is no golden image; make it, and look at it: {self._how()}")
-            result = golden.compare(stage, scene, golden.Golden.read(kept))
+            result = golden.compare(stage, scene, golden.Golden.read(kept), self.config.patina_draw)
         except golden.RenderError as error:
             raise SceneFailure(str(error)) from None
         if result.problem:

@@ -55,8 +55,8 @@ def _choice(context, walked):
     return (primary or founds or _inner(context, walked, walked.inner_cameras) or [None])[0], False
 
 
-def view_of(context):
-    """:returns: Gf.Frustum of the camera of the picture, before the walk has found it"""
+def chosen_before(context):
+    """:returns: the camera of the picture, before a walk has found it: a Found, or None"""
     walked, stage = Walked(None), context.stage
     prims = iter(Usd.PrimRange(stage.GetPseudoRoot()))
     for prim in prims:
@@ -68,9 +68,14 @@ def view_of(context):
     walked.inner_cameras = {prim.GetName() for prototype in stage.GetPrototypes() for prim in Usd.PrimRange(prototype)
                             if "Camera" in kinds.schemas_of(prim)}
     try:
-        chosen, _ = _choice(context, walked)
+        return _choice(context, walked)[0]
     except StageError:
-        chosen = None  # choose() ends the command
+        return None  # choose() ends the command
+
+
+def view_of(context):
+    """:returns: Gf.Frustum of the camera of the picture, before the walk has found it"""
+    chosen = chosen_before(context)
     if chosen:
         return UsdGeom.Camera(chosen.prim).GetCamera(context.time).frustum
     framing = _framing(context, ())

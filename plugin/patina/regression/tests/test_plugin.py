@@ -164,3 +164,44 @@ def test_equal_pictures_are_rejected_no_more_often_than_stated():
 def test_the_help_names_what_there_is():
     for flag in ("--patina-scenes", "--patina-update"):
         assert flag in plugin.__doc__
+
+
+FAKE = """import os, shutil, sys
+import numpy as np
+if sys.argv[1:] == ["--help"]:
+    sys.exit(print("usage: usdrecord [--renderer {Truth,Storm}] [--disableCameraLight] ..."))
+words = [word for word in sys.argv[1:] if word != "--disableCameraLight"]
+assert len(words) == len(sys.argv) - 2
+values = dict(zip(words[:-2:2], words[1:-2:2]))
+assert values == {"--renderer": values["--renderer"], "--colorCorrectionMode": "disabled", "--imageWidth": "32",
+                  "--camera": "/camera"}, words
+stage, image = words[-2:]
+shutil.copy(os.path.join(os.path.dirname(stage), "golden", "one.usda.exr"), image)
+if values["--renderer"] == "Storm":
+    import _patina
+    found = np.array(_patina.read_image(image).pixels)[..., :3]
+    found[: len(found) // 2] *= 1.2
+    _patina.write_image(image, found)
+"""
+
+
+def test_other_delegates_are_held_to_the_same_golden_images(folder):
+    (folder / "fake.py").write_text(FAKE)
+    record = ["--usdrecord", f"{sys.executable} {folder / 'fake.py'}", "--renderer"]
+    (folder / "scenes.json").write_text(json.dumps({"*": dict(SETTINGS["*"], sees=0.2)}))
+    assert run(folder, "--patina-update")[0] == 0
+    status, text = run(folder, *record, "HdTruthRendererPlugin")
+    assert status == 0, text
+    status, text = run(folder, *record, "Storm")
+    assert status == 1 and "tiles differ" in text and "tile row 0" in text, text
+    assert run(folder, *record, "Storm", "--patina-update")[0] == 0
+    status, text = run(folder)
+    assert status == 1 and "tiles differ" in text, "the golden images are the delegate's own"
+
+
+def test_delegates_that_are_not_there_end_the_run(folder):
+    (folder / "fake.py").write_text(FAKE)
+    status, text = run(folder, "--usdrecord", f"{sys.executable} {folder / 'fake.py'}", "--renderer", "HdArnoldRendererPlugin")
+    assert status == 4 and "has no renderer HdArnoldRendererPlugin (there are: Truth, Storm)" in text
+    status, text = run(folder, "--usdrecord", str(folder / "none"), "--renderer", "Storm")
+    assert status == 4 and "none cannot be run: No such file or directory; --usdrecord names another" in text

@@ -5,7 +5,6 @@
 #include "hdDelegate/raster/scene/rasterDrawList.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace patina {
 
@@ -17,10 +16,8 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     _window[1] = all ? 0 : std::clamp(crop[1], 0, height);
     _window[2] = all ? width - 1 : std::min(crop[2], width - 1);
     _window[3] = all ? height - 1 : std::min(crop[3], height - 1);
-    GLint largest = 0; // pixels along a side of a texture
-    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-    if (width > largest || height > largest) return false;
-    if (std::max(width, height) + 2 * border > largest) border = 0;
+    if (width > _largest || height > _largest) return false;
+    if (std::max(width, height) + 2 * border > _largest) border = 0;
     if (width == _width && height == _height && border == _border) return true;
     const int across = width + 2 * border, up = height + 2 * border;
     _color = GlTexture(GL_TEXTURE_2D, GL_RGBA32F, across, up);

@@ -14,6 +14,8 @@ namespace patina {
 /// Draws passes over a scene and hands their pixels to a film. Lives with one context.
 class RasterPasses {
 public:
+    RasterPasses() { gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &_largest); }
+
     /// Sets the size of the image, and which of its pixels reach the film.
     /// @param border of the samples, which becomes 0 where the driver has no room for one
     /// @returns false when the driver has no room for the image
@@ -70,6 +72,7 @@ private:
     RasterManyLights _manyLights;
     std::unique_ptr<RasterImage> _image;           ///< made when a listener wants images alone
     std::unique_ptr<RasterRefraction> _refraction; ///< made when something transmits
+    GLint _largest = 0;                            ///< pixels along a side of a texture
     int _width = 0, _height = 0, _border = 0;
     int _window[4] = {0, 0, -1, -1};
     GlTexture _color, _depth;

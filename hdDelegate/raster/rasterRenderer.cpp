@@ -102,10 +102,7 @@ private:
     void build(const SceneState& state, const RasterCamera& camera, bool standIns) {
         if (!_compiled || _compiled->scene() != _scene) {
             release();
-            std::string error;
-            _passes = std::make_unique<RasterPasses>(error);
-            if (!_passes->ok())
-                throw DeviceError("the driver does not take the shaders: " + oneLine(error));
+            _passes = std::make_unique<RasterPasses>();
             _passes->setFirstDraws(
                 [this] { report([](RenderProgress& p) { ++p.statistics["materialsDrawn"]; }); });
             _compiled = CompiledScene::of(_scene);
@@ -121,7 +118,7 @@ private:
         const auto plan = RasterLightPlan::of(state, _settings, places, _compiled->lightImages());
         _raster->update(state, _origin, camera, _settings, plan, stopFlag(), compiling);
         _lightsMayDiffer |= _raster->lightsMayDiffer();
-        if (standIns) notifyCompiling(_raster->programsReady());
+        if (standIns) notifyCompiling(_raster->materials().ready());
         if (stopped()) return;
         // Every sample of a dome costs a shadow map: few of them where that takes long.
         const int domeSamples = _raster->trianglesDrawn() > 1000000 ? 1 : 4;
@@ -129,9 +126,9 @@ private:
         _lightsMayDiffer = false;
         _domeSamples = domeSamples;
         _lights = std::make_unique<RasterLights>(
-            state, _settings, places, camera.timeCode(0.5f), domeSamples, _raster->domeMethods(),
-            _compiled->lightImages(), *_domes, *_raster->parts().links, _scene->diagnostics(),
-            plan.needsChoice());
+            state, _settings, places, camera.timeCode(0.5f), domeSamples,
+            _raster->materials().domeMethods(), _compiled->lightImages(), *_domes,
+            *_raster->parts().links, _scene->diagnostics(), plan.needsChoice());
         _compiled->lightImages().forgetUnused();
     }
 
@@ -169,10 +166,10 @@ private:
     void render(const SceneState& state, const Camera& authored) {
         const Camera cameraPrim = rasterizedCamera(authored, _scene->diagnostics());
         RasterCamera camera = cameraFrom(cameraPrim);
-        if (cameraPrim.clippingPlanes.size() > size_t(RasterPasses::maxPlanes))
+        if (cameraPrim.clippingPlanes.size() > size_t(RasterPassBlock::maxPlanes))
             _scene->diagnostics().warn(cameraPrim.path, "clippingPlanes",
                                        "the rasterizer clips by the first " +
-                                           std::to_string(RasterPasses::maxPlanes) +
+                                           std::to_string(RasterPassBlock::maxPlanes) +
                                            " planes only");
         checkDevice(0);
         // Somebody looks on: images of what there is until all is there.
@@ -193,9 +190,9 @@ private:
                                            "the AOV " + channelsOfAov(aov.name) +
                                                " is left empty: the rasterizer follows no light "
                                                "paths");
-        _passes->clearSeconds();
+        _passes->timer().clear();
         _passes->drawAovs(*_raster, camera, _settings.interactive);
-        if (const vec3 origin = _passes->originOfSeen(*_raster); origin != _origin) {
+        if (const vec3 origin = _passes->seen().originOf(*_raster); origin != _origin) {
             _origin = origin;
             camera = cameraFrom(cameraPrim);
             build(state, camera, early);
@@ -203,13 +200,13 @@ private:
             _passes->drawAovs(*_raster, camera, _settings.interactive);
         }
         bool cached = true; // so programs may be there before an image of stand-ins would be
-        while (early && _raster->standIns() > 0) {
+        while (early && _raster->materials().standIns() > 0) {
             if (!cached) showEarly(camera, aovs, sampleOf(0, filter, border));
             if (!waitForPrograms(cached ? cacheSeconds : 1e9) || !waitWhilePaused()) return;
             cached = false;
             build(state, camera, true);
             if (stopped()) return;
-            _passes->clearSeconds();
+            _passes->timer().clear();
             _passes->drawAovs(*_raster, camera, _settings.interactive);
         }
         const bool stays = imageStays(aovs);
@@ -219,7 +216,7 @@ private:
         else
             _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
         reportBuild();
-        _passes->writeAovs(*_raster, camera, *_film);
+        _passes->seen().write(*_raster, camera, _passes->window(), *_film);
         const int* window = _passes->window();
         const bool empty = stays || window[2] < window[0] || window[3] < window[1];
         const uint32_t taken = empty ? 0 : _film->sampleCount(window[2], window[3]);
@@ -227,32 +224,25 @@ private:
         _noise = -1.0;
         const double goal = _raster->plan().noise(_settings.tolerance);
         report([&](RenderProgress& progress) { progress.noiseWanted = std::max(goal, 0.0); });
-        const auto moveTo = [&](const RasterSample& sample) {
-            _raster->moveTo(camera.timeCode(sample.time));
-        };
         const uint32_t again = RasterPasses::passesToRepeat(taken);
         if (again > 0) {
             Film film;
             film.reset(_settings.width, _settings.height, {}, false);
-            for (uint32_t i = 0; i < again && !stopped(); ++i) {
-                const RasterSample sample = sampleOf(i, filter, border);
-                moveTo(sample);
-                _passes->draw(*_raster, *_lights, *_domes, _raster->environmentSamples(), camera,
-                              sample, film);
-            }
+            for (uint32_t i = 0; i < again && !stopped(); ++i)
+                drawPass(camera, sampleOf(i, filter, border), film);
         }
-        _passes->resumeAt(*_raster, *_lights, again, taken,
-                          [&](uint32_t pass) { moveTo(sampleOf(pass, filter, 0)); });
+        _passes->resumeAt(*_raster, *_lights, again, taken, [&](uint32_t pass) {
+            _raster->moveTo(camera.timeCode(sampleOf(pass, filter, 0).time));
+        });
         const uint32_t samples = uint32_t(std::max(1, _settings.samples));
         const RasterMattes mattes(*_raster, camera.timeCode(0.5f), aovs);
         for (uint32_t i = taken; i < samples && !stopped(); ++i) {
             if (isGoodEnough(int(i))) break;
             const RasterSample sample = sampleOf(i, filter, border);
-            moveTo(sample);
-            _passes->draw(*_raster, *_lights, *_domes, _raster->environmentSamples(), camera,
-                          sample, *_film);
+            drawPass(camera, sample, *_film);
             if (mattes.wanted())
-                _passes->drawMattes(*_raster, mattes, camera, sample, _settings.seed, *_film);
+                _passes->seen().count(*_raster, mattes, camera, sample, _settings.seed, window,
+                                      *_film);
             checkDevice(int(i) + 1);
             report([&](RenderProgress& progress) {
                 reportSamples(progress, i + 1.0, passesNeeded(int(i) + 1, int(samples)),
@@ -287,7 +277,7 @@ private:
             progress.statistics["primsLookedAt"] = double(_raster->primsLookedAt());
             progress.statistics["instancesWritten"] = double(_raster->instancesWritten());
             progress.statistics["instances"] = double(_raster->instanceCount());
-            progress.statistics["programsBuilt"] = double(_raster->programsBuilt());
+            progress.statistics["programsBuilt"] = double(_raster->materials().programsBuilt());
             const ScenePlan plan = _raster->plan();
             plan.addStatistics(_settings.tolerance, progress.statistics);
             progress.plans = plan.materials();
@@ -300,17 +290,22 @@ private:
     /// @returns false when the render is stopped
     bool waitForPrograms(double maximum) {
         const auto began = Clock::now();
-        const size_t before = _raster->programsReady().ready;
+        const size_t before = _raster->materials().ready().ready;
         while (!stopped()) {
-            const RasterMaterials::Ready now = _raster->programsReady();
+            const RasterMaterials::Ready now = _raster->materials().ready();
             notifyCompiling(now);
             const double seconds = secondsSince(began);
             if (now.ready == now.wanted || seconds > maximum ||
                 (now.ready > before && seconds > earlySeconds))
                 break;
-            _raster->waitForPrograms(std::chrono::milliseconds(50));
+            _raster->materials().waitForMore(std::chrono::milliseconds(50));
         }
         return !stopped();
+    }
+
+    void drawPass(const RasterCamera& camera, const RasterSample& sample, Film& film) {
+        _raster->moveTo(camera.timeCode(sample.time));
+        _passes->draw(*_raster, *_lights, *_domes, camera, sample, film);
     }
 
     /// One pass with what is ready, in a film of its own: nothing of it reaches the final image.
@@ -318,10 +313,8 @@ private:
                    const RasterSample& sample) {
         Film film;
         film.reset(_settings.width, _settings.height, aovs, false);
-        _passes->writeAovs(*_raster, camera, film);
-        _raster->moveTo(camera.timeCode(sample.time));
-        _passes->draw(*_raster, *_lights, *_domes, _raster->environmentSamples(), camera, sample,
-                      film);
+        _passes->seen().write(*_raster, camera, _passes->window(), film);
+        drawPass(camera, sample, film);
         checkDevice(0);
         RenderProgress shown = progress();
         shown.samplesDone = 1;
@@ -369,10 +362,10 @@ private:
     }
 
     void reportSeconds(std::map<std::string, double>& to) const {
-        to["secondsAovs"] = _passes->seconds(RasterPasses::Aovs);
-        to["secondsShadows"] = _passes->seconds(RasterPasses::Shadows);
-        to["secondsSurfaces"] = _passes->seconds(RasterPasses::Surfaces);
-        to["secondsRead"] = _passes->seconds(RasterPasses::ReadBack);
+        to["secondsAovs"] = _passes->timer().seconds(GlTimer::Aovs);
+        to["secondsShadows"] = _passes->timer().seconds(GlTimer::Shadows);
+        to["secondsSurfaces"] = _passes->timer().seconds(GlTimer::Surfaces);
+        to["secondsRead"] = _passes->timer().seconds(GlTimer::ReadBack);
     }
 
     /// @param passes that were drawn

@@ -14,7 +14,7 @@ struct Light {
 layout(std430, binding = 4) readonly buffer Lights { Light lights[]; };
 #else
 // Those that the pass takes: drivers read uniform blocks faster than storage.
-layout(std140, binding = 4) uniform Lights { Light lights[208]; }; // RasterLights::maxTaken
+layout(std140, binding = 4) uniform Lights { Light lights[208]; }; // LightSampler::maxTaken
 #endif
 layout(std430, binding = 8) readonly buffer LightTables { vec4 lightTables[]; };
 

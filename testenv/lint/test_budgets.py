@@ -21,7 +21,7 @@ ROWS = [
       "plugin/patina/chart/sweepsClassic.py"}),
     # The outline that stands for it in the rasterizer, too: rasterLightPlan.cpp and areaLights.glsl.
     ("light", r"\bSHAPE_DISK\b|Type::Disk\b|\bdisk(Hit|Place|PlaceDensity|Normal|Extent)\b|\bDiskLight\b|\bdiskLight\b",
-     {"hdDelegate/scene/lightTypes.inc", "shaders/lights/shapes/disk.glsl", "hdDelegate/raster/lights/rasterLightPlan.cpp",
+     {"hdDelegate/scene/lightTypes.inc", "shaders/lights/shapes/disk.glsl", "hdDelegate/raster/scene/rasterLightPlan.cpp",
       "shaders/raster/areaLights.glsl"}),
     ("aov", r"AovId::Neye\b|AOV\(Neye\b", {"hdDelegate/film/aovs.def", "hdDelegate/film/aovValues.h"}),
     # A file of methods and one of measurements, too.

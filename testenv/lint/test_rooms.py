@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rooms include only those that ARCHITECTURE.md says they may: its table and its diagram are read, and every C++ include."""
+"""Rooms, and folders of a room, include only those that ARCHITECTURE.md says they may: its tables and its diagram are read,
+and every C++ include."""
 import os
 import re
 
@@ -33,20 +34,21 @@ def diagram(text):
     return arrows
 
 
-def includes():
-    """:returns: (file, included) of all C++ but that of tests/ folders, which may look into other rooms; <pxr/...> too"""
-    found = []
+def sources(endings, *leave_out):
+    """:returns: (file, what it includes) of the checkout, but of folders that are left out"""
     for top in FOLDERS:
         for folder, folders, names in os.walk(os.path.join(ROOT, top)):
-            folders[:] = [name for name in folders if name not in ("tests", "node_modules")]
+            folders[:] = [name for name in folders if name not in ("node_modules", *leave_out)]
             for name in names:
-                if not name.endswith((".h", ".cpp")):
-                    continue
-                path = os.path.join(folder, name)
-                with open(path, encoding="utf-8") as file:
-                    for target in INCLUDE.findall(file.read()):
-                        found.append((os.path.relpath(path, ROOT).replace(os.sep, "/"), target))
-    return found
+                if name.endswith(endings):
+                    path = os.path.join(folder, name)
+                    with open(path, encoding="utf-8") as file:
+                        yield os.path.relpath(path, ROOT).replace(os.sep, "/"), INCLUDE.findall(file.read())
+
+
+def includes():
+    """:returns: (file, included) of all C++ but that of tests/ folders, which may look into other rooms; <pxr/...> too"""
+    return [(path, target) for path, targets in sources((".h", ".cpp"), "tests") for target in targets]
 
 
 def room_of(path, known):
@@ -84,22 +86,63 @@ def test_every_include_is_an_arrow_of_the_table_and_every_arrow_is_there():
         assert allowed <= met[name], f"ARCHITECTURE.md has arrows that no include needs: {name} to {allowed - met[name]}"
 
 
-def file_includes():
+def file_includes(*leave_out):
     """:returns: file -> files of the checkout that it includes, be they C++, GLSL or tables, named from the root or beside
     it"""
-    found = {}
-    for top in FOLDERS:
-        for folder, folders, names in os.walk(os.path.join(ROOT, top)):
-            folders[:] = [name for name in folders if name != "node_modules"]
-            for name in names:
-                if name.endswith((".h", ".cpp", ".inc", ".def", ".glsl")):
-                    path = os.path.join(folder, name)
-                    with open(path, encoding="utf-8") as file:
-                        targets = INCLUDE.findall(file.read())
-                    at = os.path.relpath(path, ROOT).replace(os.sep, "/")
-                    found[at] = [t for name in targets for t in (name,
-                                                                 os.path.normpath(os.path.join(os.path.dirname(at), name)))]
-    return {path: {target for target in targets if target in found} for path, targets in found.items()}
+    found = dict(sources((".h", ".cpp", ".inc", ".def", ".glsl"), *leave_out))
+    beside = {path: {os.path.normpath(os.path.join(os.path.dirname(path), name)) for name in names}
+              for path, names in found.items()}
+    return {path: {target for target in beside[path] | set(names) if target in found} for path, names in found.items()}
+
+
+def orders(text):
+    """:returns: room -> steps of folders, from what rows of the table say behind "in this order": `first/`, (`b/`, `c/`)"""
+    rows = re.findall(r"^\| `([\w/.]+)` \|[^|\n]*in this order:([^|\n]*)\|", text, re.MULTILINE)
+    return {room: [re.findall(r"`(\w+)/`", step) for step in re.findall(r"\([^)]*\)|`\w+/`", steps)] for room, steps in rows}
+
+
+def folder_of(path, room):
+    """:returns: the folder of a room that a file is in, "" for a file of the room itself, None for one of another room"""
+    return (os.path.dirname(path)[len(room) + 1:] + "/").split("/")[0] if path.startswith(room + "/") else None
+
+
+def into_other_folders(included, room):
+    """:returns: (file, included file) from one folder of a room to another, also through files of the room itself"""
+    own = {path: targets for path, targets in included.items() if folder_of(path, room)}
+    through = {path: set() if path in own else targets for path, targets in included.items()}
+    return [(path, target) for path in own for target in reachable({**through, path: included[path]}, path)
+            if folder_of(target, room) not in (None, "", folder_of(path, room))]
+
+
+def wrong_ways(included, room, steps):
+    """:returns: those of into_other_folders() that lead to no earlier step, nor to a folder of the same"""
+    place = {folder: i for i, step in enumerate(steps) for folder in step}
+    return [(path, target) for path, target in into_other_folders(included, room)
+            if place[folder_of(target, room)] > place[folder_of(path, room)]]
+
+
+def test_folders_of_a_room_include_those_before_them():
+    included, ordered = file_includes("tests"), orders(section())
+    for room in rooms(section()):
+        met = {folder_of(path, room) for arrow in into_other_folders(included, room) for path in arrow}
+        steps = ordered.pop(room, [])
+        assert met <= set(sum(steps, [])), f"ARCHITECTURE.md has no place for folders of {room}: {met - set(sum(steps, []))}"
+        assert wrong_ways(included, room, steps) == []
+        for folder in sum(steps, []):
+            assert os.path.isdir(os.path.join(ROOT, room, folder)), f"ARCHITECTURE.md has {room}/{folder}, which is gone"
+    assert not ordered
+
+
+def test_an_include_of_a_later_folder_is_found():
+    """Straight, and through a file of the room itself."""
+    included = {"room/low/a.h": {"room/all.h"}, "room/all.h": {"room/high/b.h"}, "room/high/b.h": {"room/low/c.h"},
+                "room/low/c.h": set()}
+    assert wrong_ways(included, "room", [["low"], ["high"]]) == [("room/low/a.h", "room/high/b.h")]
+    assert wrong_ways(included, "room", [["low", "high"]]) == []
+    included["room/all.h"] = set()
+    assert wrong_ways(included, "room", [["low"], ["high"]]) == []
+    included["room/low/c.h"] = {"room/high/b.h"}
+    assert wrong_ways(included, "room", [["low"], ["high"]]) == [("room/low/c.h", "room/high/b.h")]
 
 
 def in_one_back_end(included):

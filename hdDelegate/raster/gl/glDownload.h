@@ -3,6 +3,10 @@
 
 #include "hdDelegate/raster/gl/glResources.h"
 
+#include <glm/glm.hpp>
+
+#include <vector>
+
 namespace patina {
 
 /// Reads images of textures by way of a buffer that the driver shares with the program. Drivers of
@@ -19,6 +23,11 @@ public:
     /// @param bytes of `to`: what the image has in that format and type. `to` stays as it is where
     ///        the driver gives no memory, which its errors tell.
     void read(const GlTexture& from, GLenum format, GLenum type, size_t bytes, void* to);
+    /// The same of a texture with four numbers in each texel.
+    void read(const GlTexture& from, std::vector<glm::vec4>& to) {
+        to.resize(size_t(from.width()) * size_t(from.height()));
+        read(from, GL_RGBA, GL_FLOAT, to.size() * sizeof(glm::vec4), to.data());
+    }
 
 private:
     GLuint _id = 0;

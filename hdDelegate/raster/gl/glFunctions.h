@@ -9,17 +9,14 @@ namespace patina {
 
 // The functions of OpenGL 4.5 core that the rasterizer calls; no other are loaded.
 #define PATINA_GL_FUNCTIONS(X)                                                                     \
-    X(ActiveTexture, ACTIVETEXTURE)                                                                \
     X(AttachShader, ATTACHSHADER)                                                                  \
     X(BindBuffer, BINDBUFFER)                                                                      \
     X(BindBufferBase, BINDBUFFERBASE)                                                              \
     X(BindBufferRange, BINDBUFFERRANGE)                                                            \
     X(BindFramebuffer, BINDFRAMEBUFFER)                                                            \
-    X(BindImageTexture, BINDIMAGETEXTURE)                                                          \
     X(BindTextureUnit, BINDTEXTUREUNIT)                                                            \
     X(BindVertexArray, BINDVERTEXARRAY)                                                            \
     X(BlendFunc, BLENDFUNC)                                                                        \
-    X(BlendFunci, BLENDFUNCI)                                                                      \
     X(CheckNamedFramebufferStatus, CHECKNAMEDFRAMEBUFFERSTATUS)                                    \
     X(ClearNamedFramebufferfv, CLEARNAMEDFRAMEBUFFERFV)                                            \
     X(ClearNamedFramebufferiv, CLEARNAMEDFRAMEBUFFERIV)                                            \
@@ -32,7 +29,6 @@ namespace patina {
     X(CreateShader, CREATESHADER)                                                                  \
     X(CreateTextures, CREATETEXTURES)                                                              \
     X(CreateVertexArrays, CREATEVERTEXARRAYS)                                                      \
-    X(CullFace, CULLFACE)                                                                          \
     X(DeleteBuffers, DELETEBUFFERS)                                                                \
     X(DeleteFramebuffers, DELETEFRAMEBUFFERS)                                                      \
     X(DeleteProgram, DELETEPROGRAM)                                                                \
@@ -43,7 +39,6 @@ namespace patina {
     X(DeleteVertexArrays, DELETEVERTEXARRAYS)                                                      \
     X(DepthFunc, DEPTHFUNC)                                                                        \
     X(DepthMask, DEPTHMASK)                                                                        \
-    X(DetachShader, DETACHSHADER)                                                                  \
     X(Disable, DISABLE)                                                                            \
     X(DispatchCompute, DISPATCHCOMPUTE)                                                            \
     X(DrawArrays, DRAWARRAYS)                                                                      \
@@ -76,28 +71,21 @@ namespace patina {
     X(NamedBufferStorage, NAMEDBUFFERSTORAGE)                                                      \
     X(NamedBufferSubData, NAMEDBUFFERSUBDATA)                                                      \
     X(NamedFramebufferDrawBuffers, NAMEDFRAMEBUFFERDRAWBUFFERS)                                    \
-    X(NamedFramebufferReadBuffer, NAMEDFRAMEBUFFERREADBUFFER)                                      \
     X(NamedFramebufferTexture, NAMEDFRAMEBUFFERTEXTURE)                                            \
     X(NamedFramebufferTextureLayer, NAMEDFRAMEBUFFERTEXTURELAYER)                                  \
     X(PixelStorei, PIXELSTOREI)                                                                    \
-    X(PolygonOffset, POLYGONOFFSET)                                                                \
     X(ProgramBinary, PROGRAMBINARY)                                                                \
     X(ProgramParameteri, PROGRAMPARAMETERI)                                                        \
     X(QueryCounter, QUERYCOUNTER)                                                                  \
     X(ReadPixels, READPIXELS)                                                                      \
     X(Scissor, SCISSOR)                                                                            \
     X(ShaderSource, SHADERSOURCE)                                                                  \
-    X(TextureBuffer, TEXTUREBUFFER)                                                                \
-    X(TextureParameterf, TEXTUREPARAMETERF)                                                        \
-    X(TextureParameterfv, TEXTUREPARAMETERFV)                                                      \
     X(TextureParameteri, TEXTUREPARAMETERI)                                                        \
     X(TextureStorage2D, TEXTURESTORAGE2D)                                                          \
     X(TextureStorage3D, TEXTURESTORAGE3D)                                                          \
     X(TextureSubImage2D, TEXTURESUBIMAGE2D)                                                        \
     X(TextureSubImage3D, TEXTURESUBIMAGE3D)                                                        \
-    X(Uniform1f, UNIFORM1F)                                                                        \
     X(Uniform1i, UNIFORM1I)                                                                        \
-    X(Uniform1ui, UNIFORM1UI)                                                                      \
     X(Uniform2f, UNIFORM2F)                                                                        \
     X(Uniform3f, UNIFORM3F)                                                                        \
     X(Uniform4f, UNIFORM4F)                                                                        \

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/gl/glProgram.h"
 
+#include "hdDelegate/raster/gl/deviceError.h"
 #include "hdDelegate/raster/gl/glFaults.h"
 #include "hdDelegate/raster/gl/programCache.h"
 #include "shaders/deadBranches.h"
@@ -85,6 +86,19 @@ std::unique_ptr<GlProgram> GlProgram::make(const std::vector<GlStage>& stages, s
     error = (stages.empty() ? "program" : stages[0].name) + " does not link:\n" +
             log(program->_id, gl.GetProgramiv, gl.GetProgramInfoLog);
     return nullptr;
+}
+
+std::unique_ptr<GlProgram> GlProgram::own(const std::vector<GlStage>& stages) {
+    std::string error;
+    if (auto program = make(stages, error)) return program;
+    throw DeviceError("the driver does not take the shaders: " + oneLine(error));
+}
+
+std::unique_ptr<GlProgram> GlProgram::own(const std::string& vertex, const std::string& fragment,
+                                          const std::string& head) {
+    const std::string begin = head + "#include \"shaders/raster/";
+    return own({{GL_VERTEX_SHADER, vertex, begin + vertex + ".vert.glsl\"\n"},
+                {GL_FRAGMENT_SHADER, fragment, begin + fragment + ".frag.glsl\"\n"}});
 }
 
 } // namespace patina

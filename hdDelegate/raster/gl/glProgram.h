@@ -23,6 +23,13 @@ public:
     /// Takes it from the ProgramCache where it is in there.
     /// @returns null with the driver's messages, files named, in `error`
     static std::unique_ptr<GlProgram> make(const std::vector<GlStage>& stages, std::string& error);
+    /// One of Patina's own, which every driver should take.
+    /// @throws DeviceError where it does not
+    static std::unique_ptr<GlProgram> own(const std::vector<GlStage>& stages);
+    /// The same of shaders/raster/VERTEX.vert.glsl and FRAGMENT.frag.glsl.
+    /// @param head in front of both texts
+    static std::unique_ptr<GlProgram> own(const std::string& vertex, const std::string& fragment,
+                                          const std::string& head = "");
     ~GlProgram() { gl.DeleteProgram(_id); }
 
     void use() const { gl.UseProgram(_id); }

@@ -74,6 +74,10 @@ public:
     explicit operator bool() const { return _id != 0; }
     void bind(GLuint unit) const { gl.BindTextureUnit(unit, _id); }
     void parameter(GLenum name, GLint value) const { gl.TextureParameteri(_id, name, value); }
+    void filter(GLint both) const { ///< of smaller and larger pictures of it
+        parameter(GL_TEXTURE_MIN_FILTER, both);
+        parameter(GL_TEXTURE_MAG_FILTER, both);
+    }
 
 private:
     void swap(GlTexture& o) noexcept {
@@ -84,6 +88,19 @@ private:
     }
     GLuint _id = 0;
     int _width = 0, _height = 0, _levels = 0;
+};
+
+/// Where vertices are read from.
+class GlVertexArray {
+public:
+    GlVertexArray() { gl.CreateVertexArrays(1, &_id); }
+    ~GlVertexArray() { gl.DeleteVertexArrays(1, &_id); }
+    GlVertexArray(const GlVertexArray&) = delete;
+    GlVertexArray& operator=(const GlVertexArray&) = delete;
+    GLuint id() const { return _id; }
+
+private:
+    GLuint _id = 0;
 };
 
 /// Colour attachments 0.. and a depth attachment, which it does not own.

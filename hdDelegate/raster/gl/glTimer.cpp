@@ -16,19 +16,19 @@ GLuint GlTimer::next() {
     return _queries[_shares.size()];
 }
 
-void GlTimer::mark(int share) {
+void GlTimer::mark(Share share) {
     gl.QueryCounter(next(), GL_TIMESTAMP);
     _shares.push_back(share);
 }
 
-void GlTimer::collect(std::vector<double>& sums) {
+void GlTimer::collect() {
     if (_shares.empty()) return;
     gl.QueryCounter(next(), GL_TIMESTAMP);
     GLuint64 before = 0;
     for (size_t i = 0; i <= _shares.size(); ++i) {
         GLuint64 now = 0;
         gl.GetQueryObjectui64v(_queries[i], GL_QUERY_RESULT, &now);
-        if (i > 0 && now > before) sums.at(size_t(_shares[i - 1])) += double(now - before) * 1e-9;
+        if (i > 0 && now > before) _seconds[_shares[i - 1]] += double(now - before) * 1e-9;
         before = now;
     }
     _shares.clear();

@@ -2,10 +2,12 @@
 #include "hdDelegate/raster/lights/rasterLights.h"
 
 #include "hdDelegate/lights/resolvedLight.h"
+#include "hdDelegate/raster/scene/rasterEmitters.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "base/diagnostics.h"
 #include "base/limits.h"
 #include "base/maths.h"
+#include "shaders/lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +22,54 @@ int categoryOf(const std::string& link, const LinkNames& links) {
 }
 
 } // namespace
+
+GpuLight RasterLightSource::sample(const vec3& u) const {
+    GpuLight g = fixed;
+    g.kind = kind;
+    g.radiance = radiance;
+    switch (kind) {
+    default: { // shapes
+        if (shape.kind == AreaShape::Kind::Sphere) {
+            g.samplePlace(shape.origin + shape.axes * shLights::sphereLightPlace(u));
+            break;
+        }
+        vec3 q = shLights::shapePlace(kind, vec2(u));
+        float dense = 1.0f;
+        if (image) { // shaders look the image up
+            vec2 on;
+            dense = image->sample(vec2(u), on);
+            q = vec3(on, 0.0f);
+        }
+        g.samplePlace(shape.origin + shape.axes * q);
+        g.normal = shapeNormalAt(kind, shape, q);
+        g.density = dense * shapePlaceDensity(kind, shape, q);
+        break;
+    }
+    case Point: g.samplePlace(position); break;
+    case Line: g.samplePlace(position + (u.x - 0.5f) * toLight); break;
+    case Distant: {
+        const vec3 helper = std::fabs(toLight.x) < 0.7f ? vec3(1, 0, 0) : vec3(0, 1, 0);
+        const vec3 x = glm::normalize(glm::cross(helper, toLight));
+        const vec3 direction =
+            shLights::distantSample({x, glm::cross(toLight, x), toLight}, g.versine, vec2(u));
+        g.sampleDirection(direction, delta ? 1.0f : 1.0f / (2.0f * pi * g.versine));
+        break;
+    }
+    case Dome: {
+        vec3 d;
+        float pdf = 0.25f / pi;
+        if (environment) {
+            d = environment->sample(vec2(u), pdf);
+            g.radiance *= environment->radiance(d);
+        } else {
+            d = shLights::spherePlace(vec2(u));
+        }
+        g.sampleDirection(domeToWorld * d, pdf);
+        if (!(pdf > 0.0f)) g.radiance = vec3(0.0f), g.density = 1.0f;
+    }
+    }
+    return g;
+}
 
 RasterLights::RasterLights(const SceneState& state, const RenderSettings& settings,
                            RasterInstances& places, float timeCode, int domeSamples,
@@ -54,7 +104,7 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
                     _filters.add(light, place, timeCode, images, _tables, diagnostics), settings,
                     images, domes, links, diagnostics);
         }
-    _tables.upload(maxTables);
+    _tables.upload(RasterEmitters::maxSamples * RasterEmission::maxValues);
     domes.upload(_domeMethods.count("prefiltered") > 0);
 }
 
@@ -74,11 +124,11 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
     const ResolvedLight is = resolveLight(light, toWorld, diagnostics);
     if (is.kind == ResolvedLight::Kind::None) return;
     const LightPose pose = lightPose(light, is.kind, toWorld, nullptr);
-    Source s;
+    RasterLightSource s;
     s.radiance = is.radiance;
     s.delta = is.delta;
     s.position = pose.position;
-    s.shadows = light.shadowEnable;
+    s.shadows = _shadows && light.shadowEnable;
     s.shadowCategory = categoryOf(light.shadowLink, links);
     GpuLight& g = s.fixed;
     g.shadowColor = light.shadowColor;
@@ -86,7 +136,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
     g.shadowFalloff = light.shadowFalloff;
     g.shadowGamma = std::max(light.shadowFalloffGamma, 1e-3f);
     g.setLight(light, is, pose);
-    s.kind = Kind(g.kind);
+    s.kind = RasterLightSource::Kind(g.kind);
     const ProfileTable profile = _tables.profile(light, diagnostics);
     g.firstProfile = profile.first;
     g.profileThetas = profile.thetas;
@@ -132,8 +182,8 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
     }
     _sources.push_back(s);
     if (light.type == LightType::Dome && s.sunIrradiance != vec3(0.0f)) {
-        Source sun = s;
-        sun.kind = Distant;
+        RasterLightSource sun = s;
+        sun.kind = RasterLightSource::Distant;
         sun.delta = true;
         sun.toLight = s.domeToWorld * s.sunDirection;
         sun.radiance = s.radiance * s.sunIrradiance;
@@ -149,7 +199,8 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
 
 /// The image, and where the harmonics light surfaces also those and the dominant light.
 /// @returns whether there was room for the image
-bool RasterLights::addDome(Source& s, const Light& light, LightImages& images, RasterDomes& domes) {
+bool RasterLights::addDome(RasterLightSource& s, const Light& light, LightImages& images,
+                           RasterDomes& domes) {
     GpuLight& g = s.fixed;
     int layer = -1, first = -1;
     if (!light.textureFile.empty()) {
@@ -177,7 +228,7 @@ bool RasterLights::addDome(Source& s, const Light& light, LightImages& images, R
 }
 
 /// The parameters of a shape, and a rect's image.
-void RasterLights::addShape(Source& s, const Light& light, LightImages& images,
+void RasterLights::addShape(RasterLightSource& s, const Light& light, LightImages& images,
                             Diagnostics& diagnostics) {
     GpuLight& g = s.fixed;
     if (const RectImage* image = _tables.rect(light, images, diagnostics)) {

@@ -12,14 +12,6 @@ namespace {
 
 constexpr int rangeUniform = 17;
 
-std::unique_ptr<GlProgram> program(const char* head, std::string& error) {
-    return GlProgram::make(
-        {{GL_VERTEX_SHADER, "background", "#include \"shaders/raster/background.vert.glsl\"\n"},
-         {GL_FRAGMENT_SHADER, "background",
-          head + std::string("#include \"shaders/raster/background.frag.glsl\"\n")}},
-        error);
-}
-
 /// Half of the size of the box around a shape, in the shape's coordinates.
 vec3 halfOf(int kind) {
     return shLights::shapeExtent(kind, {vec3(0.0f), mat3(1.0f), mat3(1.0f), 1.0f});
@@ -72,11 +64,7 @@ ShownLights shownLight(const GpuLight& light, const mat4& worldToClip, int width
     return out;
 }
 
-RasterBackground::RasterBackground(std::string& error) : _sky(program("", error)) {
-    if (_sky) _shapes = program("#define LIGHT_SHAPES\n", error);
-}
-
-void RasterBackground::draw(const RasterLights::Sampled& sampled, const RasterView& view, int width,
+void RasterBackground::draw(const SampledLights& sampled, const RasterView& view, int width,
                             int height) {
     std::vector<GpuLight> domes, together, alone;
     ShownLights group;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hdDelegate/raster/gl/glProgram.h"
-#include "hdDelegate/raster/lights/rasterLights.h"
+#include "hdDelegate/raster/samples/lightSampler.h"
 #include "hdDelegate/raster/scene/rasterCamera.h"
 
 #include <memory>
@@ -27,16 +27,14 @@ ShownLights shownLight(const GpuLight& light, const mat4& worldToClip, int width
 /// What cameras see where no surface is: domes, and area lights as solid shapes.
 class RasterBackground {
 public:
-    /// @param error is set where the driver does not take the programs
-    explicit RasterBackground(std::string& error);
-    bool ok() const { return _sky && _shapes; }
-
     /// Over a target of which colour and depth are cleared; needs the numbers of the pass. Leaves
     /// the lights at binding 4 of storage buffers.
-    void draw(const RasterLights::Sampled& sampled, const RasterView& view, int width, int height);
+    void draw(const SampledLights& sampled, const RasterView& view, int width, int height);
 
 private:
-    std::unique_ptr<GlProgram> _sky, _shapes;
+    std::unique_ptr<GlProgram> _sky = GlProgram::own("background", "background");
+    std::unique_ptr<GlProgram> _shapes =
+        GlProgram::own("background", "background", "#define LIGHT_SHAPES\n");
     GlBuffer _lights;
 };
 

@@ -9,9 +9,10 @@
 
 namespace patina {
 
-void takeSplats(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
-                const int window[4],
+void takeSplats(std::vector<glm::vec4>& pixels, const RasterSample& sample, const int window[4],
+                const Film& film,
                 const std::function<void(int x, int y, const glm::vec4& value)>& take) {
+    const int width = film.width(), height = film.height();
     const int border = sample.border(), stride = width + 2 * border;
     const int above = std::max(window[1], window[3] + 1);
     const auto rowOf = [&](int y) { // of the film, or beside it
@@ -52,9 +53,9 @@ void takeSplats(std::vector<glm::vec4>& pixels, int width, int height, const Ras
     });
 }
 
-void addSplats(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
-               const int window[4], Film& film) {
-    takeSplats(pixels, width, height, sample, window, [&](int x, int y, const glm::vec4& value) {
+void addSplats(std::vector<glm::vec4>& pixels, const RasterSample& sample, const int window[4],
+               Film& film) {
+    takeSplats(pixels, sample, window, film, [&](int x, int y, const glm::vec4& value) {
         film.addColor(x, y, glm::vec3(value), value.w);
     });
 }

@@ -22,16 +22,16 @@ struct RasterSample {
     int border() const { return int(splatX.size() / 2); }
 };
 
-/// Gives each pixel of a film what a pass has for it.
+/// Gives what a pass has for each pixel of a film.
 /// @param pixels RGBA, rows from the bottom up, with the sample's border on all sides; they are
 ///        overwritten
 /// @param window xmin, ymin, xmax, ymax of the film, inclusive, y down
 /// @param take called once for each pixel, on all threads
-void takeSplats(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
-                const int window[4],
+void takeSplats(std::vector<glm::vec4>& pixels, const RasterSample& sample, const int window[4],
+                const Film& film,
                 const std::function<void(int x, int y, const glm::vec4& value)>& take);
 /// Adds a pass to a film.
-void addSplats(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
-               const int window[4], Film& film);
+void addSplats(std::vector<glm::vec4>& pixels, const RasterSample& sample, const int window[4],
+               Film& film);
 
 } // namespace patina

@@ -9,23 +9,6 @@
 
 namespace patina {
 
-RasterImage::RasterImage(const EglContext& context, std::string& error) : _context(context) {
-    const auto make = [&](const std::string& text) {
-        return GlProgram::make(
-            {{GL_VERTEX_SHADER, "background", "#include \"shaders/raster/background.vert.glsl\"\n"},
-             {GL_FRAGMENT_SHADER, "image", text}},
-            error);
-    };
-    _accumulate = make("#include \"shaders/raster/accumulate.frag.glsl\"\n");
-    _numbers = make("#include \"shaders/raster/image.frag.glsl\"\n");
-    _ids = make("#define IDS\n#include \"shaders/raster/image.frag.glsl\"\n");
-    gl.CreateVertexArrays(1, &_vertexArray);
-}
-
-RasterImage::~RasterImage() {
-    gl.DeleteVertexArrays(1, &_vertexArray);
-}
-
 bool RasterImage::begin(int width, int height, const int window[4], const RasterCamera& camera,
                         const GlTexture& places, const GlTexture& ids) {
     _camera = std::make_unique<RasterCamera>(camera);
@@ -82,7 +65,7 @@ void RasterImage::add(const GlTexture& color, const GlTexture* difference,
     gl.Uniform4i(1, sample.border(), !difference ? 0 : first ? 2 : 1, negative ? 1 : 0, 0);
     for (size_t i = 0; i < sample.splatX.size(); ++i)
         gl.Uniform2f(2 + GLint(i), weight * sample.splatX[i], sample.splatY[i]);
-    gl.BindVertexArray(_vertexArray);
+    gl.BindVertexArray(_vertexArray.id());
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.BlendFunc(GL_ONE, GL_ZERO);
     gl.Disable(GL_BLEND);
@@ -157,7 +140,7 @@ bool RasterImage::read(AovId aov, const PixelForm& form, void* bytes) const {
         gl.Uniform4f(8, frame.clipNear, frame.clipFar, frame.orthographic ? 1.0f : 0.0f,
                      frame.radial ? 1.0f : 0.0f);
     }
-    gl.BindVertexArray(_vertexArray);
+    gl.BindVertexArray(_vertexArray.id());
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     const GLenum formats[4] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
     const size_t size = size_t(form.components) * (half ? 2 : 4);

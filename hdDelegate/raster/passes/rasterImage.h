@@ -21,9 +21,7 @@ class EglContext;
 class RasterImage final : public FilmSource {
 public:
     /// @param context that all of it is made and used with
-    /// @param error is set, and ok() false, when the driver does not take the programs
-    RasterImage(const EglContext& context, std::string& error);
-    bool ok() const { return _accumulate && _numbers && _ids; }
+    explicit RasterImage(const EglContext& context) : _context(context) {}
 
     /// Begins an image without passes.
     /// @param window of the image that is drawn: xmin, ymin, xmax, ymax, inclusive, y down
@@ -51,8 +49,10 @@ private:
     const Target& target(GLenum format) const;
 
     const EglContext& _context;
-    std::unique_ptr<GlProgram> _accumulate, _numbers, _ids;
-    GLuint _vertexArray = 0;
+    std::unique_ptr<GlProgram> _accumulate = GlProgram::own("background", "accumulate");
+    std::unique_ptr<GlProgram> _numbers = GlProgram::own("background", "image");
+    std::unique_ptr<GlProgram> _ids = GlProgram::own("background", "image", "#define IDS\n");
+    GlVertexArray _vertexArray;
     int _width = 0, _height = 0;
     int _window[4] = {0, 0, -1, -1}; ///< y up
     GlTexture _sums, _smoothings, _first;
@@ -64,9 +64,6 @@ private:
     const GlTexture *_placesDrawn = nullptr, *_idsDrawn = nullptr;
     mutable GlDownload _download;
     mutable std::map<GLenum, Target> _targets; ///< by format
-
-public:
-    ~RasterImage() override;
 };
 
 } // namespace patina

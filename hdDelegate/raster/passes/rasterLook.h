@@ -4,8 +4,8 @@
 #include "hdDelegate/raster/gl/glDownload.h"
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
-
-#include <glm/glm.hpp>
+#include "hdDelegate/raster/passes/rasterFilterSplat.h"
+#include "hdDelegate/raster/samples/lightSampler.h"
 
 #include <algorithm>
 #include <memory>
@@ -13,6 +13,30 @@
 #include <vector>
 
 namespace patina {
+
+/// What a pass of a first look takes of the lights.
+class LookSampler : public LightSampler {
+public:
+    using LightSampler::LightSampler;
+
+    /// Many samples of each light, of which every pixel takes others than its neighbours, so that
+    /// what is wrong is noise and not the same everywhere.
+    /// @param maximum shadow maps that may be drawn; where they do not suffice, lights are as in
+    /// sample()
+    /// @param most as in sample()
+    SampledLights sampleLook(int maximum, int most) const;
+    /// For the first image where maps are too dear for that: light by as many samples, shadows of
+    /// domes by the cells of the sky, and of other lights by the maps of few of their samples. It
+    /// is not right in the mean where there are shadows, so nothing of it may stay.
+    /// @returns nothing taken where there is no room even for that
+    SampledLights sampleFirst(int maximum) const;
+
+private:
+    struct Parts;
+    int samplesOf(const RasterLightSource& source, int pooled) const;
+    /// @param mapped samples that have shadow maps of their own
+    void add(size_t source, int samples, int mapped, int maximum, Parts& parts) const;
+};
 
 /// First looks: the first passes, in which neighbouring pixels use different samples of the lights,
 /// and the result is smoothed over the surface (shaders/raster/firstLook.frag.glsl). Ordinary
@@ -25,10 +49,6 @@ public:
     static constexpr uint32_t smoothed = 16; ///< passes after which nothing is
     static constexpr int bsdfSamples = 4;    ///< per pixel, where domes are
 
-    /// @param error is set where the driver does not take the programs
-    explicit RasterLook(std::string& error);
-    bool ok() const { return bool(_program); }
-
     /// @returns false when the driver has no room
     bool resize(const GlTexture& color, const GlTexture& depth);
     /// The targets that surfaces are drawn into, in all passes: drivers compile a program anew for
@@ -39,14 +59,20 @@ public:
     void smooth() const;
     const GlFramebuffer& difference() const { return _differenceTarget; }
     const GlTexture& differenceImage() const { return _difference; }
-    void read(std::vector<glm::vec4>& pixels, GlDownload& download) const;
+
+    /// Adds a pass to a film.
+    /// @param pixels of the pass; overwritten
+    /// @param look whether the pass is one of those that are smoothed
+    /// @param first it is a sampleFirst(), which shows until the mean of later passes is better
+    /// @param window pixels of the film: xmin, ymin, xmax, ymax, inclusive
+    void add(std::vector<vec4>& pixels, const RasterSample& sample, bool look, bool first,
+             const int* window, GlDownload& download, Film& film);
 
     /// The share of what smoothing does that a film of so many passes has.
     static float share(uint32_t passes) {
         return passes >= smoothed ? 0.0f
                                   : std::min(1.0f, float(smoothed - passes) / float(smoothed - 4));
     }
-
     /// The share of a first image of many samples that a film of so many passes shows.
     static float shareOfFirst(uint32_t passes) {
         if (passes >= smoothed) return 0.0f;
@@ -55,9 +81,17 @@ public:
     }
 
 private:
-    std::unique_ptr<GlProgram> _program;
+    void mixFirst(std::vector<vec4>& pixels, const RasterSample& sample, const int* window,
+                  Film& film);
+    void addSmoothing(std::vector<vec4>& difference, const RasterSample& sample, const int* window,
+                      Film& film);
+
+    std::unique_ptr<GlProgram> _program = GlProgram::own("background", "firstLook");
     GlTexture _noisy, _guide, _place, _normal, _difference;
     GlFramebuffer _target, _differenceTarget;
+    // By pixel of the film:
+    std::vector<vec4> _first, _sums; ///< a first image, and the passes after it
+    std::vector<vec4> _smoothing;    ///< what it does to the sums
 };
 
 } // namespace patina

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/raster/passes/rasterPasses.h"
+#include "hdDelegate/raster/gl/glFunctions.h"
+#include "hdDelegate/raster/scene/rasterScene.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <glm/glm.hpp>
 #include <iterator>
 
 namespace patina {
@@ -15,27 +15,40 @@ namespace patina {
 #include "shaders/gpuStruct.inc"
 
 /// The uniform block `Pass` of passBlock.glsl.
-struct RasterPasses::PassBlock : PassRows {
-    PassBlock() { sharedEvery = 1; }
+struct RasterPassBlock : PassRows {
+    static constexpr int maxPlanes = int(std::size(PassRows().clipPlanes)); ///< a camera clips with
+
+    explicit RasterPassBlock(const RasterScene& scene) {
+        passOrigin = scene.origin();
+        sharedEvery = 1;
+    }
+    RasterPassBlock(const RasterScene& scene, const RasterView& view) : RasterPassBlock(scene) {
+        nearShift = view.fitted;
+        farReach = view.reach;
+        planes = std::min(int(view.planes.size()), maxPlanes);
+        std::copy_n(view.planes.begin(), planes, clipPlanes);
+        worldToClip = view.worldToClip;
+        clipToWorld = view.clipToWorld;
+        isPerspective = view.perspective ? 1 : 0;
+        eye = view.eye;
+        forward = view.forward;
+        pixelSpread = view.pixelSpread;
+    }
 };
-static_assert(std::size(PassRows().clipPlanes) == size_t(RasterPasses::maxPlanes));
 
 /// Clips what is drawn while it lives.
-class RasterPasses::Clipping {
+class RasterClipping {
 public:
-    explicit Clipping(const RasterView& view) : _planes(planesOf(view)) {
+    explicit RasterClipping(const RasterPassBlock& block) : _planes(block.planes) {
         for (int i = 0; i < _planes; ++i)
             gl.Enable(GL_CLIP_DISTANCE0 + GLenum(i));
     }
-    ~Clipping() {
+    ~RasterClipping() {
         for (int i = 0; i < _planes; ++i)
             gl.Disable(GL_CLIP_DISTANCE0 + GLenum(i));
     }
-    Clipping(const Clipping&) = delete;
-    Clipping& operator=(const Clipping&) = delete;
-    static int planesOf(const RasterView& view) {
-        return std::min(int(view.planes.size()), maxPlanes);
-    }
+    RasterClipping(const RasterClipping&) = delete;
+    RasterClipping& operator=(const RasterClipping&) = delete;
 
 private:
     int _planes;

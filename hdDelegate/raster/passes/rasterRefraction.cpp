@@ -3,9 +3,9 @@
 
 namespace patina {
 
-RasterRefraction::RasterRefraction(std::string& error) {
+RasterRefraction::RasterRefraction() {
     const std::string head = "#define PRIMVARS 0\n";
-    _program = GlProgram::make(
+    _program = GlProgram::own(
         {{GL_VERTEX_SHADER, "surface", head + "#include \"shaders/raster/surface.vert.glsl\"\n"},
          {GL_FRAGMENT_SHADER, "back",
           head + "#include \"shaders/raster/material.glsl\"\n"
@@ -14,13 +14,7 @@ RasterRefraction::RasterRefraction(std::string& error) {
                  "MaterialEval materialEvalBut(vec3 wi, int i) { return materialEvalNone(); }\n"
                  "float materialPresence(out vec3 passes) { passes = vec3(1.0); return 1.0; }\n"
                  "#include \"shaders/raster/surface.frag.glsl\"\n"
-                 "#include \"shaders/raster/back.frag.glsl\"\n"}},
-        error);
-    if (!_program) return;
-    _volume = GlProgram::make(
-        {{GL_VERTEX_SHADER, "volume", "#include \"shaders/raster/background.vert.glsl\"\n"},
-         {GL_FRAGMENT_SHADER, "volume", "#include \"shaders/raster/volume.frag.glsl\"\n"}},
-        error);
+                 "#include \"shaders/raster/back.frag.glsl\"\n"}});
 }
 
 void RasterRefraction::drawVolume(const RasterVolume& volume, int index) const {
@@ -38,8 +32,7 @@ bool RasterRefraction::resize(int width, int height) {
     if (_color.width() == width && _color.height() == height) return true;
     const auto make = [&](GLenum format) {
         GlTexture texture(GL_TEXTURE_2D, format, width, height);
-        texture.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        texture.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        texture.filter(GL_NEAREST);
         texture.parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
         texture.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
         return texture;

@@ -11,9 +11,7 @@ namespace patina {
 /// far sides of those that transmit. Read by shaders/raster/refraction.glsl.
 class RasterRefraction {
 public:
-    /// @param error is set where the driver does not take the program
-    explicit RasterRefraction(std::string& error);
-    bool ok() const { return _program && _volume; }
+    RasterRefraction();
 
     /// @returns false when the driver has no room
     bool resize(int width, int height);
@@ -26,7 +24,7 @@ public:
     void drawVolume(const RasterVolume& volume, int index) const;
 
 private:
-    std::unique_ptr<GlProgram> _program, _volume;
+    std::unique_ptr<GlProgram> _program, _volume = GlProgram::own("background", "volume");
     GlTexture _color, _depth, _backPosition, _backNormal, _backDepth;
     GlFramebuffer _target;
 };

@@ -85,7 +85,7 @@ bool RasterScene::redraw(const std::shared_ptr<const Geometry>& prim, const Scen
         after.triangles -= triangles;
         after.trianglesDrawn -= triangles * _groups[size_t(_draws[d].group)].places.size();
     }
-    addPrim(prim, old.rank, state, camera, _settings, places);
+    addPrim(prim, old.rank, state, camera, places);
     const Span added = _spans.at(prim->path);
     bool fits = !added.emits && !_moves && added.groups == old.groups && added.draws == old.draws;
     for (size_t g = 0; fits && g < old.groups; ++g)

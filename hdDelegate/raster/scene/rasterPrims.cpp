@@ -90,7 +90,7 @@ void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& pl
 
 void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
                           const SceneState& state, const RasterCamera& camera,
-                          const RenderSettings& settings, RasterInstances& places) {
+                          RasterInstances& places) {
     const auto& where = places.places(prim->group);
     if (where.empty()) return;
     Span& span = _spans[prim->path];
@@ -98,17 +98,17 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     span.firstGroup = _groups.size();
     span.firstDraw = _draws.size();
     std::vector<const RasterMaterial*> materials = {
-        &_materials.get(prim->material, prim->path, state, settings)};
+        &_materials.get(prim->material, prim->path, state, _settings)};
     for (const GeomSubset& subset : prim->subsets)
         materials.push_back(
             &_materials.get(subset.material.empty() ? prim->material : subset.material, prim->path,
-                            state, settings));
+                            state, _settings));
     const dmat4 toGroup = exactTransformAt(prim->transform, camera.timeCode(0.5f));
     RasterShapeCache::Request request;
     request.prim = prim;
     request.timeCode = camera.timeCode(0.5f);
     request.toWorld = displacementSpace(*prim, request.timeCode);
-    request.needsMesh = _parts.meshLights->of(prim->path, settings) != nullptr;
+    request.needsMesh = _parts.meshLights->of(prim->path, _settings) != nullptr;
     for (const RasterMaterial* material : materials) {
         const MaterialProgram& program = *material->program;
         request.primvars.push_back(material->primvars);
@@ -116,7 +116,7 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
         const bool bends = program.hasDisplacement() && (prim->kind == GeometryKind::Mesh ||
                                                          prim->kind == GeometryKind::Implicit);
         request.displacers.push_back(bends ? material->program : nullptr);
-        request.needsMesh |= settings.enableSceneLights && program.hasEmission();
+        request.needsMesh |= _settings.enableSceneLights && program.hasEmission();
     }
     request.strips = !request.needsMesh;
     // Places that are equally far away share a tessellation.
@@ -124,8 +124,8 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
         std::any_of(request.displacers.begin(), request.displacers.end(),
                     [](const std::shared_ptr<const MaterialProgram>& p) { return p != nullptr; });
     span.extent = _compiled.extents().of(prim);
-    const RasterDetail detail(*prim, *span.extent, camera, settings, _subdivision.edgeOf(displaced),
-                              displaced, request.needsMesh);
+    const RasterDetail detail(*prim, *span.extent, camera, _settings,
+                              _subdivision.edgeOf(displaced), displaced, request.needsMesh);
     std::map<float, std::vector<uint32_t>> byEdge;
     for (size_t i = 0; i < where.size(); ++i)
         byEdge[detail.edgeAt(where[i])].push_back(uint32_t(i));
@@ -149,7 +149,7 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
         if (group.shape->triangles > 0) addGroup(std::move(group), where, toGroup);
     }
     _moves |= prim->transform.moves();
-    addDraws(prim, rank, materials, firstGroup, where, toGroup, settings);
+    addDraws(prim, rank, materials, firstGroup, where, toGroup);
     span.groups = _groups.size() - span.firstGroup;
     span.draws = _draws.size() - span.firstDraw;
     span.emits = request.needsMesh;
@@ -194,15 +194,14 @@ int RasterScene::addValues(const RasterDraw& draw, const RasterGroup& group,
 
 void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank,
                            const std::vector<const RasterMaterial*>& materials, size_t firstGroup,
-                           const std::vector<RasterPlace>& places, const dmat4& toGroup,
-                           const RenderSettings& settings) {
+                           const std::vector<RasterPlace>& places, const dmat4& toGroup) {
     if (firstGroup == _groups.size()) return;
     RasterDraw draw;
     draw.prim = prim;
     draw.primId = prim->id >= 0 ? prim->id : rank;
     draw.noise = murmurHash3(prim->path); // hosts count prims in the order in which they came
     int lit = -1;
-    if (const auto meshLight = _parts.meshLights->of(prim->path, settings)) {
+    if (const auto meshLight = _parts.meshLights->of(prim->path, _settings)) {
         const Light& light = *meshLight;
         draw.meshLight.radiance = lightBaseRadiance(light);
         draw.meshLight.mode =
@@ -219,13 +218,13 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
     for (size_t g = firstGroup; g < _groups.size(); ++g) {
         const RasterGroup& group = _groups[g];
         draw.group = int(g);
-        draw.flags = group.shape->flags | cullFlags(*prim, settings);
+        draw.flags = group.shape->flags | cullFlags(*prim, _settings);
         for (size_t subset = 0; subset < materials.size(); ++subset) {
             draw.material = materials[subset];
             if (!draw.material->programs) continue;
             const bool lights =
                 prim->visibility.diffuse || draw.meshLight.mode != RasterMeshLight::NoLight;
-            if (settings.enableSceneLights && group.shape->mesh && lights)
+            if (_settings.enableSceneLights && group.shape->mesh && lights)
                 for (const uint32_t i : group.places)
                     _emitters.add(group.shape->mesh, subset, draw.material->program, draw.meshLight,
                                   mat4(places[i].groupToWorld * toGroup), lit,

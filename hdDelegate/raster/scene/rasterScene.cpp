@@ -17,8 +17,7 @@
 namespace patina {
 
 /// Asks for all programs before the first is waited for.
-void RasterScene::prepareMaterials(const SceneState& state, const RenderSettings& settings,
-                                   RasterInstances& places) {
+void RasterScene::prepareMaterials(const SceneState& state, RasterInstances& places) {
     for (const auto& item : state.instancers)
         for (const Marked& marks : item.second->marks)
             if (const char* problem = notShownInRaster(marks)) {
@@ -27,14 +26,14 @@ void RasterScene::prepareMaterials(const SceneState& state, const RenderSettings
             }
     for (const auto& item : state.geometry) {
         const Geometry& prim = *item.second;
-        const char* problem = isDrawn(prim, settings) ? notShownInRaster(prim) : nullptr;
+        const char* problem = isDrawn(prim, _settings) ? notShownInRaster(prim) : nullptr;
         if (problem) _diagnostics.warn(prim.path, "primvars", problem);
-        if (prim.kind == GeometryKind::Volume || !isDrawnInRaster(prim, settings) ||
+        if (prim.kind == GeometryKind::Volume || !isDrawnInRaster(prim, _settings) ||
             places.places(prim.group).empty())
             continue;
-        _materials.prepare(prim.material, state, settings);
+        _materials.prepare(prim.material, state, _settings);
         for (const GeomSubset& subset : prim.subsets)
-            if (!subset.material.empty()) _materials.prepare(subset.material, state, settings);
+            if (!subset.material.empty()) _materials.prepare(subset.material, state, _settings);
     }
 }
 
@@ -67,7 +66,7 @@ void RasterScene::update(const SceneState& state, const vec3& origin, const Rast
         _lightsMayDiffer = true;
         updateAll(state, camera, lights, stop, compiling);
     }
-    _complete = !stop && standIns() == 0;
+    _complete = !stop && _materials.standIns() == 0;
 }
 
 void RasterScene::finishPrograms(const std::atomic<bool>& stop, const Compiling& compiling) {
@@ -78,7 +77,6 @@ void RasterScene::finishPrograms(const std::atomic<bool>& stop, const Compiling&
 void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
                             const RasterLightPlan& lights, const std::atomic<bool>& stop,
                             const Compiling& compiling) {
-    const RenderSettings& settings = _settings;
     // Until the prims are there again, what was measured of them is held.
     const std::map<std::string, Span> before = std::move(_spans);
     _spans.clear();
@@ -94,7 +92,7 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
     _boundsMin = vec3(INFINITY);
     _boundsMax = vec3(-INFINITY);
     _looked += state.geometry.size();
-    _materials.update(state, settings, lights);
+    _materials.update(state, _settings, lights);
     _links = {(int(_parts.links->size()) + 31) / 32};
     _linkRows.clear();
     _emitters.clear();
@@ -103,8 +101,8 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
     Camera inWorld = camera.camera(); // which is relative to the origin, as places are
     for (dmat4& place : inWorld.transform.values)
         place[3] += glm::dvec4(dvec3(_origin), 0.0);
-    _subdivision = _compiled.subdivision().of(state, *_parts.placements, inWorld, settings);
-    prepareMaterials(state, settings, places);
+    _subdivision = _compiled.subdivision().of(state, *_parts.placements, inWorld, _settings);
+    prepareMaterials(state, places);
     finishPrograms(stop, compiling);
     for (const auto& item : state.instancers) {
         warnOfInstances(*item.second, camera.timeCode(0.5f), _diagnostics);
@@ -116,7 +114,7 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
     for (const auto& item : state.geometry) {
         if (stop) return;
         const int own = rank++;
-        if (!isDrawnInRaster(*item.second, settings)) continue;
+        if (!isDrawnInRaster(*item.second, _settings)) continue;
         const size_t here = places.places(item.second->group).size();
         if (listed + here > std::min<uint64_t>(limitOf(Limit::instances), INT32_MAX)) {
             _diagnostics.warn(item.second->path, "",
@@ -132,13 +130,13 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
             std::vector<mat4> toWorld;
             for (const RasterPlace& place : places.places(volume->group))
                 toWorld.push_back(mat4(place.groupToWorld * toGroup));
-            _volumes.add(volume, state, settings, toWorld, _boundsMin, _boundsMax);
+            _volumes.add(volume, state, _settings, toWorld, _boundsMin, _boundsMax);
             continue;
         }
-        addPrim(item.second, own, state, camera, settings, places);
+        addPrim(item.second, own, state, camera, places);
     }
     _shapes.forgetUnused();
-    _materials.forgetUnused(settings);
+    _materials.forgetUnused(_settings);
     _volumes.end();
     if (_draws.empty() && _volumes.placed().empty()) _boundsMin = _boundsMax = vec3(0.0f);
     _linkBuffer = GlBuffer(_links);

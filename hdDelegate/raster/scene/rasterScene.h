@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hdDelegate/compiled/compiledScene.h"
-#include "hdDelegate/raster/lights/rasterEmitters.h"
+#include "hdDelegate/raster/scene/rasterEmitters.h"
 #include "hdDelegate/raster/scene/gpuInstance.h"
 #include "hdDelegate/raster/scene/rasterCamera.h"
 #include "hdDelegate/raster/scene/rasterDetail.h"
@@ -10,7 +10,7 @@
 #include "hdDelegate/raster/scene/rasterMaterials.h"
 #include "hdDelegate/raster/scene/rasterShapeCache.h"
 #include "hdDelegate/raster/scene/rasterVolumes.h"
-#include "hdDelegate/raster/shadows/rasterCulling.h"
+#include "hdDelegate/raster/scene/rasterCulling.h"
 
 #include <atomic>
 
@@ -83,12 +83,8 @@ public:
                 const std::atomic<bool>& stop, const Compiling& compiling);
     /// Whether the last update may have changed what lights are made from.
     bool lightsMayDiffer() const { return _lightsMayDiffer; }
-    /// How far the programs are that update() has asked for.
-    RasterMaterials::Ready programsReady() const { return _materials.ready(); }
-    /// How many materials something stands in for since update().
-    size_t standIns() const { return _materials.standIns(); }
-    /// Waits until one more is ready, or for so long.
-    void waitForPrograms(std::chrono::milliseconds maximum) { _materials.waitForMore(maximum); }
+    RasterMaterials& materials() { return _materials; } ///< that update() has asked for
+    const RasterMaterials& materials() const { return _materials; }
     /// Moves to another time of the shutter: transforms exactly, points that move to the nearest of
     /// deformationSteps times. @returns false when nothing moves
     bool moveTo(float timeCode);
@@ -113,12 +109,7 @@ public:
     size_t instancesWritten() const { return _instancesWritten; } ///< since this was made
     size_t trianglesDrawn() const { return _trianglesDrawn; }     ///< every instance's counted
     size_t primsLookedAt() const { return _looked; } ///< by updates, since this was made
-    size_t programsBuilt() const { return _materials.programsBuilt(); }
     ScenePlan plan() const;
-    const RasterAovRequest& aovs() const { return _materials.aovs(); }
-    /// Methods of `domeLight` that materials are drawn by.
-    const std::set<std::string>& domeMethods() const { return _materials.domeMethods(); }
-    int environmentSamples() const { return _materials.environmentSamples(); }
     size_t instanceCount() const { return _instances.size(); }
     /// Counts the updates after which shadows may differ.
     uint64_t shadowVersion() const { return _shadowVersion; }
@@ -160,16 +151,13 @@ private:
     void findBounds();
     void finishPrograms(const std::atomic<bool>& stop, const Compiling& compiling);
 
-    void prepareMaterials(const SceneState& state, const RenderSettings& settings,
-                          RasterInstances& places);
+    void prepareMaterials(const SceneState& state, RasterInstances& places);
     void addPrim(const std::shared_ptr<const Geometry>& prim, int rank, const SceneState& state,
-                 const RasterCamera& camera, const RenderSettings& settings,
-                 RasterInstances& places);
+                 const RasterCamera& camera, RasterInstances& places);
     void addGroup(RasterGroup group, const std::vector<RasterPlace>& places, const dmat4& toGroup);
     void addDraws(const std::shared_ptr<const Geometry>& prim, int rank,
                   const std::vector<const RasterMaterial*>& materials, size_t firstGroup,
-                  const std::vector<RasterPlace>& places, const dmat4& toGroup,
-                  const RenderSettings& settings);
+                  const std::vector<RasterPlace>& places, const dmat4& toGroup);
     /// Whether a draw may show values of instances, for want of the prim's own.
     bool readsInstances(const RasterDraw& draw) const;
     bool showsInstances(const std::string& path) const; ///< the same of a prim's draws

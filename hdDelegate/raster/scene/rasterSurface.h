@@ -79,7 +79,6 @@ public:
                        const std::string& tangentSet = {});
 
 private:
-    struct Corner;
     uint32_t vertex(unsigned triangle, int corner);
     RasterChunk::Triangle triangle(unsigned t) const;
     RasterChunk take();

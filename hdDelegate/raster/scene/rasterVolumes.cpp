@@ -17,8 +17,7 @@ GlTexture upload(const ivec3& size, const std::vector<vec4>& texels) {
     GlTexture texture(GL_TEXTURE_3D, GL_RGBA16F, size.x, size.y, size.z);
     gl.TextureSubImage3D(texture.id(), 0, 0, 0, 0, size.x, size.y, size.z, GL_RGBA, GL_FLOAT,
                          texels.data());
-    texture.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    texture.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    texture.filter(GL_LINEAR);
     for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
         texture.parameter(axis, GL_CLAMP_TO_EDGE);
     return texture;

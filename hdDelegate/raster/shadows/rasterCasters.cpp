@@ -1,33 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Casters of shadows, drawn into the maps of lights and of the sky's cells.
+#include "hdDelegate/raster/shadows/rasterCasters.h"
 
-#include "hdDelegate/raster/passes/rasterDrawList.h"
-#include "hdDelegate/raster/passes/rasterPasses.h"
+#include "hdDelegate/raster/scene/rasterDrawList.h"
 
 #include <algorithm>
+#include <map>
 
 namespace patina {
 
-void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views,
-                               int size, uint32_t pass) {
-    const int layers = std::max(1, int(views.size()));
-    if (layers > _shadowLayers || _shadowMaps.width() != size) {
-        _shadowMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layers);
-        _shadowSlopes = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RG16F, size, size, layers);
-        _shadowLayers = layers;
-        _shownShadows = {};
-        for (const GlTexture* maps : {&_shadowMaps, &_shadowSlopes}) {
-            maps->parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-            maps->parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-        }
-    }
-    for (size_t i = 0; i < views.size(); ++i)
-        drawCasters(scene, views[i], pass, _shadowMaps, int(i), _shownShadows, &_shadowSlopes);
-}
-
-/// The first pass of a small scene draws all cells; a large one gets them by and by, and one whose
-/// casters let light pass, too, since their materials are evaluated for every texel.
-int RasterPasses::skyCells(const RasterScene& scene) {
+int RasterCasters::skyCells(const RasterScene& scene) {
     const auto& draws = scene.draws();
     const bool slow = std::any_of(draws.begin(), draws.end(), [](const RasterDraw& d) {
         return d.prim->visibility.shadow && d.material->programs->shadow;
@@ -36,39 +17,74 @@ int RasterPasses::skyCells(const RasterScene& scene) {
     return int(std::clamp<size_t>(2000000 / triangles, 4, slow ? 24 : 1000));
 }
 
-/// Shadow maps of a pass, where pixels choose among all lights that have some: fewer where there is
-/// much to draw into each; a call takes as long as some hundred triangles. Volumes are lit by all
-/// lights of a pass, each of which takes long.
-int RasterPasses::mostMaps(const RasterScene& scene) {
-    if (!scene.volumes().empty()) return RasterLights::maxSmallMaps;
+int RasterCasters::mostMaps(const RasterScene& scene) {
+    if (!scene.volumes().empty()) return ShadowPlan::maxSmallMaps;
     const size_t each = std::max<size_t>(1, scene.trianglesDrawn() + 500 * scene.draws().size());
     return int(
-        std::clamp<size_t>(10000000 / each, RasterLights::maxSmallMaps, RasterLights::maxManyMaps));
+        std::clamp<size_t>(10000000 / each, ShadowPlan::maxSmallMaps, ShadowPlan::maxManyMaps));
 }
 
-void RasterPasses::drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass) {
-    for (const RasterSky::Task& task : _sky.begin(pass, lights.seed(), _bounds, skyCells(scene)))
-        drawCasters(scene, task.view, pass, _sky.maps(), task.layer, _shownSky);
+void RasterCasters::draw(const RasterScene& scene, const ShadowPlan& plan, uint32_t pass) {
+    const int layers = std::max(1, int(plan.views.size())), size = plan.mapSize;
+    if (layers > _layers || _maps.width() != size) {
+        _maps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layers);
+        _slopes = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RG16F, size, size, layers);
+        _layers = layers;
+        _shown = {};
+        for (const GlTexture* maps : {&_maps, &_slopes})
+            maps->filter(GL_NEAREST);
+    }
+    std::vector<mat4> matrices;
+    for (const ShadowView& view : plan.views) {
+        draw(scene, view, pass, _maps, int(matrices.size()), _shown, &_slopes);
+        matrices.push_back(view.worldToMap);
+    }
+    _matrices = GlBuffer(matrices);
 }
 
-void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view, uint32_t pass,
-                               const GlTexture& maps, int layer, ShownShadows& shown,
-                               const GlTexture* slopes) {
+void RasterCasters::bind() const {
+    _matrices.bindStorage(5);
+    _maps.bind(18);
+    _slopes.bind(25);
+}
+
+void RasterCasters::drawSky(const RasterScene& scene, const ShadowBounds& bounds, uint32_t seed,
+                            uint32_t pass) {
+    for (const RasterSky::Task& task : _sky.begin(pass, seed, bounds, skyCells(scene)))
+        draw(scene, task.view, pass, _sky.maps(), task.layer, _shownSky);
+    _sky.bind(10, 19);
+}
+
+void RasterCasters::resumeSky(const RasterScene& scene, const ShadowBounds& bounds, uint32_t seed,
+                              uint32_t from, uint32_t taken,
+                              const std::function<void(uint32_t)>& begin) {
+    std::map<int, std::pair<uint32_t, RasterSky::Task>> last; // by cell
+    for (uint32_t pass = from; pass < taken; ++pass)
+        for (const RasterSky::Task& task : _sky.begin(pass, seed, bounds, skyCells(scene)))
+            last[task.layer] = {pass, task};
+    for (const auto& [layer, drawn] : last) {
+        begin(drawn.first);
+        draw(scene, drawn.second.view, drawn.first, _sky.maps(), layer, _shownSky);
+    }
+}
+
+void RasterCasters::draw(const RasterScene& scene, const ShadowView& view, uint32_t pass,
+                         const GlTexture& maps, int layer, Shown& shown, const GlTexture* slopes) {
     if (shown.maps != maps.id()) shown = {maps.id(), {}};
     if (shown.layers.size() <= size_t(layer)) shown.layers.resize(size_t(layer) + 1);
-    ShownShadows::Layer& now = shown.layers[size_t(layer)];
+    Shown::Layer& now = shown.layers[size_t(layer)];
     const uint64_t version = scene.moves() ? 0 : scene.shadowVersion();
     if (version != 0 && now.version == version && now.pass == pass && now.view == view) return;
     now = {view, pass, version};
-    gl.BindFramebuffer(GL_FRAMEBUFFER, _shadowTarget);
+    _target.bind();
     gl.Viewport(0, 0, maps.width(), maps.height());
     const GLenum color = slopes ? GL_COLOR_ATTACHMENT0 : GL_NONE;
-    gl.NamedFramebufferDrawBuffers(_shadowTarget, 1, &color);
-    gl.NamedFramebufferTextureLayer(_shadowTarget, GL_COLOR_ATTACHMENT0, slopes ? slopes->id() : 0,
+    gl.NamedFramebufferDrawBuffers(_target.id(), 1, &color);
+    gl.NamedFramebufferTextureLayer(_target.id(), GL_COLOR_ATTACHMENT0, slopes ? slopes->id() : 0,
                                     0, slopes ? layer : 0);
     const float far = 1.0f;
-    gl.NamedFramebufferTextureLayer(_shadowTarget, GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
-    gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);
+    gl.NamedFramebufferTextureLayer(_target.id(), GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
+    gl.ClearNamedFramebufferfv(_target.id(), GL_DEPTH, 0, &far);
     const vec4& to = view.towards;
     const RasterVisible visible = scene.visible(view.worldToMap, view.clampsNear);
     // Few lights have anything inside, and in few planes of emitters there is more than the
@@ -90,8 +106,8 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
         const GlProgram* own = d.material->programs->shadow.get();
         const bool around = inside.shows(d);
         const State state{own      ? own
-                          : around ? _shadowAround.get()
-                                   : _shadow.get(),
+                          : around ? _around.get()
+                                   : _plain.get(),
                           own ? d.material : nullptr, around, list.size()};
         if (states.empty() || states.back().program != state.program ||
             states.back().material != state.material)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The views from lights that shadow maps are drawn with.
+#include "hdDelegate/raster/shadows/rasterShadows.h"
 
-#include "hdDelegate/raster/lights/rasterLights.h"
-
+#include "hdDelegate/lights/areaShape.h"
 #include "base/maths.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -125,23 +124,28 @@ ShadowView distantShadow(const vec3& toLight, vec2 turn, const ShadowBounds& bou
     return out;
 }
 
-void RasterLights::castShadow(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds,
-                              int maximum, Sampled& out) const {
-    const int first = int(out.shadows.size());
-    const int maps = castOnto(light, category, turn, bounds, maximum, out);
-    if (maps == 0) return;
-    const int more =
-        out.fibres ? castOnto(light, category, turn, bounds.ofFibres(), maximum, out) : 0;
-    light.firstMap = first;
-    light.maps = maps;
-    light.fibreMaps = more;
+int ShadowPlan::enoughFor(int pixels, int mapSize) {
+    constexpr int texelsPerPixel = 4, smallest = 256; // what casts is no coarser in small images
+    while (mapSize / 2 >= std::max(texelsPerPixel * pixels, smallest))
+        mapSize /= 2;
+    return mapSize;
 }
 
-int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
-                           const ShadowBounds& bounds, int maximum, Sampled& out) const {
-    const auto full = [&](int more) { return int(out.shadows.size()) + more > maximum; };
+void ShadowPlan::cast(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds,
+                      int maximum) {
+    const int first = int(views.size());
+    const int maps = castOnto(light, category, turn, bounds, maximum);
+    if (maps == 0) return;
+    light.firstMap = first;
+    light.maps = maps;
+    light.fibreMaps = fibres ? castOnto(light, category, turn, bounds.ofFibres(), maximum) : 0;
+}
+
+int ShadowPlan::castOnto(const GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds,
+                         int maximum) {
+    const auto full = [&](int more) { return int(views.size()) + more > maximum; };
     const int kind = light.kind;
-    const bool flat = kind == Triangle || isFlatShape(kind);
+    const bool flat = kind == shLights::LIGHT_TRIANGLE || isFlatShape(kind);
     const bool atPlace = light.is(shLights::LIGHT_AT_PLACE);
     const auto cast = [&](const mat4& worldToMap, bool clampsNear) {
         ShadowView view{worldToMap, vec4(light.sampled, atPlace ? 1.0f : 0.0f), category,
@@ -154,11 +158,11 @@ int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
             view.own = ShadowView::Plane;
             view.worldToLight = planeOf(light, bounds);
         }
-        out.shadows.push_back(view);
+        views.push_back(view);
     };
     if (!atPlace) {
         if (full(1)) return 0;
-        cast(distantShadow(light.sampled, turn, bounds, out.mapSize).worldToMap, true);
+        cast(distantShadow(light.sampled, turn, bounds, mapSize).worldToMap, true);
         return 1;
     }
     const vec3 from = light.sampled;
@@ -168,7 +172,7 @@ int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
     const float reach = distance + radius, minimum = std::max(1e-3f * reach, 1e-6f);
     const auto frustum = [&](float tangent, float nearest) {
         const float n = nearest * tangent;
-        const vec2 shift = 2.0f * n * shiftOf(turn, out.mapSize);
+        const vec2 shift = 2.0f * n * shiftOf(turn, mapSize);
         return glm::frustum(shift.x - n, shift.x + n, shift.y - n, shift.y + n, nearest,
                             reach * 1.01f);
     };
@@ -188,7 +192,7 @@ int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
     // A little wider than a face of the cube, for offsets and filters at its edges. A small body
     // that glows hides its own far side, however near.
     for (const vec3& d : directions)
-        cast(frustum(1.02f, minimum) * looking(from, d, 0.0f), kind == Triangle);
+        cast(frustum(1.02f, minimum) * looking(from, d, 0.0f), kind == shLights::LIGHT_TRIANGLE);
     return 6;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Culling leaves out what no view shows, and nothing else.
 
-#include "hdDelegate/raster/shadows/rasterCulling.h"
+#include "hdDelegate/raster/scene/rasterCulling.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

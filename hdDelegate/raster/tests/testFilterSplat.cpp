@@ -54,7 +54,7 @@ TEST(RasterFilterSplat, leaveValuesThatAreNoNumbersWhereTheyAre) {
                                       glm::vec4(all ? INFINITY : 1.0f));
         if (!all) pixels[size_t(height - 5) * size_t(width + 2) + 8] = glm::vec4(NAN);
         const int window[4] = {0, 0, width - 1, height - 1};
-        addSplats(pixels, width, height, sample, window, film);
+        addSplats(pixels, sample, window, film);
         EXPECT_EQ(film.droppedSamples(), uint64_t(all ? width * height : 1));
         EXPECT_EQ(film.color(7, 5), glm::vec3(0.0f)) << "x is 8 less the border, y down";
         EXPECT_NEAR(film.color(20, 5).x, all ? 0.0f : 1.0f, 1e-6f);
@@ -73,7 +73,7 @@ TEST(RasterFilterSplat, takeASampleToThePixelsThatItLiesIn) {
     pixels[size_t(3) * size_t(width + 2) + 4] = glm::vec4(100.0f, 200.0f, 0.0f, 1.0f);
     pixels[0] = glm::vec4(100.0f, 0.0f, 0.0f, 1.0f); // outside, beside the lower left corner
     const int window[4] = {0, 0, width - 1, height - 1};
-    addSplats(pixels, width, height, sample, window, film);
+    addSplats(pixels, sample, window, film);
     const auto red = [&](int x, int y) { return film.color(x, y).x; };
     EXPECT_FLOAT_EQ(red(3, 1), 42.0f);
     EXPECT_FLOAT_EQ(red(2, 1), 6.0f);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/lights/lightChoice.h"
-#include "hdDelegate/raster/lights/rasterLights.h"
+#include "hdDelegate/raster/samples/lightChoice.h"
+#include "hdDelegate/raster/samples/lightSampler.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
 #include "hdDelegate/scene/settings.h"
 
@@ -67,13 +67,13 @@ TEST(LightChoice, smallImagesTakeMoreLightsByCoarserMaps) {
     patina::ShadowBounds bounds;
     bounds.sceneMin = bounds.receiverMin = patina::vec3(-1.0f);
     bounds.sceneMax = bounds.receiverMax = patina::vec3(1.0f);
-    const auto large = lights.sample(0, {}, bounds, 1024, 1280);
-    EXPECT_EQ(large.mapSize, 512);
-    EXPECT_EQ(large.shadows.size(), 126u); // six of 21 lights
+    const auto large = patina::LightSampler(lights, {}, bounds, 1024, 1280, 0).sample();
+    EXPECT_EQ(large.shadows.mapSize, 512);
+    EXPECT_EQ(large.shadows.views.size(), 126u); // six of 21 lights
     EXPECT_EQ(large.taken, 21);
-    const auto small = lights.sample(0, {}, bounds, 1024, 96);
-    EXPECT_EQ(small.mapSize, 256);
-    EXPECT_EQ(small.shadows.size(), 510u);
+    const auto small = patina::LightSampler(lights, {}, bounds, 1024, 96, 0).sample();
+    EXPECT_EQ(small.shadows.mapSize, 256);
+    EXPECT_EQ(small.shadows.views.size(), 510u);
     EXPECT_EQ(small.taken, 85);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The planner's view of a sky, and of materials under lights.
-#include "hdDelegate/raster/lights/rasterLightPlan.h"
+#include "hdDelegate/raster/scene/rasterLightPlan.h"
 #include "hdDelegate/raster/measure/measuredSky.h"
 #include "materialNetwork/planner/planProbes.h"
 

@@ -2,7 +2,7 @@
 // Lists of lights for cells of space, the estimates that they are made by, and lights in an image.
 #include "base/maths.h"
 #include "hdDelegate/lights/resolvedLight.h"
-#include "hdDelegate/raster/lights/lightCells.h"
+#include "hdDelegate/raster/samples/lightCells.h"
 #include "hdDelegate/raster/passes/rasterBackground.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
 

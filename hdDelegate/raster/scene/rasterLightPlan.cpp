@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/lights/rasterLightPlan.h"
+#include "hdDelegate/raster/scene/rasterLightPlan.h"
 
-#include "hdDelegate/raster/lights/rasterLights.h"
 #include "materialNetwork/plan/methods.h"
 #include "materialNetwork/planner/planner.h"
 #include "materialNetwork/planner/predictLight.h"
@@ -13,6 +12,9 @@
 namespace patina {
 
 namespace {
+
+/// Lights at places, from this number on, among which pixels choose; see LightCells.
+constexpr int many = 17;
 
 constexpr int side = 64, inner = 4; ///< cells of a sky, and what is looked at in each
 /// Skies have other features than the two that rows are of: as much again is allowed for them.
@@ -93,7 +95,7 @@ RasterLightPlan RasterLightPlan::of(const SceneState& state, const RenderSetting
         plan.needFilters();
         if (dome) plan.needSamples();
     }
-    if (placed >= size_t(RasterLights::many)) plan.needChoice();
+    if (placed >= size_t(many)) plan.needChoice();
     if (settings.tolerance < 0.0) return plan;
     for (const auto& item : state.geometry)
         if (item.second->kind == GeometryKind::Volume) plan.needSamples();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/passes/rasterDrawList.h"
+#include "hdDelegate/raster/scene/rasterDrawList.h"
 
 #include "hdDelegate/raster/gl/heldFences.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/passes/lookWeights.h"
+#include "hdDelegate/raster/samples/lookWeights.h"
 
 #include <algorithm>
 #include <array>

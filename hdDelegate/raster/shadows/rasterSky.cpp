@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/lights/rasterSky.h"
+#include "hdDelegate/raster/shadows/rasterSky.h"
 
 #include "hdDelegate/film/sampler.h"
 
@@ -31,8 +31,7 @@ const GlTexture& RasterSky::maps() {
     if (layers > _layers) {
         _maps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT16, mapSize, mapSize, layers);
         _layers = layers;
-        _maps.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        _maps.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        _maps.filter(GL_NEAREST);
     }
     return _maps;
 }
@@ -47,7 +46,7 @@ std::vector<RasterSky::Task> RasterSky::begin(uint32_t pass, uint32_t seed,
     const bool missing =
         std::any_of(_drawn.begin(), _drawn.end(), [](const SkyRows& c) { return c.layer < 0; });
     std::vector<Task> out;
-    // The first image lives by them: see RasterLights::sampleFirst().
+    // The first image lives by them: see LookSampler::sampleFirst().
     const int wanted = pass == 0 ? 2 * maximum : missing ? maximum : std::min(maximum, 2);
     const int count = std::clamp(wanted, 1, cells);
     for (int n = 0; n < count; ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/lights/lightChoice.h"
+#include "hdDelegate/raster/samples/lightChoice.h"
 
 #include <algorithm>
 #include <cmath>

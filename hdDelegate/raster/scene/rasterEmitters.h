@@ -51,6 +51,7 @@ struct RasterEmission {
 class RasterEmitters {
 public:
     static constexpr size_t maxTriangles = 200000; ///< those beyond give no light to others
+    static constexpr int maxSamples = 16;          ///< per pass
 
     void clear();
     /// Adds the triangles of one subset of a mesh at one place.

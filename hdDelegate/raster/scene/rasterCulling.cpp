@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/shadows/rasterCulling.h"
+#include "hdDelegate/raster/scene/rasterCulling.h"
 
 #include <algorithm>
 #include <cmath>

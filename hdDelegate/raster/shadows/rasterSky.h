@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hdDelegate/raster/gl/glResources.h"
-#include "hdDelegate/raster/lights/rasterLight.h"
+#include "hdDelegate/raster/shadows/rasterShadows.h"
 
 #include <cstddef>
 #include <glm/glm.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/lights/rasterEmitters.h"
+#include "hdDelegate/raster/scene/rasterEmitters.h"
 
 #include "hdDelegate/geometry/primvarEval.h"
 #include "hdDelegate/parallel.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/lights/lightCells.h"
+#include "hdDelegate/raster/samples/lightCells.h"
 
 #include "hdDelegate/film/sampler.h"
 #include "hdDelegate/parallel.h"
-#include "hdDelegate/raster/lights/lightChoice.h"
+#include "hdDelegate/raster/samples/lightChoice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +71,29 @@ LightCells::LightCells(const std::vector<LightEstimate>& estimates, size_t first
         for (const ChosenLight& chosen : chooseLights(weights, listed, u))
             lists[k++] = entry(chosen.share, first + chosen.index);
     });
+}
+
+void RasterManyLights::bind(const std::vector<LightEstimate>& estimates, const LightCells& cells,
+                            size_t lights) {
+    std::vector<LightEstimate> all = estimates;
+    all.resize(lights);
+    if (_estimates.size() != all.size() * sizeof(LightEstimate))
+        _estimates = GlBuffer(all);
+    else
+        _estimates.write(all.data(), all.size() * sizeof(LightEstimate));
+    _estimates.bindUniform(5);
+    constexpr int width = LightCells::aRow * LightCells::listed;
+    if (!_lists) {
+        _lists = GlTexture(GL_TEXTURE_2D, GL_R32UI, width, LightCells::rows);
+        _lists.filter(GL_NEAREST);
+    }
+    std::vector<uint32_t> texels = cells.lists;
+    const size_t rows = (texels.size() + width - 1) / width;
+    texels.resize(rows * width);
+    if (rows > 0)
+        gl.TextureSubImage2D(_lists.id(), 0, 0, 0, width, GLsizei(rows), GL_RED_INTEGER,
+                             GL_UNSIGNED_INT, texels.data());
+    _lists.bind(26);
 }
 
 } // namespace patina

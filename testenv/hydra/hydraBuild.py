@@ -4,8 +4,11 @@ import functools
 import glob
 import json
 import os
+import select
 import shutil
+import signal
 import subprocess
+import tempfile
 
 import pytest
 
@@ -98,10 +101,49 @@ def environment(scene_index=False, **more):
 
 
 def run_host(stage, *arguments, scene_index=False, check=True, **more):
-    """Runs hydraHost. :param more: environment variables
+    """Runs hydraHost, in a process that stays for the next image unless times and memory are asked for.
+
+    :param more: environment variables, for a process of its own
     :returns: the finished process"""
-    command = [folder("host"), str(stage), *map(str, arguments)] + (["--sceneIndex"] if scene_index else [])
-    return _run(command, environment(scene_index, **more), check)
+    words = [str(stage), *map(str, arguments)] + (["--sceneIndex"] if scene_index else [])
+    command = [folder("host"), *words]
+    if more or "--json" in words:
+        return _run(command, environment(scene_index, **more), check)
+    return _checked(_served(folder("host"), scene_index).run(words), command, check)
+
+
+class _Server:
+    """A program that runs one command after the other, and what it is asked in a line: see testenv/hydra/host/main.cpp."""
+
+    def __init__(self, command, values):
+        self.process = subprocess.Popen(command, env=values, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def run(self, words, timeout=TIMEOUT):
+        """:returns: a finished process; where the program ended instead, its status
+        :raises subprocess.TimeoutExpired: after so many seconds, and ends the program"""
+        with tempfile.TemporaryDirectory() as own:
+            streams = [os.path.join(own, name) for name in ("out", "err")]
+            self.process.stdin.write("\t".join([*streams, *words]) + "\n")
+            self.process.stdin.flush()
+            if not select.select([self.process.stdout], [], [], timeout)[0]:
+                self.process.kill()
+            answer = self.process.stdout.readline()
+            said = []
+            for path in streams:
+                with open(path, encoding="utf-8", errors="replace") as file:
+                    said.append(file.read())
+        if not answer:
+            _served.cache_clear()
+            status = self.process.wait()
+            if status == -signal.SIGKILL:
+                raise subprocess.TimeoutExpired(words, timeout, *said)
+        return subprocess.CompletedProcess(words, int(answer) if answer else status, *said)
+
+
+@functools.lru_cache
+def _served(program, scene_index):
+    """:returns: one for all tests of this process; it ends with its standard input"""
+    return _Server([program, "--serve"], environment(scene_index))
 
 
 def run_engine(stage, *arguments, timeout=TIMEOUT, **more):

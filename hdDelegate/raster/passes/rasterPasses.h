@@ -34,9 +34,6 @@ public:
     /// @param border of the samples, which becomes 0 where the driver has no room for one
     /// @returns false when the driver has no room for the image
     bool resize(const RenderSettings& settings, int& border);
-    bool inWindow(int x, int y) const {
-        return x >= _window[0] && y >= _window[1] && x <= _window[2] && y <= _window[3];
-    }
     const int* window() const { return _window; } ///< xmin, ymin, xmax, ymax, inclusive
 
     /// Begins an image that stays on the device.

@@ -109,11 +109,11 @@ def run_host(stage, *arguments, scene_index=False, check=True, **more):
     command = [folder("host"), *words]
     if more or "--json" in words:
         return _run(command, environment(scene_index, **more), check)
-    return _checked(_served(folder("host"), scene_index).run(words), command, check)
+    return _checked(_served(scene_index, folder("host"), "--serve").run(words), command, check)
 
 
 class _Server:
-    """A program that runs one command after the other, and what it is asked in a line: see testenv/hydra/host/main.cpp."""
+    """A program that runs one command after the other, each asked for in a line: see host/main.cpp, usdrecordServer.py."""
 
     def __init__(self, command, values):
         self.process = subprocess.Popen(command, env=values, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
@@ -141,9 +141,9 @@ class _Server:
 
 
 @functools.lru_cache
-def _served(program, scene_index):
+def _served(scene_index, *command):
     """:returns: one for all tests of this process; it ends with its standard input"""
-    return _Server([program, "--serve"], environment(scene_index))
+    return _Server(command, environment(scene_index))
 
 
 def run_engine(stage, *arguments, timeout=TIMEOUT, **more):
@@ -159,13 +159,14 @@ def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=Fa
     :returns: the finished process"""
     build = _read()
     script = os.path.join(build["root"], "bin", "usdrecord")
-    command = [build["python"], script, "--renderer", renderer, *map(str, arguments), str(stage), str(image)]
-    if gl:
-        command = xvfb() + command
-    else:
-        command.insert(2, "--disableGpu")
+    words = ["--renderer", renderer, *map(str, arguments), str(stage), str(image)]
+    if not gl:
+        words.insert(0, "--disableGpu")
+    command = [*(xvfb() if gl else []), build["python"], script, *words]
+    server = build["python"], os.path.join(os.path.dirname(os.path.abspath(__file__)), "usdrecordServer.py"), script
     for _ in range(3):
-        process = _run(command, environment(scene_index, **more), False, timeout)
+        process = (_run(command, environment(scene_index, **more), False, timeout) if gl or more
+                   else _served(scene_index, *server).run(words, timeout))
         # OpenUSD clears its caches in the background. When the interpreter ends meanwhile, the thread that wants
         # its lock is ended in a place where C++ allows no such thing. The image is long written then.
         if process.returncode != -6 or "terminate called without an active exception" not in process.stderr:

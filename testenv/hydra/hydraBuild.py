@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The OpenUSD that the plugin was built for: where it is, and how to run programs of it."""
+import contextlib
 import functools
 import glob
 import json
@@ -123,8 +124,11 @@ class _Server:
         :raises subprocess.TimeoutExpired: after so many seconds, and ends the program"""
         with tempfile.TemporaryDirectory() as own:
             streams = [os.path.join(own, name) for name in ("out", "err")]
-            self.process.stdin.write("\t".join([*streams, *words]) + "\n")
-            self.process.stdin.flush()
+            for path in streams:
+                open(path, "w", encoding="utf-8").close()
+            with contextlib.suppress(BrokenPipeError):
+                self.process.stdin.write("\t".join([*streams, *words]) + "\n")
+                self.process.stdin.flush()
             if not select.select([self.process.stdout], [], [], timeout)[0]:
                 self.process.kill()
             answer = self.process.stdout.readline()

@@ -16,7 +16,8 @@ import sameImage  # noqa: E402
 from floorLights import STAGE, light, write  # noqa: E402
 from patina.chart import sweepsSky  # noqa: E402
 from patina.chart.sceneMeasures import LUMINANCE  # noqa: E402
-from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 NO_HEADLIGHT = "--disableCameraLight"
 

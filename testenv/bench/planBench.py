@@ -106,8 +106,8 @@ def ratio_of(plan, without):
 
 
 def main(arguments):
-    parser = experiment.Parser("plan", __doc__, width=(64, "of the images"), samples=(4096, "at most"), runs=(5, "pairs of images"),
-                               threads=(0, "of a render"))
+    parser = experiment.Parser("plan", __doc__, width=(64, "of the images"), samples=(4096, "at most"),
+                               runs=(5, "pairs of images"), threads=(0, "of a render"))
     parser.add_argument("stages", nargs="*", help="(default: those of --assets, else scenes of testenv)")
     parser.add_argument("--assets", metavar="FOLDER", help="takes twelve public stages from it: StandardShaderBall, Teapot, "
                                                            "SubdivisionSurfaces and test_assets of the USD working group")

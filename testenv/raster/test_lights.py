@@ -81,7 +81,8 @@ STAGES = {"shadowDistance": STAGE.replace(STAGE[STAGE.index('    def Cube "block
 """)}
 # Few texels of the image give nearly all of its light, so that each render is noisier.
 LESS = dataclasses.replace(equivalence.FULL, widest=10 * equivalence.MARGIN, looks=(6, 12))
-POWER = {"rectImage": dataclasses.replace(LESS, samples=96, looks=(6, 12, 18)), "manyDomes": LESS, "manyLinks": LESS}
+POWER = {"rectImage": dataclasses.replace(LESS, samples=96, looks=(6, 12, 18)), "manyDomes": LESS,
+         "manyLinks": dataclasses.replace(LESS, samples=8)}
 SMALL = {"manyDomes": 24, "manyLinks": 24}  # hundreds of shadow maps for each pass
 
 

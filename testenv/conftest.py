@@ -11,6 +11,7 @@ if os.environ.get("PATINA_BUILD_DIR"):  # tests run programs in other folders
     os.environ["PATINA_BUILD_DIR"] = os.path.abspath(os.environ["PATINA_BUILD_DIR"])
 
 import googleTests  # noqa: E402
+import inProcess  # noqa: E402
 
 TIMEOUT = 1200  # seconds for one suite: a hang fails rather than blocks
 # These compile hundreds of shaders and run each for milliseconds. The driver's optimizer would take a quarter of their time;
@@ -73,6 +74,12 @@ class _GoogleTests(pytest.File):
             for suite in googleTests.suites(program) or [None]:
                 yield _Suite.from_parent(self, name=f"{os.path.basename(program)}::{suite or 'list'}",
                                          program=program, suite=suite)
+
+
+@pytest.fixture(scope="session")
+def opengl():
+    """Skips a test where the rasterizer cannot run."""
+    inProcess.needs_opengl()
 
 
 def pytest_collect_file(file_path, parent):

@@ -13,6 +13,7 @@ def paths():
 
 
 def read(path):
+    """:param path: below the root of the checkout"""
     with open(os.path.join(ROOT, path), encoding="utf-8") as file:
         return file.read()
 

@@ -20,6 +20,7 @@ if __name__ == "__main__":
     checkout.enter()
 
 import benchmarks
+from documents import read
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 FOLDER = os.path.join(ROOT, "docs", "generated")
@@ -27,12 +28,6 @@ NODES = "materialNetwork/nodes"
 MODELS = "materialNetwork/models"
 LOBES = "materialNetwork/lobeTable.inc"
 STRING = r'"((?:[^"\\]|\\.)*)"'
-
-
-def read(path):
-    """:param path: below the root of the checkout"""
-    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
-        return file.read()
 
 
 def names_in(path, ending):

@@ -110,6 +110,14 @@ def without_opengl():
     return empty.warnings()[0]["message"]
 
 
+def needs_opengl(backend="raster"):
+    """Skips a test where the back end is the rasterizer, and cannot run here."""
+    if backend == "raster" and without_opengl():
+        import pytest
+
+        pytest.skip(without_opengl())
+
+
 def pixels(image, channels="RGB"):
     """:returns: linear float array (height, width, 3) of the named channels of a file"""
     import _patina

@@ -33,7 +33,7 @@ RenderProgress HdPatinaSession::progress() const {
 }
 
 /// Frees a listener that waits, so that hosts do not wait for it.
-void HdPatinaSession::stopRenderer() {
+void HdPatinaSession::stop() {
     const auto current = renderer();
     if (!current) return;
     {
@@ -48,7 +48,7 @@ void HdPatinaSession::stopRenderer() {
 
 void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& settings,
                             const std::vector<HdPatinaImageForm>& forms) {
-    stopRenderer();
+    stop();
     const std::string backend = backendOf(settings);
     std::shared_ptr<Renderer> next = backend == _backend ? renderer() : makeBackend(backend);
     uint64_t serial;
@@ -60,7 +60,6 @@ void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& s
         _camera = camera;
         _settings = settings;
         _forms = forms;
-        _stopped = false;
         std::swap(_renderer, next);
         _backend = backend;
     }
@@ -119,16 +118,12 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
         for (size_t i = 0; i < _forms.size(); ++i)
             _forms[i].read(denoised ? clean : film, frame->images[i]);
     }
-    {
-        std::unique_lock<std::mutex> lock(_mutex);
-        // Images that follow each other in small steps are a jump again where a host misses some.
-        if (progress.mayWait)
-            _taken.wait_for(lock, std::chrono::milliseconds(500),
-                            [&] { return !_frame || _stopping; });
-        if (serial != _serial) return;
-        _frame = std::move(frame);
-    }
-    _arrived.notify_all();
+    std::unique_lock<std::mutex> lock(_mutex);
+    // Images that follow each other in small steps are a jump again where a host misses some.
+    if (progress.mayWait)
+        _taken.wait_for(lock, std::chrono::milliseconds(500), [&] { return !_frame || _stopping; });
+    if (serial != _serial) return;
+    _frame = std::move(frame);
 }
 
 void HdPatinaSession::giveBack(std::vector<uint8_t>&& image) {
@@ -144,21 +139,6 @@ std::shared_ptr<HdPatinaFrame> HdPatinaSession::take() {
     }
     _taken.notify_all();
     return frame;
-}
-
-std::shared_ptr<HdPatinaFrame> HdPatinaSession::finish() {
-    for (;;) {
-        {
-            std::unique_lock<std::mutex> lock(_mutex);
-            _arrived.wait(lock, [&] { return bool(_frame); });
-        }
-        if (auto frame = take(); frame && frame->last) return frame;
-    }
-}
-
-void HdPatinaSession::stop() {
-    stopRenderer();
-    _stopped = true;
 }
 
 void HdPatinaSession::restart() {

@@ -42,22 +42,15 @@ public:
     void restart();
     void pause();
     void resume();
-    bool isPaused() const { return _paused; }
-    bool isStopped() const { return _stopped; }
     bool isRunning() const;
     RenderProgress progress() const;
     /// Called when a host's buffers have been given an image, and how often that was since start().
     void countShown() { ++_shown; }
     int imagesShown() const { return _shown; }
-
-    /// Blocks until the last frame of the render that was started; for renders without a host that
-    /// polls. @returns the frame
-    std::shared_ptr<HdPatinaFrame> finish();
     const std::shared_ptr<Film>& film() const { return _film; }
 
 private:
     std::shared_ptr<Renderer> renderer() const;
-    void stopRenderer();
     bool denoiseCopy(const Film& film, Film& clean);
     void present(const Film& film, const RenderProgress& progress, uint64_t serial);
 
@@ -70,12 +63,12 @@ private:
     std::vector<HdPatinaImageForm> _forms;
 
     mutable std::mutex _mutex;
-    std::condition_variable _arrived, _taken;
+    std::condition_variable _taken;
     uint64_t _serial = 0; ///< frames of older renders are dropped
     std::shared_ptr<HdPatinaFrame> _frame;
     std::vector<std::vector<uint8_t>> _spare; ///< images whose memory is used again
     std::atomic<int> _shown{0};
-    bool _paused = false, _stopped = false, _stopping = false;
+    bool _paused = false, _stopping = false;
 };
 
 } // namespace patina

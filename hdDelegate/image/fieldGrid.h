@@ -30,7 +30,6 @@ public:
 
     int components() const { return _components; }
     const mat4& indexToObject() const { return _indexToObject; }
-    const mat4& objectToIndex() const { return _objectToIndex; }
     /// Outside of this, in object space, all values are 0.
     vec3 boundsMin() const { return _boundsMin; }
     vec3 boundsMax() const { return _boundsMax; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The BSDF of whole materials: energy, sampling, layers, sides.
 #include "materialNetwork/tests/materialFixture.h"
+#include "shaders/tests/pearson.h"
 
 #include <algorithm>
 #include <cmath>
@@ -123,7 +124,7 @@ TEST(Bsdf, SamplingFollowsTheDensity) {
                 const double s = std::sqrt(1.0 - z * z);
                 const glm::vec3 wi(float(s * std::cos(phi)), float(s * std::sin(phi)), float(z));
                 expected[size_t(r / fine * columns + k / fine)] +=
-                    bsdf.eval(wi).pdf * 6.283185307179586 / (rows * fine * columns * fine);
+                    n * bsdf.eval(wi).pdf * 6.283185307179586 / (rows * fine * columns * fine);
             }
         int rejected = 0;
         for (const uint32_t seed : {1u, 2u, 3u}) {
@@ -138,27 +139,8 @@ TEST(Bsdf, SamplingFollowsTheDensity) {
                 const int k = std::min(columns - 1, int(phi / 6.283185307179586 * columns));
                 ++counts[size_t(r * columns + k)];
             }
-            double chi2 = 0.0, pooledE = 0.0, pooledC = 0.0;
-            int degrees = -1;
-            for (size_t i = 0; i < counts.size(); ++i) {
-                const double e = expected[i] * n;
-                if (e < 5.0) {
-                    pooledE += e;
-                    pooledC += counts[i];
-                    continue;
-                }
-                chi2 += (counts[i] - e) * (counts[i] - e) / e;
-                ++degrees;
-            }
-            if (pooledE >= 5.0) {
-                chi2 += (pooledC - pooledE) * (pooledC - pooledE) / pooledE;
-                ++degrees;
-            }
-            // Wilson and Hilferty's normal quantile of chi-squared; 3.4 is that of 0.01 / 15 with
-            // margin for the quadrature.
-            const double h = 2.0 / (9.0 * degrees);
-            const double limit = degrees * std::pow(1.0 - h + 3.4 * std::sqrt(h), 3.0);
-            rejected += chi2 > limit;
+            // 3.4e-4 is 0.01 / 15 with margin for the quadrature.
+            rejected += test::pearson(expected, counts, 5.0).tail() < 3.4e-4;
         }
         EXPECT_LT(rejected, 2) << variants[which].name;
     }

@@ -5,38 +5,9 @@
 #include <cmath>
 #include <random>
 
-namespace patina::test {
+#include "shaders/tests/pearson.h"
 
-// Regularized upper incomplete gamma function Q(k / 2, x / 2): series below the mean, continued
-// fraction (Lentz) above.
-double chiSquaredTail(double x, double freedom) {
-    const double a = 0.5 * freedom;
-    const double y = 0.5 * x;
-    if (y <= 0.0) return 1.0;
-    const double front = std::exp(-y + a * std::log(y) - std::lgamma(a));
-    if (y < a + 1.0) {
-        double term = 1.0 / a;
-        double sum = term;
-        for (int n = 1; n < 10000 && term > 1e-16 * sum; ++n) {
-            term *= y / (a + n);
-            sum += term;
-        }
-        return 1.0 - front * sum;
-    }
-    double b = y + 1.0 - a;
-    double c = 1e300;
-    double d = 1.0 / b;
-    double h = d;
-    for (int n = 1; n < 10000; ++n) {
-        const double an = -n * (n - a);
-        b += 2.0;
-        d = 1.0 / (an * d + b);
-        c = b + an / c;
-        h *= d * c;
-        if (std::fabs(d * c - 1.0) < 1e-14) break;
-    }
-    return front * h;
-}
+namespace patina::test {
 
 namespace {
 
@@ -138,13 +109,11 @@ ChiSquared DensityGrid::test(const BoundLobe& sampler, vec3 wo, int count,
     for (int i = 0; i < rowCount * columnCount; ++i)
         order[i] = i;
     std::sort(order.begin(), order.end(), [&](int a, int b) { return _cells[a] < _cells[b]; });
-    double statistic = 0.0;
+    Pearson found;
     double pooledExpected = 0.0;
     double pooledCount = 0.0;
     const auto close = [&] {
-        const double d = pooledCount - pooledExpected;
-        statistic += d * d / pooledExpected;
-        ++result.cells;
+        found.add(pooledExpected, pooledCount);
         pooledExpected = pooledCount = 0.0;
     };
     for (int i : order) {
@@ -161,7 +130,8 @@ ChiSquared DensityGrid::test(const BoundLobe& sampler, vec3 wo, int count,
         close();
     }
     result.expected = _total;
-    result.pValue = result.cells > 1 ? chiSquaredTail(statistic, result.cells - 1) : 1.0;
+    result.cells = found.cells();
+    result.pValue = found.tail();
     return result;
 }
 

@@ -32,7 +32,4 @@ private:
     double _total = 0.0;
 };
 
-/// Upper tail of the chi-squared distribution.
-double chiSquaredTail(double x, double freedom);
-
 } // namespace patina::test

@@ -7,15 +7,14 @@ denoised. Times are of processors, with the denoiser's and without what is done 
 which have seeds of their own. Between two numbers of samples the error is taken for a power of time. Cycles is denoised where
 its build can do that.
 """
-import argparse
 import math
 import os
 import statistics
-import sys
 import tempfile
 
 import numpy as np
 
+import experiment
 import pathBench
 import pathScenes
 import pathWorker
@@ -34,7 +33,7 @@ def folder_for(who, name, folder, options):
     own = os.path.join(folder, who)
     os.makedirs(own)
     pathWorker.save(pathScenes.SCENES[name](own), own, {
-        "width": options.size[0], "height": options.size[1], "depth": options.depth, "threads": options.threads,
+        "width": options.pixels[0], "height": options.pixels[1], "depth": options.depth, "threads": options.threads,
         "denoise": True})
     return own
 
@@ -109,38 +108,24 @@ def main(arguments):
     from patina.cli import imageMetrics
     from patina.cli.errors import CommandError
 
-    parser = argparse.ArgumentParser(prog="patina bench denoise", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = experiment.Parser("denoise", __doc__, "192x108", reference=(1024, "samples of the references"),
+                               runs=(5, "images of each"), depth=(8, "bounces"), threads=(0, "of each renderer"))
     parser.add_argument("scenes", nargs="*", help=f"of {', '.join(pathScenes.SCENES)} (default: all)")
-    parser.add_argument("--size", default="192x108", help="of the images (default: 192x108)")
     parser.add_argument("--samples", default="1,2,4,8,16,32,64,128,256", help="ever more (default: 1,2,4 ... 256)")
-    parser.add_argument("--reference", type=int, default=1024, help="samples of the references (default: 1024)")
     parser.add_argument("--targets", default="0.05,0.02", help="mean FLIP, falling (default: 0.05,0.02)")
-    parser.add_argument("--runs", type=int, default=5, help="images of each (default: 5)")
-    parser.add_argument("--depth", type=int, default=8, help="bounces (default: 8)")
-    parser.add_argument("--threads", type=int, default=0, help="of each renderer (default: all)")
     parser.add_argument("--without", action="append", default=[], choices=["Cycles"], help="leaves a renderer out")
-    parser.add_argument("--json", help="writes the figures to this file")
-    options = parser.parse_args(arguments)
-    outputs.check_all([options.json])
-    options.size = tuple(map(int, options.size.split("x")))
+    options = parser.parse(arguments)
     options.samples = sorted(map(int, options.samples.split(",")))
     options.targets = sorted(map(float, options.targets.split(",")), reverse=True)
-    unknown = [name for name in options.scenes if name not in pathScenes.SCENES]
-    if unknown or options.runs < 1:
-        parser.error(f"there is no scene {unknown[0]}" if unknown else "--runs takes at least 1")
+    names = parser.known(options.scenes, pathScenes.SCENES, options.runs >= 1, "--runs takes at least 1")
     if imageMetrics.flip_missing():
         raise CommandError(imageMetrics.flip_missing())
     results = {}
-    for name in options.scenes or pathScenes.SCENES:
+    for name in names:
         results[name] = measure(name, options)
         if len(results) == 1:
             heads = [who + (", denoised" if who == "Patina" else " (ratio)") for who in results[name]]
             print("| scene | mean FLIP | " + " | ".join(heads) + " |\n|---|---|" + "---|" * len(heads))
         show(name, results[name], options)
-    outputs.write_json(options.json, {"size": options.size, "reference": options.reference, "scenes": results})
+    outputs.write_json(options.json, {"size": options.pixels, "reference": options.reference, "scenes": results})
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

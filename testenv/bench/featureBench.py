@@ -14,6 +14,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, ".."))
 
+import experiment  # noqa: E402
 import featurePairs  # noqa: E402
 import inProcess  # noqa: E402
 
@@ -47,9 +48,8 @@ def ratios(width, only=None, runs=RUNS):
             for stage in both:
                 stage.image(0, samples=1)
             times = [[_seconds(stage, pair.samples, run + 1)[0] for stage in both] for run in range(runs)]
-            found = sorted(a / b for a, b in times)
             medians = [statistics.median(column) for column in zip(*times)]
-            rows.append({"feature": name, "ratio": statistics.median(found), "least": found[0], "most": found[-1],
+            rows.append({"feature": name, **experiment.spread([a / b for a, b in times]),
                          "with": medians[0], "without": medians[1], "samples": pair.samples})
     return rows
 

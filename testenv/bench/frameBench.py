@@ -6,8 +6,6 @@ frame on a machine with a graphics card: host, renderer, and the part of the dri
 threads together, medians over the moves, in processes one after another. Where `perf` is installed, it tells whose code that
 was, with the start of the process.
 """
-import argparse
-import json
 import os
 import shutil
 import statistics
@@ -18,6 +16,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path += [HERE, os.path.join(HERE, "..", "hydra")]
 
+import experiment  # noqa: E402
 import hydraBuild  # noqa: E402
 import viewportBench  # noqa: E402
 from patina.cli import outputs  # noqa: E402
@@ -39,11 +38,8 @@ def flags(camera, renderer, options):
 def milliseconds(stage, camera, renderer, options):
     """:returns: processor milliseconds of a move, None where the renderer does not run here"""
     process = hydraBuild.run_engine(stage, *flags(camera, renderer, options), **NOTHING)
-    if process.returncode != 0:
-        print(f"{renderer} does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
-        return None
-    report = json.loads(process.stdout[process.stdout.index("{"):])
-    return 1e3 * statistics.median(report["processor"])
+    report = experiment.told(process, renderer)
+    return report and 1e3 * statistics.median(report["processor"])
 
 
 def owners(stage, camera, renderer, options):
@@ -67,14 +63,9 @@ def owners(stage, camera, renderer, options):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="patina bench frame", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = experiment.Parser("frame", __doc__, "1280x720", repeats=(100, "moves in each process"))
     parser.add_argument("stages", nargs="*", choices=[[], *STAGES], help="of testenv/scenes (default: all)")
-    parser.add_argument("--size", default="1280x720")
-    parser.add_argument("--repeats", type=int, default=100, help="moves in each process (default: 100)")
-    parser.add_argument("--json", help="writes the figures to this file")
-    options = parser.parse_args(arguments)
-    outputs.check_all([options.json])
+    options = parser.parse(arguments)
     missing = hydraBuild.missing() or hydraBuild.missing_engine()
     if missing:
         sys.exit(missing)

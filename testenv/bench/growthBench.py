@@ -9,15 +9,11 @@ everything else hides behind. Runs take turns over the sizes, and medians count.
 Lights are held to a logarithm: what a sample takes grows by as much from 10 to 100 as from 10,000 to 100,000. Textures are
 drawn in a fixed memory for texels, of which the largest stage has ten times as many.
 """
-import argparse
-import json
 import math
 import os
-import statistics
-import subprocess
-import sys
 import tempfile
 
+import experiment
 from patina.cli import outputs
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -29,11 +25,7 @@ PARTS = ("open", "read", "draw", "first")
 def measure(stage, options, settings):
     """:returns: what growthWorker.py tells of a stage
     :raises SystemExit: with its reason"""
-    command = [sys.executable, os.path.join(HERE, "growthWorker.py"), stage, options.size, str(options.samples), *settings]
-    process = subprocess.run(command, capture_output=True, text=True, check=False)
-    if process.returncode != 0:
-        raise SystemExit(f"{stage}: {(process.stderr.strip().splitlines() or ['no message'])[-1]}")
-    return json.loads(process.stdout.strip().splitlines()[-1])
+    return experiment.figures(stage, [os.path.join(HERE, "growthWorker.py"), stage, options.size, options.samples, *settings])
 
 
 def axis(name, options):
@@ -53,15 +45,9 @@ def axis(name, options):
         for _ in range(options.runs):
             for size in sizes:
                 found[size].append(measure(stages[size], options, settings))
-    rows = []
-    for size in sizes:
-        runs = found[size]
-        row = {"size": size, **{part: statistics.median(run[part]["processor"] for run in runs) for part in PARTS}}
-        row["wall"] = statistics.median(run["first"]["wall"] for run in runs)
-        for part in ("sample", "peak", "textures"):
-            row[part] = statistics.median(run[part] for run in runs)
-        rows.append(row)
-    return rows
+    return [{"size": size, **experiment.medians(runs, PARTS, lambda run, part: run[part]["processor"]),
+             **experiment.medians(runs, ["wall"], lambda run, clock: run["first"][clock]),
+             **experiment.medians(runs, ("sample", "peak", "textures"))} for size, runs in found.items()]
 
 
 def exponents(rows, part):
@@ -90,26 +76,15 @@ def show(name, rows):
 def main(arguments):
     import growthStages
 
-    parser = argparse.ArgumentParser(prog="patina bench growth", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = experiment.Parser("growth", __doc__, "160x120", samples=(9, "from which the time of one is taken"),
+                               runs=(3, "processes of each size"))
     parser.add_argument("axes", nargs="*", help=f"of {', '.join(growthStages.AXES)} (default: all)")
-    parser.add_argument("--size", default="160x120", help="of the images (default: 160x120)")
-    parser.add_argument("--samples", type=int, default=9, help="from which the time of one is taken (default: 9)")
-    parser.add_argument("--runs", type=int, default=3, help="processes of each size (default: 3)")
     parser.add_argument("--most", type=float, default=math.inf, help="of a thing: leaves larger stages out")
-    parser.add_argument("--json", help="writes the figures to this file")
-    options = parser.parse_args(arguments)
-    outputs.check_all([options.json])
-    unknown = [name for name in options.axes if name not in growthStages.AXES]
-    if unknown or options.runs < 1 or options.samples < 2:
-        parser.error(f"there is nothing called {unknown[0]}" if unknown else "--runs takes at least 1, --samples at least 2")
+    options = parser.parse(arguments)
     results = {}
-    for name in options.axes or growthStages.AXES:
+    for name in parser.known(options.axes, growthStages.AXES, options.runs >= 1 and options.samples >= 2,
+                             "--runs takes at least 1, --samples at least 2"):
         results[name] = axis(name, options)
         show(name, results[name])
     outputs.write_json(options.json, {"size": options.size, "samples": options.samples, "runs": options.runs, "axes": results})
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

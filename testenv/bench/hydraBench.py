@@ -8,8 +8,6 @@ one camera ray and 16 cosine-distributed occlusion rays per hit, from the time o
 half as many. hdEmbree casts the same rays. Storm draws the stage in UsdImagingGLEngine: its times are for
 orientation.
 """
-import argparse
-import json
 import os
 import statistics
 import sys
@@ -18,6 +16,7 @@ import tempfile
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "hydra"))
 
 import benchStages  # noqa: E402
+import experiment  # noqa: E402
 import hydraBuild  # noqa: E402
 from patina.cli import outputs  # noqa: E402
 
@@ -39,7 +38,7 @@ def run_host(stage, renderer, samples, size, moves=0, outputs=()):
     flags += [word for output in outputs for word in ("--aov", output)]
     process = hydraBuild.run_host(stage, "--renderer", plugin, "--camera", "/camera", "--size", f"{size[0]}x{size[1]}",
                                   "--repeats", moves, "--json", "-", *flags, *(["--pickAll"] if outputs else []))
-    return json.loads(process.stdout[process.stdout.index("{"):])
+    return experiment.told(process, renderer)
 
 
 def hits_of(stage, size):
@@ -65,12 +64,9 @@ def measure_storm(stage, size):
         return None
     process = hydraBuild.run_engine(stage, "--renderer", "HdStormRendererPlugin", "--camera", "/camera", "--size",
                                     f"{size[0]}x{size[1]}", "--repeats", MOVES)
-    if process.returncode != 0:
-        print("Storm does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
-        return None
-    report = json.loads(process.stdout[process.stdout.index("{"):])
-    return {"first": report["seconds"]["first"], "moved": statistics.median(report["seconds"]["moved"]),
-            "memory": report["peakMemory"]}
+    report = experiment.told(process, "Storm")
+    return report and {"first": report["seconds"]["first"], "moved": statistics.median(report["seconds"]["moved"]),
+                       "memory": report["peakMemory"]}
 
 
 def _cell(value, unit):
@@ -92,19 +88,14 @@ def show(results):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="patina bench hydra", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = experiment.Parser("hydra", __doc__, "640x480", samples=(32, "of a pixel"))
     parser.add_argument("stages", nargs="*", help="with a camera at /camera (default: stages made for this)")
-    parser.add_argument("--size", default="640x480")
-    parser.add_argument("--samples", type=int, default=32)
-    parser.add_argument("--json", help="writes the figures to this file")
-    options = parser.parse_args(arguments)
-    outputs.check_all([options.json])
+    options = parser.parse(arguments)
     reason = hydraBuild.missing()
     if reason:
         print(reason)
         return 0
-    size = tuple(map(int, options.size.split("x")))
+    size = options.pixels
     results = {}
     with tempfile.TemporaryDirectory() as folder:
         stages = {os.path.basename(s): s for s in options.stages} or benchStages.write_all(folder)
@@ -118,7 +109,3 @@ def main(arguments):
             show({name: found})
     outputs.write_json(options.json, {"size": size, "samples": options.samples, "stages": results})
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

@@ -9,12 +9,11 @@ nanoseconds.
 
 Renderers and materials take turns, image by image; times are of processors; a row is the median of the runs.
 """
-import argparse
 import os
 import statistics
-import sys
 import tempfile
 
+import experiment
 import pathBench
 import pathScenes
 import pathWorker
@@ -74,13 +73,8 @@ def measure(commands, options):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="patina bench lobes", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--runs", type=int, default=5, help="images of each (default: 5)")
-    parser.add_argument("--samples", type=int, default=64, help="of a pixel (default: 64)")
-    parser.add_argument("--json", help="writes the figures to this file")
-    options = parser.parse_args(arguments)
-    outputs.check_all([options.json])
+    parser = experiment.Parser("lobes", __doc__, runs=(5, "images of each"), samples=(64, "of a pixel"))
+    options = parser.parse(arguments)
     if options.runs < 1 or options.samples < 1:
         parser.error("--runs and --samples take 1 or more")
     commands = {who: command for who, command in pathBench.peers().items() if not who.startswith("Cycles")}
@@ -98,7 +92,3 @@ def main(arguments):
               + ("" if more is own else "   Patina: " + ", ".join(f"x{own[name] / more[name]:.2f}" for name in more)))
     outputs.write_json(options.json, found)
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

@@ -10,7 +10,6 @@ disturbs the machine disturbs all of them.
 
 All have the same geometry, camera, bounces, light and box filter; principled materials are each renderer's own.
 """
-import argparse
 import json
 import os
 import shutil
@@ -21,6 +20,7 @@ import tempfile
 
 import numpy as np
 
+import experiment
 import pathScenes
 import pathWorker
 from patina.cli import outputs
@@ -96,7 +96,7 @@ def measure(name, commands, options, pictures):
     with tempfile.TemporaryDirectory(prefix="pathBench") as folder, open(os.path.join(folder, "log"), "w+",
                                                                          encoding="utf-8") as log:
         scene = pathScenes.SCENES[name](folder)
-        pathWorker.save(scene, folder, {"width": options.size[0], "height": options.size[1], "depth": options.depth,
+        pathWorker.save(scene, folder, {"width": options.pixels[0], "height": options.pixels[1], "depth": options.depth,
                                         "threads": options.threads, "methods": options.method})
         workers, found = {}, {}
         try:
@@ -159,28 +159,21 @@ def show(name, found, options):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="patina bench path", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = experiment.Parser("path", __doc__, "192x108", runs=(5, "images of each"), depth=(8, "bounces"),
+                               threads=(0, "of each renderer"))
     parser.add_argument("scenes", nargs="*", help=f"of {', '.join(pathScenes.SCENES)} (default: all)")
-    parser.add_argument("--size", default="192x108", help="of the images (default: 192x108)")
     parser.add_argument("--samples", default="8,64", help="few and many (default: 8,64)")
-    parser.add_argument("--runs", type=int, default=5, help="images of each (default: 5)")
-    parser.add_argument("--depth", type=int, default=8, help="bounces (default: 8)")
-    parser.add_argument("--threads", type=int, default=0, help="of each renderer (default: all)")
     parser.add_argument("--target", type=float, default=1e-3, help="relMSE (default: 1e-3)")
     parser.add_argument("--method", action="append", default=[], metavar="CHOICE=METHOD", help="of Patina (repeatable)")
     parser.add_argument("--without", action="append", default=[], help="leaves a renderer out, as Cycles (repeatable)")
     parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew")
-    parser.add_argument("--json", help="writes the figures to this file")
-    options = parser.parse_args(arguments)
-    outputs.check_all([options.json])
-    options.size = tuple(map(int, options.size.split("x")))
+    options = parser.parse(arguments)
     options.samples = tuple(map(int, options.samples.split(",")))
     options.method = dict(word.split("=", 1) if "=" in word else parser.error("--method takes CHOICE=METHOD")
                           for word in options.method)
-    unknown = [name for name in options.scenes if name not in pathScenes.SCENES]
-    if unknown or len(options.samples) != 2 or options.samples[0] >= options.samples[1] or options.runs < 2:
-        parser.error(f"there is no scene {unknown[0]}" if unknown else "--samples takes few and many, --runs at least 2")
+    names = parser.known(options.scenes, pathScenes.SCENES,
+                         len(options.samples) == 2 and options.samples[0] < options.samples[1] and options.runs >= 2,
+                         "--samples takes few and many, --runs at least 2")
     commands = {who: command for who, command in peers().items() if not any(who.startswith(name) for name in options.without)}
     for who in ("Mitsuba", "Cycles"):
         if not any(name.startswith(who) for name in commands):
@@ -188,13 +181,9 @@ def main(arguments):
     if options.images:
         os.makedirs(options.images, exist_ok=True)
     results = {}
-    for name in options.scenes or pathScenes.SCENES:
+    for name in names:
         results[name] = measure(name, commands, options, options.images)
         show(name, results[name], options)
-    outputs.write_json(options.json, {"size": options.size, "samples": options.samples, "depth": options.depth,
+    outputs.write_json(options.json, {"size": options.pixels, "samples": options.samples, "depth": options.depth,
                                       "scenes": results})
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

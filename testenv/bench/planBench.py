@@ -7,7 +7,6 @@ and nothing more, so building and compiling count. Times are of processors; runs
 of its runs. Quadrature may take minutes for a pass, so renders end after --seconds. Where only the one without a plan does, the
 ratio is a bound ("at most"). Where both end early, by seconds or by samples, the ratio is that of the time of a sample.
 """
-import argparse
 import os
 import statistics
 import sys
@@ -16,6 +15,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, ".."))
 
+import experiment  # noqa: E402
 import inProcess  # noqa: E402
 from patina.cli import outputs  # noqa: E402
 
@@ -91,8 +91,8 @@ def measure(path, options):
         both = {"plan": {}, "without": truths}
         order = list(both) if run % 2 == 0 else list(both)[::-1]
         runs.append({name: Once(path, options, both[name]).seconds(run + 1) for name in order})
-    ratios = sorted(ratio_of(run["plan"], run["without"]) for run in runs)
-    row = {"ratio": statistics.median(ratios), "least": ratios[0], "most": ratios[-1], "expected": runs[0]["plan"][3]}
+    row = experiment.spread([ratio_of(run["plan"], run["without"]) for run in runs])
+    row["expected"] = runs[0]["plan"][3]
     for name in ("plan", "without"):
         row[name] = {"seconds": statistics.median(run[name][0] for run in runs),
                      "samples": statistics.median(run[name][1] for run in runs), "ended": any(run[name][2] for run in runs)}
@@ -106,20 +106,14 @@ def ratio_of(plan, without):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="patina bench plan", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = experiment.Parser("plan", __doc__, width=(64, "of the images"), samples=(4096, "at most"),
+                               runs=(5, "pairs of images"), threads=(0, "of a render"))
     parser.add_argument("stages", nargs="*", help="(default: those of --assets, else scenes of testenv)")
     parser.add_argument("--assets", metavar="FOLDER", help="takes twelve public stages from it: StandardShaderBall, Teapot, "
                                                            "SubdivisionSurfaces and test_assets of the USD working group")
     parser.add_argument("--tolerance", type=float, default=0.01, help="(default: 0.01)")
-    parser.add_argument("--width", type=int, default=64, help="of the images (default: 64)")
-    parser.add_argument("--samples", type=int, default=4096, help="at most (default: 4096)")
     parser.add_argument("--seconds", type=float, default=120.0, help="of a render at most (default: 120)")
-    parser.add_argument("--runs", type=int, default=5, help="pairs of images (default: 5)")
-    parser.add_argument("--threads", type=int, default=0, help="(default: all)")
-    parser.add_argument("--json", help="writes the figures to this file")
-    options = parser.parse_args(arguments)
-    outputs.check_all([options.json])
+    options = parser.parse(arguments)
     if options.runs < 1 or options.tolerance <= 0.0:
         parser.error("--runs takes at least 1, --tolerance more than 0")
     results = {}
@@ -135,7 +129,3 @@ def main(arguments):
     print(f"median {statistics.median(ratios):.2f} (target: at most 0.5), largest {max(ratios):.2f} (target: 1.05)")
     outputs.write_json(options.json, {"tolerance": options.tolerance, "width": options.width, "stages": results})
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

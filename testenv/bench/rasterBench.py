@@ -6,17 +6,15 @@ where a stage has no material) and after a camera move, each of one pass; then w
 buffers and shaders, ids and depths, shadow maps, shading, reading back. The driver's cache of shaders on disk is warm, unless
 --cold. Storm draws in UsdImagingGLEngine and casts no shadows unless lights ask for them: its times are for orientation.
 """
-import argparse
-import json
 import os
 import statistics
-import subprocess
 import sys
 import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, "..", "hydra"))
 
+import experiment  # noqa: E402
 import hydraBuild  # noqa: E402
 from patina.cli import outputs  # noqa: E402
 
@@ -33,23 +31,13 @@ STAGES = {
 FRAMES = {"first": "first image", "edited": "after an edit", "moved": "after a camera move"}
 
 
-def _run(command, **options):
-    process = subprocess.run(command, capture_output=True, text=True, check=False, **options)
-    if process.returncode != 0:
-        return None, (process.stderr.strip().splitlines() or ["no message"])[-1]
-    return json.loads(process.stdout.strip().splitlines()[-1]), ""
-
-
 def measure(stage, size, edit, repeats, cold, backend):
     """:returns: what rasterTimes.py tells
     :raises SystemExit: with its reason when it cannot"""
     with tempfile.TemporaryDirectory() as folder:
         fresh = {"PATINA_CACHE": folder, "MESA_SHADER_CACHE_DIR": folder} if cold else {}
-        found, why = _run([sys.executable, os.path.join(HERE, "rasterTimes.py"), stage, f"{size[0]}x{size[1]}", edit,
-                           str(repeats), backend], env=dict(os.environ, **fresh))
-    if not found:
-        sys.exit(f"{stage}: {why}")
-    return found
+        return experiment.figures(stage, [os.path.join(HERE, "rasterTimes.py"), stage, f"{size[0]}x{size[1]}", edit, repeats,
+                                          backend], env=dict(os.environ, **fresh))
 
 
 def measure_storm(stage, size, edit, repeats):
@@ -58,10 +46,10 @@ def measure_storm(stage, size, edit, repeats):
         return None
     process = hydraBuild.run_engine(stage, "--renderer", "HdStormRendererPlugin", "--camera", CAMERA, "--size",
                                     f"{size[0]}x{size[1]}", "--repeats", repeats, "--edit", edit)
-    if process.returncode != 0:
-        print("Storm does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
+    report = experiment.told(process, "Storm")
+    if report is None:
         return None
-    seconds = json.loads(process.stdout[process.stdout.index("{"):])["seconds"]
+    seconds = report["seconds"]
     return {"first": seconds["open"] + seconds["first"], "edited": statistics.median(seconds["edited"]),
             "moved": statistics.median(seconds["moved"])}
 
@@ -80,18 +68,13 @@ def show(name, found):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="patina bench raster", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = experiment.Parser("raster", __doc__, "1280x720", repeats=(5, "edits and moves, of which medians are shown"))
     parser.add_argument("stages", nargs="*", choices=[[], *STAGES], help="of testenv/scenes (default: all five)")
-    parser.add_argument("--size", default="1280x720")
-    parser.add_argument("--repeats", type=int, default=5, help="edits and moves, of which medians are shown")
     parser.add_argument("--cold", action="store_true", help="begin with empty caches of shaders")
     parser.add_argument("--backend", default="raster", choices=["raster", "embree"])
     parser.add_argument("--noStorm", action="store_true")
-    parser.add_argument("--json", help="writes the figures to this file")
-    options = parser.parse_args(arguments)
-    outputs.check_all([options.json])
-    size = tuple(map(int, options.size.split("x")))
+    options = parser.parse(arguments)
+    size = options.pixels
     results = {}
     for name in options.stages or STAGES:
         stage = os.path.join(SCENES, name + ".usda")
@@ -103,7 +86,3 @@ def main(arguments):
         show(name, found)
     outputs.write_json(options.json, {"size": size, "repeats": options.repeats, "stages": results})
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

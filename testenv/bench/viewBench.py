@@ -3,7 +3,6 @@
 and to all 64 samples, in headless Chromium at 256 x 256 pixels. Chromium draws on the processor (Mesa, else SwiftShader);
 most of the time until the first picture is the compiling of shaders.
 """
-import argparse
 import os
 import sys
 import tempfile
@@ -13,6 +12,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, "..", "view"))
 
 import browser  # noqa: E402
+import experiment  # noqa: E402
 from patina.cli import outputs  # noqa: E402
 
 SCENES = os.path.normpath(os.path.join(HERE, "..", "scenes"))
@@ -44,10 +44,7 @@ def _measure(chromium, name, arguments, folder):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="patina bench view", description=__doc__)
-    parser.add_argument("--json", metavar="FILE", help="also write the figures as JSON")
-    options = parser.parse_args(arguments)
-    outputs.check_all([options.json])
+    options = experiment.Parser("view", __doc__).parse(arguments)
     if browser.missing():
         print("patina bench view: " + browser.missing(), file=sys.stderr)
         return 1

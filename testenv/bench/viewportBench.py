@@ -7,7 +7,6 @@ the stage's file: opening it is in the time. Where Blender is installed, Cycles 
 reads no USD, so its scene stands ready in memory and only its first image counts. hdEmbree shows neither materials nor lights.
 A stage of one's own needs a camera: FILE:CAMERA.
 """
-import argparse
 import json
 import os
 import statistics
@@ -18,6 +17,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path += [HERE, os.path.join(HERE, "..", "hydra")]
 
+import experiment  # noqa: E402
 import hydraBuild  # noqa: E402
 from patina.cli import outputs  # noqa: E402
 
@@ -45,8 +45,7 @@ ROWS = {"first": "first image", "first seen": "something to see", "material": "a
 
 def settings_of(options):
     """:returns: what pathWorker.save() takes besides a scene"""
-    width, height = map(int, options.size.split("x"))
-    return {"width": width, "height": height, "depth": 8, "threads": 0}
+    return {"width": options.pixels[0], "height": options.pixels[1], "depth": 8, "threads": 0}
 
 
 def made(folder, options):
@@ -72,10 +71,7 @@ def host(stage, camera, renderer, options, edit="", image=""):
         except subprocess.TimeoutExpired:
             print(f"{renderer} took more than {options.limit} s", file=sys.stderr)
             return None
-    if process.returncode != 0:
-        print(f"{renderer} does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
-        return None
-    return json.loads(process.stdout[process.stdout.index("{"):])
+    return experiment.told(process, renderer)
 
 
 def measure(name, stage, camera, edits, options):
@@ -117,7 +113,7 @@ def cycles(folder, options):
         process = subprocess.run([*command, folder], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
         lines = [line for line in process.stdout.splitlines() if line.startswith("path bench: ")]
         if not lines:
-            print("Cycles does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
+            print(f"Cycles does not run here: {experiment.reason(process)}", file=sys.stderr)
             return None
         found.append(json.loads(lines[0][len("path bench: "):])["first"])
     return {"first": statistics.median(found)}
@@ -138,18 +134,13 @@ def show(name, found):
 
 
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="patina bench viewport", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = experiment.Parser("viewport", __doc__, "640x360", runs=(5, "processes of each, of which medians are shown"),
+                               repeats=(5, "moves and edits in each process"))
     parser.add_argument("stages", nargs="*", help=f"of {', '.join(STAGES)} (default: all), or FILE:CAMERA")
-    parser.add_argument("--size", default="640x360")
-    parser.add_argument("--runs", type=int, default=5, help="processes of each, of which medians are shown (default: 5)")
-    parser.add_argument("--repeats", type=int, default=5, help="moves and edits in each process (default: 5)")
     parser.add_argument("--limit", type=float, default=300, help="seconds of a process, after which it is left out (300)")
     parser.add_argument("--cold", action="store_true", help="begin with empty caches of shaders")
     parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew last")
-    parser.add_argument("--json", help="writes the figures to this file")
-    options = parser.parse_args(arguments)
-    outputs.check_all([options.json])
+    options = parser.parse(arguments)
     reason = hydraBuild.missing() or hydraBuild.missing_engine()
     if reason:
         print(reason)
@@ -176,7 +167,3 @@ def main(arguments):
         show(name, found)
     outputs.write_json(options.json, {"size": options.size, "cold": options.cold, "stages": results})
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

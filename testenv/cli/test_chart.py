@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from patina.chart import lobes, measurePaths, measureSubdivision, svg
+from patina.chart import lobes, measurePaths, measureSubdivision
 from patina.cli import compiled, main
 
 MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse", "sheen",
@@ -90,12 +90,6 @@ def test_what_cannot_be_charted(arguments, capsys):
     assert main.main(["chart", *arguments]) in (1, 2)
     error = capsys.readouterr().err
     assert "Traceback" not in error and len(error.strip().splitlines()) == 1
-
-
-def test_axes():
-    axis = svg.Axis([0.0, 0.02, 30.0], 0.0, 100.0)
-    assert axis.decades() == [0.01, 0.1, 1.0, 10.0, 100.0]
-    assert axis.at(0.0) == 0.0 and axis.at(1.0) == pytest.approx(50.0)
 
 
 def test_a_point_goes_into_the_table_alone():

@@ -12,9 +12,10 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from patina.chart import (front, png, sceneCharts, sceneCommand, sceneLadder, sceneMeasures, scenePage, sceneReference,
-                          sceneRenders, sceneResults, svg)
-from patina.chart.plot import Axis, Plot
+from patina.chart import (front, lobes, png, sceneCharts, sceneCommand, sceneLadder, sceneMeasures, scenePage, sceneReference,
+                          sceneRenders, sceneResults)
+from patina.chart.axes import Axis
+from patina.chart.plot import Plot
 from patina.cli import chart, compiled, errors, main
 
 STAGE = """#usda 1.0
@@ -345,8 +346,9 @@ def test_plot_takes_any_numbers():
     plot.add_guide(-0.5, "guide")
     ElementTree.fromstring(plot.svg())
     assert Axis([], 0.0, 1.0).at(1.0) == pytest.approx(0.5)
-    axis = Axis([1.0, 1000.0], 0.0, 100.0, margin=0.0)
-    assert axis.at(10.0) == pytest.approx(100.0 / 3.0) and axis.ticks() == [1.0, 10.0, 100.0, 1000.0]
+    axis = Axis([0.0, 1.0, 1000.0], 0.0, 100.0, margin=0.0)
+    assert axis.at(10.0) == pytest.approx(100.0 / 3.0) and axis.at(0.0) == 0.0
+    assert axis.ticks() == [(1.0, "1"), (10.0, "10"), (100.0, "100"), (1000.0, "1000")]
 
 
 def test_signed_errors():
@@ -357,12 +359,13 @@ def test_signed_errors():
 
 
 def test_labels_of_a_scatter_do_not_cover_each_other():
-    drawn = svg.scatter("t", [(10.0, 0.01, "schlick"), (11.0, 0.0101, "f82"), (10.5, 0.0099, "exact"), (2.0, 0.0, "none")],
-                        "x", "y")
-    found = {words: (float(x), float(y)) for x, y, words in
-             re.findall(r'x="([\d.]+)" y="([\d.]+)" text-anchor="start"[^>]*>([^<]+)<', drawn)}
-    assert set(found) == {"schlick", "f82", "exact", "none (0)"}
-    places = sorted((y, x, x + 6.2 * len(words)) for words, (x, y) in found.items())
+    drawn = lobes.scatter("t", [(10.0, 0.01, "schlick"), (11.0, 0.0101, "f82"), (10.5, 0.0099, "exact"), (2.0, 0.0, "none")],
+                          "y")
+    found = {words: (float(x) - 6.1 * len(words) * {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor], float(y))
+             for x, y, anchor, words in
+             re.findall(r'x="([\d.]+)" y="([\d.]+)" text-anchor="(\w+)"[^>]* font-weight="bold" paint[^>]*>([^<]+)<', drawn)}
+    assert set(found) == {"schlick", "f82", "exact", "none (0)"}  # nothing is a front but the exact one alone
+    places = sorted((y, x, x + 6.1 * len(words)) for words, (x, y) in found.items())
     for i, (y, begin, end) in enumerate(places):
         for other, start, stop in places[i + 1:]:
             assert other - y >= 11 or stop <= begin or end <= start

@@ -146,8 +146,7 @@ def test_guides_fade_at_outlines(tmp_path):
 
 
 def test_the_rasterizer_is_denoised_too(library, tmp_path):
-    if inProcess.without_opengl():
-        pytest.skip(inProcess.without_opengl())
+    inProcess.needs_opengl()
     stage = inProcess.scene("lightRect")
     for name, more in (("noisy", ()), ("clean", ("--denoise",))):
         record(stage, tmp_path / (name + ".exr"), "-w", WIDTH, "--samples", "2", "--backend", "raster", *more)

@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from patina.chart import labels, look, svg
+from patina.chart import labels, lobes, look
 
 SCHEMES = {"light": {c: c for c in look.DARK}, "dark": look.DARK}
 # Viénot, Brettel and Mollon 1999: what linear RGB looks like without long-wave and without middle-wave cones.
@@ -56,7 +56,7 @@ def test_text_can_be_read(scheme):
 
 
 def test_a_chart_has_all_its_colours_in_both_schemes():
-    drawn = svg.scatter("t", [(1.0, 0.1, "a"), (2.0, 0.01, "b"), (3.0, 0.0, "c")], "x", "y")
+    drawn = lobes.scatter("t", [(1.0, 0.1, "a"), (2.0, 0.01, "b"), (3.0, 0.0, "c")], "y")
     ElementTree.fromstring(drawn)
     assert "prefers-color-scheme:dark" in drawn
     body = drawn.split("</style>")[1]

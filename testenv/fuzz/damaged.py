@@ -2,8 +2,8 @@
 """The folder that inputs run in: what stages may name and no program should have to read."""
 import os
 import random
-import struct
-import zlib
+
+from patina.chart import png
 
 SCENES = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "scenes")
 SPHERE = '#usda 1.0\ndef Sphere "ball"\n{\n}\ndef DomeLight "dome"\n{\n}\n'
@@ -11,12 +11,7 @@ SPHERE = '#usda 1.0\ndef Sphere "ball"\n{\n}\ndef DomeLight "dome"\n{\n}\n'
 
 def small_png(width=2, height=2):
     """:returns: the bytes of a picture of 2 x 2 pixels, whatever size it claims"""
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-    rows = b"\0\xff\0\0\0\xff\0" + b"\0\0\0\xff\xff\xff\xff"
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(rows)) +
-            chunk(b"IEND", b""))
+    return png.wrapped(width, height, b"\0\xff\0\0\0\xff\0" + b"\0\0\0\xff\xff\xff\xff")
 
 
 def fill(folder, seed=0):

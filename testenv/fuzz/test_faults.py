@@ -146,8 +146,7 @@ def test_a_render_without_memory_spoils_none_after_it(backend, times, library, t
     import changing
     import inProcess
 
-    if backend == "raster" and inProcess.without_opengl():
-        pytest.skip(inProcess.without_opengl())
+    inProcess.needs_opengl(backend)
     changing.write_all(str(tmp_path))
     done = subprocess.run([sys.executable, "-X", "faulthandler", "-c", AGAIN, library, str(tmp_path / "shot.usda"), backend,
                            str(times)], capture_output=True, text=True, env=dict(os.environ, LD_PRELOAD=library), timeout=1200)

@@ -144,8 +144,7 @@ def test_back_ends_that_differ_are_told(hand):
     """Points under a scale that is not uniform are stretched by one back end alone, by design."""
     import backEndPairs
 
-    if backEndPairs.inProcess.without_opengl():
-        pytest.skip(backEndPairs.inProcess.without_opengl())
+    backEndPairs.inProcess.needs_opengl()
     data = backEndPairs.make(113)
     stretched = data.replace(b"scale = (0.6, 0.6, 0.6)", b"scale = (3, 0.3, 0.3)")
     assert stretched != data

@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The OpenUSD that the plugin was built for: where it is, and how to run programs of it."""
+import contextlib
 import functools
 import glob
 import json
 import os
+import select
 import shutil
+import signal
 import subprocess
+import tempfile
 
 import pytest
 
@@ -98,10 +102,52 @@ def environment(scene_index=False, **more):
 
 
 def run_host(stage, *arguments, scene_index=False, check=True, **more):
-    """Runs hydraHost. :param more: environment variables
+    """Runs hydraHost, in a process that stays for the next image unless times and memory are asked for.
+
+    :param more: environment variables, for a process of its own
     :returns: the finished process"""
-    command = [folder("host"), str(stage), *map(str, arguments)] + (["--sceneIndex"] if scene_index else [])
-    return _run(command, environment(scene_index, **more), check)
+    words = [str(stage), *map(str, arguments)] + (["--sceneIndex"] if scene_index else [])
+    command = [folder("host"), *words]
+    if more or "--json" in words:
+        return _run(command, environment(scene_index, **more), check)
+    return _checked(_served(scene_index, folder("host"), "--serve").run(words), command, check)
+
+
+class _Server:
+    """A program that runs one command after the other, each asked for in a line: see host/main.cpp, usdrecordServer.py."""
+
+    def __init__(self, command, values):
+        self.process = subprocess.Popen(command, env=values, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def run(self, words, timeout=TIMEOUT):
+        """:returns: a finished process; where the program ended instead, its status
+        :raises subprocess.TimeoutExpired: after so many seconds, and ends the program"""
+        with tempfile.TemporaryDirectory() as own:
+            streams = [os.path.join(own, name) for name in ("out", "err")]
+            for path in streams:
+                open(path, "w", encoding="utf-8").close()
+            with contextlib.suppress(BrokenPipeError):
+                self.process.stdin.write("\t".join([*streams, *words]) + "\n")
+                self.process.stdin.flush()
+            if not select.select([self.process.stdout], [], [], timeout)[0]:
+                self.process.kill()
+            answer = self.process.stdout.readline()
+            said = []
+            for path in streams:
+                with open(path, encoding="utf-8", errors="replace") as file:
+                    said.append(file.read())
+        if not answer:
+            _served.cache_clear()
+            status = self.process.wait()
+            if status == -signal.SIGKILL:
+                raise subprocess.TimeoutExpired(words, timeout, *said)
+        return subprocess.CompletedProcess(words, int(answer) if answer else status, *said)
+
+
+@functools.lru_cache
+def _served(scene_index, *command):
+    """:returns: one for all tests of this process; it ends with its standard input"""
+    return _Server(command, environment(scene_index))
 
 
 def run_engine(stage, *arguments, timeout=TIMEOUT, **more):
@@ -117,13 +163,14 @@ def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=Fa
     :returns: the finished process"""
     build = _read()
     script = os.path.join(build["root"], "bin", "usdrecord")
-    command = [build["python"], script, "--renderer", renderer, *map(str, arguments), str(stage), str(image)]
-    if gl:
-        command = xvfb() + command
-    else:
-        command.insert(2, "--disableGpu")
+    words = ["--renderer", renderer, *map(str, arguments), str(stage), str(image)]
+    if not gl:
+        words.insert(0, "--disableGpu")
+    command = [*(xvfb() if gl else []), build["python"], script, *words]
+    server = build["python"], os.path.join(os.path.dirname(os.path.abspath(__file__)), "usdrecordServer.py"), script
     for _ in range(3):
-        process = _run(command, environment(scene_index, **more), False, timeout)
+        process = (_run(command, environment(scene_index, **more), False, timeout) if gl or more
+                   else _served(scene_index, *server).run(words, timeout))
         # OpenUSD clears its caches in the background. When the interpreter ends meanwhile, the thread that wants
         # its lock is ended in a place where C++ allows no such thing. The image is long written then.
         if process.returncode != -6 or "terminate called without an active exception" not in process.stderr:

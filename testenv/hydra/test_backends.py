@@ -7,7 +7,6 @@ import os
 import numpy as np
 import pytest
 
-import bothBackEnds
 import hydraBuild
 import stages
 from rendering import color
@@ -30,13 +29,6 @@ def traced(tmp_path_factory):
     pixels, statistics, warnings = render(tmp_path_factory.mktemp("traced"), "image", "--set", "backend=embree")
     assert statistics["patina:backend"] == "embree" and not warnings
     return pixels
-
-
-@pytest.fixture
-def opengl():
-    reason = bothBackEnds.without_opengl()
-    if reason:
-        pytest.skip(reason)
 
 
 @pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])

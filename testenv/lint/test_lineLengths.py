@@ -7,13 +7,10 @@ import subprocess
 
 import pytest
 
+from documents import read
+
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 LIMIT = 128
-
-
-def read(path):
-    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
-        return file.read()
 
 
 def too_long(text, limit=LIMIT):

@@ -21,9 +21,11 @@ from pxr import Usd  # noqa: E402
 sys.path.insert(0, os.path.dirname(__file__))
 import exportScene  # noqa: E402
 import inProcess  # noqa: E402
+from patina.regression import welch  # noqa: E402
+from patina.significance import sidak  # noqa: E402
 
 SCENES = os.path.join(os.path.dirname(__file__), "..", "scenes")
-WIDTH, HEIGHT, TILE = 96, 64, 8
+WIDTH, HEIGHT = 96, 64
 SIGNIFICANCE = 0.01
 
 # scene, prims that are left out (lights that would stand in front of a dome: Mitsuba's lights block
@@ -66,12 +68,6 @@ def make_stage(name, folder):
     return path, samples
 
 
-def tiles(image):
-    """Means of the tiles: (rows, columns, channels)."""
-    h, w = image.shape[0] // TILE * TILE, image.shape[1] // TILE * TILE
-    return image[:h, :w].reshape(h // TILE, TILE, w // TILE, TILE, -1).mean(axis=(1, 3))
-
-
 def render_patina(path, samples, seeds):
     return inProcess.references(path, seeds, "--imageWidth", WIDTH, "--imageHeight", HEIGHT, "--samples", samples,
                                 "--filterRadius", 0.5, "--method", "energyCompensation=none")
@@ -87,8 +83,7 @@ def render_mitsuba(path, samples, seeds, folder):
 
 def smallest_p(ours, theirs):
     """The smallest p-value of Welch's test over tiles and channels, and how many there are."""
-    a = np.array([tiles(i) for i in ours])
-    b = np.array([tiles(i) for i in theirs])
+    a, b = welch.tiles(ours), welch.tiles(theirs)
     # Tiles that never vary (background) must be equal; rounding is all that may differ.
     still = (a.std(axis=0) < 1e-9) & (b.std(axis=0) < 1e-9)
     assert np.allclose(a.mean(axis=0)[still], b.mean(axis=0)[still], rtol=1e-4, atol=1e-6)
@@ -106,7 +101,7 @@ def test_agrees_with_mitsuba(name):
             ours = render_patina(path, samples, seeds)
             theirs = render_mitsuba(path, samples, [s + 500 for s in seeds], folder)
             p, count = smallest_p(ours, theirs)
-            limit = 1.0 - (1.0 - SIGNIFICANCE) ** (1.0 / count)
+            limit = sidak(SIGNIFICANCE, count)
             bias = float((ours.mean() - theirs.mean()) / theirs.mean())
             print(json.dumps({"scene": name, "smallest p": p, "limit": limit, "relative mean error": bias}))
             rejected.append(p < limit)

@@ -32,7 +32,7 @@ import pairs  # noqa: E402
 import pairsPage  # noqa: E402
 import pairsSheet  # noqa: E402
 import recordedPairs  # noqa: E402
-from pairs import SCENES, numbers, pixels, record, without_opengl  # noqa: E402, F401  (for tests beside this)
+from pairs import SCENES, needs_opengl, numbers, pixels, record  # noqa: E402, F401  (for tests beside this)
 
 
 def report(row):

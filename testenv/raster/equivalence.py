@@ -38,7 +38,7 @@ class Power:
     tile: int = TILE
 
 
-FULL = Power(widest=5 * MARGIN, samples=16, traced=64, looks=(12, 24), spare=0.25)
+FULL = Power(widest=5 * MARGIN, samples=16, traced=64, looks=(6, 12, 24), spare=0.25)
 LONG = Power(widest=MARGIN, samples=128, traced=512, looks=(12, 24, 48, 96))
 
 

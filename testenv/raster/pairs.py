@@ -11,7 +11,7 @@ sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 
 import everyAsset  # noqa: E402
 import inProcess  # noqa: E402
-from inProcess import pixels, without_opengl  # noqa: E402, F401
+from inProcess import needs_opengl, pixels  # noqa: E402, F401
 from patina.cli import imageMetrics  # noqa: E402
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))

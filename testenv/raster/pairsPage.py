@@ -1,34 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """One HTML page of scenes by both back ends: a table of numbers, then the images and their difference."""
-import base64
 import html
 import os
-import struct
-import zlib
 
 import numpy as np
 
 from pairs import DIRECT, WHOLE
-from patina.chart import look
+from patina.chart import look, png
 
 STYLE = """td{text-align:left}td.n{text-align:right}img{image-rendering:pixelated;width:min(288px,19vw)}
 td:first-child{max-width:22em}"""
 
 
-def png(array, alt=""):
+def picture(array, alt=""):
     """:returns: an <img> of linear values, shown as sRGB"""
-    v = np.clip(np.nan_to_num(array), 0, 1)
-    v = np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
-    data = (v * 255 + 0.5).astype(np.uint8)
-    h, w = data.shape[:2]
-    raw = b"".join(b"\0" + data[y].tobytes() for y in range(h))
-
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-
-    file = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", w, h, 8, 2, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
-    return f'<img alt="{html.escape(alt, quote=True)}" src="data:image/png;base64,{base64.b64encode(file).decode()}">'
+    return f'<img alt="{html.escape(alt, quote=True)}" src="{png.data_uri(array)}">'
 
 
 def flip_text(value):
@@ -61,7 +47,7 @@ def write(rows, folder, title, remarks=None):
             continue
         images = [t["image"] for t in row["traced"].values()]
         lines.append(f"<tr><td><b>{html.escape(row['name'])}</b><br><code>{html.escape(row['command'])}</code><td>"
-                     + "<td>".join(png(i, f"{row['name']}, {what}") for i, what in zip(
+                     + "<td>".join(picture(i, f"{row['name']}, {what}") for i, what in zip(
                          [row["raster"], *images, 4 * np.abs(row["raster"] - images[0])],
                          ["rasterizer", *["path tracer"] * len(images), "difference"])))
     lines.append("</table>" + look.END)

@@ -8,6 +8,7 @@ import sys
 import numpy as np
 
 from pairs import DIRECT
+from patina.chart.png import display_bytes
 
 LABEL = 26  # pixels of a label's height: two lines
 GAP = 4
@@ -20,11 +21,6 @@ def check():
         import PIL  # noqa: F401
     except ImportError:
         sys.exit("--sheets needs Pillow: pip install pillow")
-
-
-def _shown(linear):
-    v = np.clip(np.nan_to_num(linear), 0, 1)
-    return (np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055) * 255 + 0.5).astype(np.uint8)
 
 
 def labels(row):
@@ -54,7 +50,7 @@ def _paste(rows, path):
         draw.text((left + 2, top + 1), name[-room:], fill=(255, 255, 255))  # names differ at their ends
         draw.text((left + 2, top + 1 + LABEL // 2), found[:room], fill=(255, 255, 255))
         for k, image in enumerate(each):
-            sheet.paste(Image.fromarray(_shown(image)), (left + k * (width + GAP), top + LABEL))
+            sheet.paste(Image.fromarray(display_bytes(image)), (left + k * (width + GAP), top + LABEL))
     sheet.save(path)
     return path
 

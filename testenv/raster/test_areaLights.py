@@ -4,11 +4,13 @@
 Both images are made of fixed seeds, so that a difference is a change of the code.
 """
 import numpy as np
+import pytest
 
 import floorLights
 import inProcess
 from floorLights import STAGE, light
-from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 OUTLINES = {"areaLight": "linearlyTransformedCosines"}
 

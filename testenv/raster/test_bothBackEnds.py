@@ -14,19 +14,13 @@ pytest.importorskip("scipy.stats", reason="SciPy is not installed")
 
 import equivalence  # noqa: E402
 import equivalentStages  # noqa: E402
-import inProcess  # noqa: E402
 import pairs  # noqa: E402
 import pairsPage  # noqa: E402
 import sameImage  # noqa: E402
 
+pytestmark = pytest.mark.usefixtures("opengl")
+
 CASES = {case.name: case for case in equivalentStages.cases()}
-
-
-@pytest.fixture(scope="module", autouse=True)
-def opengl():
-    reason = inProcess.without_opengl()
-    if reason:
-        pytest.skip(reason)
 
 
 def hold(case, folder, power):

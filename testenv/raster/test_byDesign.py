@@ -17,7 +17,8 @@ import inProcess  # noqa: E402
 import outOfView  # noqa: E402
 import sameImage  # noqa: E402
 from materialText import material  # noqa: E402
-from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 WIDTH = 32
 LAMP = outOfView.EMITTERS["rect"]

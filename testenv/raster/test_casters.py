@@ -8,7 +8,8 @@ import pytest
 pytest.importorskip("scipy.stats", reason="SciPy is not installed")
 
 import sameImage  # noqa: E402
-from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 STAGE = """#usda 1.0
 (

@@ -7,7 +7,8 @@ import pytest
 
 import inProcess
 import pairs
-from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 STAGE = """#usda 1.0
 (

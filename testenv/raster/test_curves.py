@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import pairs
-from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 STAGE = """#usda 1.0
 (

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Points that move while the shutter is open, drawn by the rasterizer, against the closed form."""
 import numpy as np
+import pytest
 
 import bothBackEnds
-from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 STAGE = """#usda 1.0
 (

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import inProcess
-from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 GLASS = ("flint", "diamond", "frosted")
 

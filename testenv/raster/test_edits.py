@@ -12,14 +12,9 @@ sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "
 
 import rasterTimes  # noqa: E402
 
+pytestmark = pytest.mark.usefixtures("opengl")
+
 SIZE = (64, 36)
-
-
-@pytest.fixture(scope="module", autouse=True)
-def opengl():
-    reason = bothBackEnds.without_opengl()
-    if reason:
-        pytest.skip(reason)
 
 
 def frames_of(name):

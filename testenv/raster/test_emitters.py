@@ -124,9 +124,7 @@ NAMES = {ABOVE: "above", BEHIND: "behind", BESIDE: "beside", HIGH: "high", IN_VI
 
 @pytest.fixture(scope="module")
 def renderers():
-    reason = bothBackEnds.without_opengl()
-    if reason:
-        pytest.skip(reason)
+    bothBackEnds.needs_opengl()
     return {name: _patina.make_renderer(name) for name in ("raster", "embree")}
 
 

@@ -46,13 +46,6 @@ def traced(tmp_path_factory):
     return bothBackEnds.pixels(image)
 
 
-@pytest.fixture(scope="module")
-def opengl():
-    reason = bothBackEnds.without_opengl()
-    if reason:
-        pytest.skip(reason)
-
-
 # The request, and a part of the message.
 NO_START = {
     "noEgl": ({"PATINA_EGL_PLATFORM": "none"}, "EGL"),

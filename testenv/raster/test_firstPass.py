@@ -7,7 +7,8 @@ import pytest
 
 import firstPass
 from patina.cli import imageMetrics
-from test_bothBackEnds import opengl  # noqa: F401  (skips where there is no OpenGL)
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 SEEDS = (0, 1, 2)
 WIDTH, TRUTH = 112, 256

@@ -5,7 +5,8 @@ import pytest
 
 import bothBackEnds
 from materialText import material
-from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 # The camera sees the floor below the slab, and not the slab.
 STAGE = """#usda 1.0
@@ -85,7 +86,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", sorted(CASES))
-def test_a_slab_of_glass_lets_light_through(opengl, tmp_path, name):  # noqa: F811
+def test_a_slab_of_glass_lets_light_through(tmp_path, name):
     """1024 pixels of 64 passes: the chances leave 0.2 % of standard deviation, the limit is 1 %."""
     inputs, degrees, share = CASES[name]
     (tmp_path / "without").mkdir()
@@ -95,5 +96,5 @@ def test_a_slab_of_glass_lets_light_through(opengl, tmp_path, name):  # noqa: F8
     np.testing.assert_allclose(found, expected, atol=0.01)
 
 
-def test_what_only_reflects_casts_a_whole_shadow(opengl, tmp_path):  # noqa: F811
+def test_what_only_reflects_casts_a_whole_shadow(tmp_path):
     assert floor(tmp_path, SLAB, scatter_mode=("string", '"R"')).max() == 0.0

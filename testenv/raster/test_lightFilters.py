@@ -11,7 +11,8 @@ import equivalence  # noqa: E402
 import inProcess  # noqa: E402
 import sameImage  # noqa: E402
 from floorLights import STAGE, light, write  # noqa: E402
-from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 NO_HEADLIGHT = "--disableCameraLight"
 WIDE = """        float inputs:intensity = 10

@@ -16,7 +16,8 @@ import sameImage  # noqa: E402
 from floorLights import STAGE, light, write  # noqa: E402
 from patina.chart import sweepsSky  # noqa: E402
 from patina.chart.sceneMeasures import LUMINANCE  # noqa: E402
-from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 NO_HEADLIGHT = "--disableCameraLight"
 
@@ -79,8 +80,9 @@ STAGES = {"shadowDistance": STAGE.replace(STAGE[STAGE.index('    def Cube "block
     }
 """)}
 # Few texels of the image give nearly all of its light, so that each render is noisier.
-LESS = dataclasses.replace(equivalence.FULL, widest=10 * equivalence.MARGIN, looks=(12,))
-POWER = {"rectImage": dataclasses.replace(LESS, samples=96, looks=(12, 18)), "manyDomes": LESS, "manyLinks": LESS}
+LESS = dataclasses.replace(equivalence.FULL, widest=10 * equivalence.MARGIN, looks=(6, 12))
+POWER = {"rectImage": dataclasses.replace(LESS, samples=96, looks=(6, 12, 18)), "manyDomes": LESS,
+         "manyLinks": dataclasses.replace(LESS, samples=8)}
 SMALL = {"manyDomes": 24, "manyLinks": 24}  # hundreds of shadow maps for each pass
 
 

@@ -13,9 +13,7 @@ SETTINGS = {"width": 32, "height": 24, "samples": 3}
 
 @pytest.fixture(scope="module")
 def scene():
-    reason = bothBackEnds.without_opengl()
-    if reason:
-        pytest.skip(reason)
+    bothBackEnds.needs_opengl()
     import _patina
     from patina import stage as reader
     from pxr import Usd

@@ -16,8 +16,9 @@ import inProcess  # noqa: E402
 import sameImage  # noqa: E402
 from floorLights import STAGE, light, write  # noqa: E402
 from materialText import material  # noqa: E402
-from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
 from test_lights import linked  # noqa: E402
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 NO_HEADLIGHT = "--disableCameraLight"
 POWER = dataclasses.replace(equivalence.FULL, samples=8)  # a pass draws hundreds of shadow maps

@@ -5,7 +5,8 @@ import pytest
 
 import bothBackEnds
 from materialText import material
-from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 STAGE = """#usda 1.0
 (

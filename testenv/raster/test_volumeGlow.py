@@ -8,7 +8,8 @@ pytest.importorskip("scipy.stats", reason="SciPy is not installed")
 from scipy import stats  # noqa: E402
 
 import inProcess  # noqa: E402
-from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 SIGNIFICANCE = 0.01
 SEEDS = {"raster": range(1, 7), "embree": range(101, 107)}
@@ -16,7 +17,7 @@ SAMPLES = {"raster": 16, "embree": 64}
 BEAM = 0.28  # what is missing in red where the glow is weakened as a beam
 
 
-def test_the_glow_in_the_middle_of_the_puff(opengl):  # noqa: F811
+def test_the_glow_in_the_middle_of_the_puff():
     """Red of the middle, as a Welch interval of the difference: nearer to nothing lost than to the loss of a beam."""
     red = {}
     for backend, seeds in SEEDS.items():

@@ -9,7 +9,8 @@ import pytest
 from pxr import Sdf, Usd, UsdLux
 
 import pairs
-from test_bothBackEnds import opengl  # noqa: F401  (skips where there is no OpenGL)
+
+pytestmark = pytest.mark.usefixtures("opengl")
 
 BLOCK = 1.02   # brightest 8x8 block
 IMAGE = 1.002  # mean of the image

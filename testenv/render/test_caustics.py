@@ -5,6 +5,7 @@ import pytest
 import scipy.stats
 
 from inProcess import Stage
+from patina.significance import sidak
 
 SEEDS = range(8)
 SIGNIFICANCE = 1e-4  # of each test; fixed seeds
@@ -127,10 +128,9 @@ def test_photons_show_what_paths_find(tmp_path):
         images = np.array([made.image(seed)[..., 1] for seed in SEEDS])
         # Quarters of the image: what photons blur stays in them.
         means[method] = images.reshape(len(SEEDS), 2, 8, 2, 8).mean((2, 4)).reshape(len(SEEDS), 4)
-    per_test = 1 - (1 - SIGNIFICANCE) ** 0.25  # Sidak
     for q in range(4):
         a, b = means["photons"][:, q], means["paths"][:, q]
-        assert scipy.stats.ttest_ind(a, b, equal_var=False).pvalue > per_test, (a.mean(), b.mean())
+        assert scipy.stats.ttest_ind(a, b, equal_var=False).pvalue > sidak(SIGNIFICANCE, 4), (a.mean(), b.mean())
         assert np.hypot(scipy.stats.sem(a), scipy.stats.sem(b)) < 0.01 * b.mean()
 
 

@@ -6,7 +6,7 @@ import os
 import numpy as np
 import pytest
 
-from inProcess import without_opengl
+from inProcess import needs_opengl
 from rendering import patina, record
 
 STAGE = """#usda 1.0
@@ -89,8 +89,7 @@ AOVS = [a for name in ("cryptoObject", "cryptoMaterial", "cryptoAsset") for a in
 
 @pytest.fixture(scope="module", params=["embree", "raster"])
 def image(request, tmp_path_factory):
-    if request.param == "raster" and without_opengl():
-        pytest.skip(without_opengl())
+    needs_opengl(request.param)
     folder = tmp_path_factory.mktemp("cryptomatte")
     (folder / "stage.usda").write_text(STAGE)
     record(folder / "stage.usda", folder / "image.exr", "-w", 8, "--samples", 64, "--filterRadius", 0.5, "--backend",

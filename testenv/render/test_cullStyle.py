@@ -53,8 +53,7 @@ def stage(tmp_path_factory):
 
 @pytest.mark.parametrize("backend", ["embree", "raster"])
 def test_the_camera_passes_faces_by(stage, backend, tmp_path):
-    if backend == "raster" and inProcess.without_opengl():
-        pytest.skip(inProcess.without_opengl())
+    inProcess.needs_opengl(backend)
     import _patina
 
     shot = inProcess.Stage(stage, "--backend", backend, "--camera", "/camera", "-w", "32", image_height=8)

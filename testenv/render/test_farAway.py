@@ -111,8 +111,7 @@ def test_what_floats_cannot_place_at_all_is_seen():
 
 def test_the_rasterizer_places_as_the_path_tracer_does():
     """Transforms are added up in double, too. Floats are a quarter apart there, which is five times the block."""
-    if inProcess.without_opengl():
-        pytest.skip(inProcess.without_opengl())
+    inProcess.needs_opengl()
     at = (3000000.3337, 12.1, 2000000.1234)
     near, far = look((0, 0, 0), backend="raster"), look(at, backend="raster")
     seen = near["depth"].reshape(32, 32) < 100.0

@@ -49,7 +49,8 @@ def oren_nayar_albedo(cosine, roughness, color_value):
 @pytest.mark.parametrize("roughness", [0.0, 0.5, 1.0])
 def test_diffuse_sphere_shows_its_albedo(tmp_path, roughness):
     image = tmp_path / "furnace.exr"
-    record(scene("furnace"), image, "--imageWidth", SIZE, "--imageHeight", SIZE, "--samples", SAMPLES,
+    samples = SAMPLES if roughness else 16  # all samples of Lambert's lobe weigh the same
+    record(scene("furnace"), image, "--imageWidth", SIZE, "--imageHeight", SIZE, "--samples", samples,
            "--filterRadius", 0.5, "--set", f"{DIFFUSE}.roughness={roughness}")
     cosine = sphere_cosines(None)
     inside = cosine > 0.5

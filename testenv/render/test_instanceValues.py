@@ -5,7 +5,7 @@ import os
 import numpy as np
 import pytest
 
-from inProcess import without_opengl
+from inProcess import needs_opengl
 from rendering import color, patina, record
 
 HEAD = """#usda 1.0
@@ -174,9 +174,7 @@ def test_the_prims_own_value_wins(tmp_path):
 
 
 def test_the_rasterizer_shows_them_too(tmp_path):
-    reason = without_opengl()
-    if reason:
-        pytest.skip(reason)
+    needs_opengl()
     same(tmp_path, {"displayColor": ("color3f", COLOURS)}, "--backend", "raster")
     # The light let through is drawn by lot, by the numbers of prims: alike in the mean of a ball's middle.
     primvars = {"displayOpacity": ("float", [1, 0.4, 1])}

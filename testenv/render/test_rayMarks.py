@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from inProcess import without_opengl
+from inProcess import needs_opengl
 from usdaText import render_text
 
 SIZE = 32
@@ -106,8 +106,7 @@ def test_what_casts_no_shadow_leaves_the_floor_lit(mark, backend="embree"):
 
 
 def test_the_rasterizer_shows_no_shadow_either():
-    if without_opengl():
-        pytest.skip(without_opengl())
+    needs_opengl()
     test_what_casts_no_shadow_leaves_the_floor_lit("bool primvars:patina:visibility:shadow = 0", "raster")
 
 

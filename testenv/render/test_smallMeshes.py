@@ -30,8 +30,7 @@ def Mesh "cube"
 def test_a_small_cage_is_as_wide_as_its_surface(backend, tmp_path):
     """The surface is nearly a ball of 0.6 of the cage's half diagonal. Edges of half of that diagonal are chords of 48 degrees,
     so that a polygon of them covers 1 - sin(48 degrees) / 0.83 = 11 % less. The cage itself covers twice as much."""
-    if backend == "raster" and inProcess.without_opengl():
-        pytest.skip(inProcess.without_opengl())
+    inProcess.needs_opengl(backend)
     stage, share = tmp_path / "cage.usda", {}
     stage.write_text(STAGE)
     for width in (10, 320):

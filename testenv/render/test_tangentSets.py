@@ -145,8 +145,7 @@ def stage(tmp_path_factory):
 
 @pytest.mark.parametrize("backend", ["embree", "raster"])
 def test_frames_follow_the_set_of_the_map(stage, backend):
-    if backend == "raster" and inProcess.without_opengl():
-        pytest.skip(inProcess.without_opengl())
+    inProcess.needs_opengl(backend)
     path, count = stage
     image = inProcess.Stage(path, "--backend", backend, "--camera", "/camera", "-w", str(PIXELS * count),
                             "--samples", SAMPLES[backend], "--disableCameraLight", image_height=PIXELS).image(1)

@@ -5,7 +5,9 @@ import os
 import re
 from collections import defaultdict
 
-from patina.chart import svg
+from patina.chart import look
+from patina.chart.front import pareto
+from patina.chart.plot import Plot
 from patina.cli import outputs
 
 COLUMNS = ("point", "method", "subject", "errorOf", "ns", "nsLow", "nsHigh", "cost", "mean", "largest", "rms")
@@ -126,10 +128,21 @@ def write_charts(rows, folder):
         name = "".join(c if c.isalnum() else "_" for c in f"{point}_{subject}") + ".svg"
         path = os.path.join(folder, name)
         with outputs.writing(path) as file:
-            file.write(svg.scatter(f"{point}, {subject}", points, "ns per evaluation, one thread",
-                                   f"mean error ({group[0]['errorOf']})"))
+            file.write(scatter(f"{point}, {subject}", points, f"mean error ({group[0]['errorOf']})"))
         paths.append(path)
     return paths
+
+
+def scatter(title, points, y_label):
+    """:param points: list of (ns, error, method); exact ones stand below all others
+    :returns: an `svg` element"""
+    plot = Plot(title, "ns per evaluation, one thread", y_label)
+    low = 0.3 * min((error for _, error, _ in points if error > 0.0), default=1.0)
+    shown = [(ns, error, method) if error > 0.0 else (ns, low, method + " (0)") for ns, error, method in points]
+    for i, (ns, error, name) in enumerate(shown):
+        plot.add(name, [(ns, error, "")], look.COLOURS[i % len(look.COLOURS)])
+    plot.set_front([point[:2] for point in pareto(shown)])
+    return plot.svg()
 
 
 def listing(rows):

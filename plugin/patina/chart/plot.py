@@ -1,49 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A chart of lines and points on logarithmic axes as SVG text."""
-import math
-from xml.sax.saxutils import escape
-
 from patina.chart import labels, look
+from patina.chart.axes import HALO, Axis, grid, text, upright
 
 WIDTH, HEIGHT = 640, 420
 LEFT, TOP, RIGHT, BOTTOM = 64, 46, 20, 64
 GREY = look.DIM
-HALO = {"paint_order": "stroke", "stroke": look.PAPER, "stroke_width": 3, "stroke_linejoin": "round"}  # text over lines
-
-
-class Axis:
-    """A logarithmic axis that holds all values with a margin, ticks at 1, 2, 5 or at decades.
-
-    :param above: more room at the upper end
-    """
-
-    def __init__(self, values, start, end, margin=0.06, above=0.0):
-        values = [v for v in values if v and v > 0.0 and math.isfinite(v)] or [1.0]
-        low, high = math.log10(min(values)), math.log10(max(values))
-        if high - low < 0.6:
-            low, high = (low + high) / 2 - 0.3, (low + high) / 2 + 0.3
-        pad = margin * (high - low)
-        self.low, self.high, self.start, self.end = low - pad, high + pad + above * (high - low), start, end
-
-    def at(self, value):
-        """Place of a value; what lies outside stands at the nearer end."""
-        t = (math.log10(value) - self.low) / (self.high - self.low) if value > 0.0 else 0.0
-        return self.start + min(max(t, 0.0), 1.0) * (self.end - self.start)
-
-    def ticks(self):
-        steps = (1,) if self.high - self.low > 2.2 else (1, 2, 5)
-        found = [m * 10.0**d for d in range(math.floor(self.low), math.ceil(self.high) + 1) for m in steps]
-        return [v for v in found if self.low <= math.log10(v) <= self.high]
-
-
-def number(value):
-    return f"{value:g}" if 1e-3 <= value < 1e5 else f"{value:.0e}".replace("e-0", "e-").replace("e+0", "e")
-
-
-def text(x, y, words, anchor="middle", **attributes):
-    attributes = {"fill": look.INK, **attributes}
-    more = "".join(f' {name.replace("_", "-")}="{value}"' for name, value in attributes.items())
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{more}>{escape(words)}</text>'
 
 
 def mark(kind, x, y, colour, filled=True):
@@ -110,15 +72,8 @@ class Plot:
     def _grid(self):
         bottom, right = HEIGHT - BOTTOM, WIDTH - RIGHT
         out = [f'<rect x="{LEFT}" y="{TOP}" width="{right - LEFT}" height="{bottom - TOP}" fill="none" stroke="{look.FRAME}"/>']
-        for value in self.x_ticks or self.x.ticks():
-            at = self.x.at(value)
-            out += [f'<path d="M{at:.1f} {TOP}V{bottom}" stroke="{look.GRID}"/>', text(at, bottom + 15, number(value))]
-        for value in self.y.ticks():
-            at = self.y.at(value)
-            out += [f'<path d="M{LEFT} {at:.1f}H{right}" stroke="{look.GRID}"/>', text(LEFT - 6, at + 4, number(value), "end")]
-        middle = (TOP + bottom) / 2
-        return out + [text((LEFT + right) / 2, bottom + 31, self.x_label),
-                      text(16, middle, self.y_label, transform=f"rotate(-90 16 {middle:.1f})")]
+        return out + grid(self.x, self.y, self.x_ticks) + [
+            text((LEFT + right) / 2, bottom + 31, self.x_label), upright(16, (TOP + bottom) / 2, self.y_label)]
 
     def _series(self, name, points, colour, kind, filled, line, below):
         out = []

@@ -3,40 +3,9 @@
 import math
 
 from patina.chart import labels, look
-from patina.chart.svg import _text
+from patina.chart.axes import HALO, Scale, grid, text, upright
 
 LEFT, TOP, RIGHT, BOTTOM = 58, 24, 14, 34
-
-
-class Scale:
-    """Values to places, linear or logarithmic; what is not positive stands at the low end of a logarithmic one."""
-
-    def __init__(self, values, start, end, log):
-        values = [v for v in values if math.isfinite(v) and (v > 0.0 or not log)] or [1.0]
-        low, high = min(values), max(values)
-        if log:
-            low, high = math.log10(low), math.log10(high)
-        if high - low < 1e-9:
-            low, high = low - 0.5, high + 0.5
-        self.low, self.high, self.log, self.start, self.end = low, high, log, start, end
-
-    def at(self, value):
-        if self.log:
-            value = math.log10(value) if value > 0.0 else self.low
-        t = (value - self.low) / (self.high - self.low)
-        return self.start + min(max(t, 0.0), 1.0) * (self.end - self.start)
-
-    def ticks(self):
-        """:returns: list of (value, text)"""
-        if self.log:
-            step = max(1, math.ceil((self.high - self.low) / 8))
-            powers = range(math.ceil(self.low - 1e-9), math.floor(self.high + 1e-9) + 1, step)
-            return [(10.0 ** p, f"1e{p}" if abs(p) > 2 else f"{10.0 ** p:g}") for p in powers]
-        span = self.high - self.low
-        step = 10.0 ** math.floor(math.log10(span / 4))
-        step *= next(m for m in (1, 2, 5, 10) if span / (step * m) <= 6)
-        first = math.ceil(self.low / step - 1e-9)
-        return [(i * step, f"{i * step:g}") for i in range(first, math.floor(self.high / step + 1e-9) + 1)]
 
 
 def _path(xs, ys, x, y):
@@ -66,21 +35,15 @@ def lines(sweep, width=460, height=290):
     x = Scale(sweep.x, LEFT, width - RIGHT, sweep.log_x)
     y = Scale(every, height - BOTTOM, TOP, sweep.log_y)
     out = [look.start(sweep.name, width, height, 10.5),
-           _text(width / 2, 14, sweep.name, more=' font-size="12" font-weight="bold"')]
-    for value, text in x.ticks():
-        out.append(f'<path d="M{x.at(value):.1f} {TOP}V{height - BOTTOM}" stroke="{look.GRID}"/>')
-        out.append(_text(x.at(value), height - BOTTOM + 13, text))
-    for value, text in y.ticks():
-        out.append(f'<path d="M{LEFT} {y.at(value):.1f}H{width - RIGHT}" stroke="{look.GRID}"/>')
-        out.append(_text(LEFT - 5, y.at(value) + 3.5, text, "end"))
-    out.append(_text((LEFT + width - RIGHT) / 2, height - BOTTOM + 26, sweep.x_label))
-    middle, long = (TOP + height - BOTTOM) / 2, min(1.0, height / (6.2 * len(sweep.y_label)))
-    out.append(_text(12, middle, sweep.y_label, more=f' font-size="{10.5 * long:.1f}" transform="rotate(-90 12 {middle:.1f})"'))
+           text(width / 2, 14, sweep.name, font_size=12, font_weight="bold"), *grid(x, y),
+           text((LEFT + width - RIGHT) / 2, height - BOTTOM + 26, sweep.x_label)]
+    long = min(1.0, height / (6.2 * len(sweep.y_label)))
+    out.append(upright(12, (TOP + height - BOTTOM) / 2, sweep.y_label, font_size=f"{10.5 * long:.1f}"))
     if sweep.switch is not None:
         at = x.at(sweep.switch)
         out.append(f'<path d="M{at:.1f} {TOP}V{height - BOTTOM}" stroke="{look.INK}" stroke-dasharray="2 3"/>')
         near = at < width - 90
-        out.append(_text(at + (3 if near else -3), TOP + 9, "switch", "start" if near else "end"))
+        out.append(text(at + (3 if near else -3), TOP + 9, "switch", "start" if near else "end"))
     out.append(f'<path d="{_path(sweep.x, truths, x, y)}" fill="none" stroke="{look.TRUTH}" stroke-width="5"/>')
     for i, (name, values) in enumerate(sweep.curves.items()):
         colour = look.COLOURS[i % len(look.COLOURS)]
@@ -117,6 +80,5 @@ def _names(sweep, truths, x, y, frame):
         gap = {i: min([abs(points[i][1] - b) for b in others[i]] or [0.0]) for i in others}
         anchors = [points[i] for i in sorted(gap, key=lambda i: -min(gap[i], 40.0))]
         px, py, anchor, _ = places.place(anchors, 5.8 * len(name))
-        halo = f' paint-order="stroke" stroke="{look.PAPER}" stroke-width="3" stroke-linejoin="round"'
-        out.append(_text(px, py, name, anchor, f' fill="{curves[name][1]}" font-weight="bold"{halo}'))
+        out.append(text(px, py, name, anchor, fill=curves[name][1], font_weight="bold", **HALO))
     return out

@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 
+from patina.chart.png import display_values
 from patina.cli import compiled, materials, outputs, tryStage
 from patina.cli.errors import CommandError
 
@@ -224,8 +225,7 @@ def _texture(arguments, textures, name, kind, image, warnings):
         warnings.append({"prim": textures.stem, "input": name, "count": 1,
                          "message": "numbers outside 0 to 1 are cut off in PNG (take --format exr)"})
     if png and color:
-        pixels = np.where(pixels <= 0.0031308, 12.92 * pixels,
-                          1.055 * np.power(np.maximum(pixels, 0.0031308), 1 / 2.4) - 0.055)
+        pixels = display_values(pixels)
     # sRGB is applied above, so that no display transform stands between a colour and its file.
     options = {"raw": True, "bits": 16 if name in NORMALS else 8} if png else {"half": True}
     module.write_image(textures.add(name), np.ascontiguousarray(pixels, np.float32), options=options)

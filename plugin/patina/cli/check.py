@@ -22,7 +22,7 @@ import sys
 
 import numpy as np
 
-from patina import limits
+from patina import limits, significance
 from patina.cli import binnedDensity, causes, compiled, layers, materials, methods, outputs, statistics
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
@@ -247,7 +247,7 @@ def _direction(probe, wo, where, arguments, generator, tests, found):
     found["pdf"].append((float(error), arguments.tolerance, where))
     p = chi_squared(observed, expected * n, n)
     if p is not None:
-        limit = -math.log(1.0 - (1.0 - SIGNIFICANCE) ** (1.0 / tests))
+        limit = -math.log(significance.sidak(SIGNIFICANCE, tests))
         found["chi2"].append((-math.log(max(p, 1e-300)), limit, where))
 
 
@@ -273,36 +273,7 @@ def chi_squared(observed, expected, n):
         return None
     # The quadrature's own error, a thousandth of each cell, is no fault of the samples.
     statistic = sum(max(0.0, abs(o - e) - 1e-3 * e) ** 2 / e for o, e in cells)
-    return survival(statistic, len(cells) - 1)
-
-
-def survival(statistic, freedom):
-    """Upper tail of the chi-squared distribution: the regularised incomplete gamma function Q, by its series or
-    its continued fraction (Abramowitz and Stegun 1964, 6.5.29 and 6.5.31)."""
-    a, x = freedom / 2.0, statistic / 2.0
-    if x <= 0.0:
-        return 1.0
-    front = math.exp(a * math.log(x) - x - math.lgamma(a))
-    if x < a + 1.0:
-        term = total = 1.0 / a
-        k = a
-        while term > total * 1e-15:
-            k += 1.0
-            term *= x / k
-            total += term
-        return max(0.0, 1.0 - front * total)
-    b = x + 1.0 - a
-    c, d = 1e300, 1.0 / b
-    h = d
-    for i in range(1, 10000):
-        step = -i * (i - a)
-        b += 2.0
-        d = 1.0 / (step * d + b or 1e-300)
-        c = b + step / c or 1e-300
-        h *= d * c
-        if abs(d * c - 1.0) < 1e-14:
-            break
-    return min(1.0, front * h)
+    return significance.chi_squared_tail(statistic, len(cells) - 1)
 
 
 def _reciprocity(probe, generator, place):

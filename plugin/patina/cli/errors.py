@@ -2,7 +2,7 @@
 """Failures that a user caused or met, as opposed to defects of Patina, and which of them pass by themselves."""
 import errno
 
-DONE, FAILED, USAGE, TEMPORARY = 0, 1, 2, 75  # exit statuses; the last as EX_TEMPFAIL of sysexits.h
+FAILED, USAGE, TEMPORARY = 1, 2, 75  # exit statuses; the last as EX_TEMPFAIL of sysexits.h
 
 # As hdDelegate/film/temporaryFailure.h has it.
 _PASSING = {getattr(errno, name) for name in (

@@ -10,6 +10,8 @@ import dataclasses
 
 import numpy as np
 
+from patina.significance import sidak
+
 TILE = 8  # pixels
 FLOOR = 0.1  # of the image's mean, added to a tile's value: a relative difference in the dark is not seen
 SIGNIFICANCE = 0.01
@@ -54,7 +56,7 @@ def compare(first, second, significance=SIGNIFICANCE, looks=1):
     from scipy import stats
 
     n, m = len(first), len(second)
-    each = 1.0 - (1.0 - significance) ** (1.0 / (first[0].size * looks))
+    each = sidak(significance, first[0].size * looks)
     a, b = first.mean(axis=0), second.mean(axis=0)
     va, vb = first.var(axis=0, ddof=1) / n, second.var(axis=0, ddof=1) / m
     total = va + vb

@@ -6,6 +6,7 @@ import gzip
 import numpy as np
 
 from patina import inputs
+from patina.chart.png import display_values
 from patina.cli import compiled
 from patina.view import blobs
 
@@ -30,12 +31,6 @@ def latlong(path, largest):
 def half_rgb(image):
     return {"width": image.shape[1], "height": image.shape[0], "format": "rgb16", "wrap": ["repeat", "clamp"],
             "nearest": False, "data": blobs.pack(blobs.half(image))}
-
-
-def display_values(linear):
-    """Linear colours as a display takes them, 0 to 1."""
-    x = np.clip(linear, 0.0, 1.0)
-    return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1.0 / 2.4) - 0.055)
 
 
 def texture(found):

@@ -30,7 +30,8 @@ const char* const usage =
     "  --pickAll            decodes all ids that are seen\n"
     "  --edits FILE         edits while rendering: one a line, see editScript.h\n"
     "  --repeats N          moves the camera N times and makes the image again\n"
-    "  --limit SECONDS      gives up then (600)\n";
+    "  --limit SECONDS      gives up then (600)\n"
+    "  --serve              alone: renders what standard input asks for, see main.cpp\n";
 
 namespace {
 
@@ -79,12 +80,12 @@ const std::map<std::string, Setter>& valued() {
 
 } // namespace
 
-CommandLine parseCommandLine(int argc, char** argv) {
+CommandLine parseCommandLine(const std::vector<std::string>& words) {
     CommandLine line;
     std::vector<HostAov> aovs;
     std::vector<std::string> files;
-    for (int i = 1; i < argc; ++i) {
-        const std::string flag = argv[i];
+    for (size_t i = 0; i < words.size(); ++i) {
+        const std::string& flag = words[i];
         const auto found = valued().find(flag);
         if (flag == "--help") {
             line.help = true;
@@ -93,8 +94,8 @@ CommandLine parseCommandLine(int argc, char** argv) {
         } else if (flag == "--pickAll") {
             line.pickAll = true;
         } else if (flag == "--aov" || found != valued().end()) {
-            if (++i == argc) throw std::runtime_error(flag + " needs a value");
-            const std::string value = argv[i];
+            if (++i == words.size()) throw std::runtime_error(flag + " needs a value");
+            const std::string& value = words[i];
             if (flag == "--aov") {
                 const auto [name, format] = split(value);
                 aovs.push_back({name, format.empty() ? HdFormatInvalid : formatOf(format)});

@@ -24,6 +24,6 @@ struct CommandLine {
 extern const char* const usage;
 
 /// @throws std::runtime_error with one line about what is wrong
-CommandLine parseCommandLine(int argc, char** argv);
+CommandLine parseCommandLine(const std::vector<std::string>& words);
 
 } // namespace patina

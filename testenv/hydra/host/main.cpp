@@ -6,11 +6,14 @@
 #include "testenv/hydra/host/editScript.h"
 #include "testenv/hydra/host/report.h"
 
+#include <pxr/base/tf/stringUtils.h>
 #include <pxr/usd/usdGeom/camera.h>
 
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <stdexcept>
+#include <unistd.h>
 
 using namespace patina;
 
@@ -58,11 +61,9 @@ void run(const CommandLine& line) {
     writeJson(report, line.json);
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+int attempt(const std::vector<std::string>& words) {
     try {
-        const CommandLine line = parseCommandLine(argc, argv);
+        const CommandLine line = parseCommandLine(words);
         if (line.help) {
             std::fputs(usage, stdout);
             return 0;
@@ -73,4 +74,31 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "hydraHost: %s\n", error.what());
         return 1;
     }
+}
+
+/// One command after the other, each a line of standard input: files for what it prints and for its
+/// errors, and its words, with tabs between them. The answer is a line with its status. A start,
+/// most of which is the linking of OpenUSD, takes longer than a small image.
+void serve() {
+    std::FILE* answers = fdopen(dup(STDOUT_FILENO), "w");
+    for (std::string line; std::getline(std::cin, line);) {
+        std::vector<std::string> words = TfStringSplit(line, "\t");
+        if (words.size() < 2 || !std::freopen(words[0].c_str(), "w", stdout) ||
+            !std::freopen(words[1].c_str(), "w", stderr))
+            return;
+        const int status = attempt({words.begin() + 2, words.end()});
+        std::cout.flush();
+        std::fflush(nullptr);
+        std::fprintf(answers, "%d\n", status);
+        std::fflush(answers);
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    if (words != std::vector<std::string>{"--serve"}) return attempt(words);
+    serve();
+    return 0;
 }

@@ -12,11 +12,6 @@ namespace patina {
 
 namespace {
 
-bool onlySets(const SceneDelta::Paths& paths) {
-    return std::all_of(paths.begin(), paths.end(),
-                       [](const auto& item) { return item.second == PrimEdit::Set; });
-}
-
 bool sameRays(const Visibility& a, const Visibility& b) {
     return a.mask() == b.mask();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/scene/sceneDelta.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace patina {
@@ -19,6 +20,11 @@ void append(SceneDelta::Paths& paths, const SceneDelta::Paths& later) {
 }
 
 } // namespace
+
+bool onlySets(const SceneDelta::Paths& paths) {
+    return std::all_of(paths.begin(), paths.end(),
+                       [](const auto& item) { return item.second == PrimEdit::Set; });
+}
 
 size_t SceneDelta::size() const {
     return geometry.size() + instancers.size() + lights.size() + cameras.size() + materials.size();

@@ -32,6 +32,9 @@ struct SceneDelta {
     void add(const SceneDelta& later);
 };
 
+/// Whether no prim came or went.
+bool onlySets(const SceneDelta::Paths& paths);
+
 /// The latest deltas of a scene by the version that each led to. It forgets the oldest beyond its
 /// limits, and whoever comes from before them has to look at everything.
 class EditLog {

@@ -11,11 +11,6 @@ namespace patina {
 
 namespace {
 
-bool onlySets(const SceneDelta::Paths& paths) {
-    return std::all_of(paths.begin(), paths.end(),
-                       [](const auto& item) { return item.second == PrimEdit::Set; });
-}
-
 /// Whether a box may be what makes bounds as wide as they are.
 bool reaches(const RasterBox& box, const vec3& low, const vec3& high) {
     return glm::any(glm::lessThanEqual(box.center - box.half, low)) ||

@@ -157,7 +157,8 @@ def test_glow_that_scattered_rays_do_not_see_lights_nothing(backend):
 
 
 def test_glow_is_as_bright_where_some_rays_do_not_see_it_and_none_of_these_is_there():
-    """The mean without light samples has a standard error of 0.24 % (eight seeds), the other of 0.01 %; the bound is six of them."""
+    """Without light samples the mean has a standard error of 0.24 % (by eight seeds), with them 0.01 %; the bound is six of
+    these."""
     sampled = glow("", samples=256).mean()
     found = glow("bool primvars:patina:visibility:transmission = 0", samples=256).mean()
     assert found == pytest.approx(sampled, rel=0.015)

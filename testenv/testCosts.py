@@ -3,6 +3,7 @@
 
 Processor time says more than a clock where several processes share the cores. It is that of the test's process with all of its
 threads, and of child processes that ended meanwhile. What a fixture of a module takes counts for the test that asks first.
+What hosts of Hydra take that stay for several tests (hydraBuild.py) is in none.
 """
 import resource
 

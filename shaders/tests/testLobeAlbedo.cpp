@@ -15,7 +15,7 @@ using namespace patina::test;
 
 namespace {
 
-constexpr int pointCount = 8000;
+constexpr int pointCount = 20000;
 
 // Root mean square and largest error over a set of points.
 struct Error {

@@ -7,7 +7,7 @@ import pytest
 
 from accessibility import axe_script, look_at, violations
 
-from patina.chart import look, png, svg
+from patina.chart import look, lobes, png
 from patina.cli import main
 from patina.library import catalog, page
 
@@ -44,7 +44,7 @@ def sheet(tmp_path_factory):
 
     path = tmp_path_factory.mktemp("sheet") / "a.html"
     path.write_text(look.page("Sheet") + "<h1>Sheet</h1>" + f'<img alt="grey" src="{png.data_uri(np.full((4, 4, 3), 0.5))}">'
-                    + svg.scatter("t", [(1.0, 0.1, "a"), (2.0, 0.01, "b")], "x", "y") + look.END)
+                    + lobes.scatter("t", [(1.0, 0.1, "a"), (2.0, 0.01, "b")], "y") + look.END)
     return str(path)
 
 

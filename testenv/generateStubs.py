@@ -50,7 +50,7 @@ def _keywords():
     tables = {}
     for table in ("lightTypes.inc", "cameraTypes.inc"):
         with open(os.path.join(ROOT, "hdDelegate", "scene", table), encoding="utf-8") as file:
-            tables[table] = re.findall(r'^PATINA_\w+_INPUT\([\w, ]*?\s*"(\w+)"', file.read(), re.MULTILINE)
+            tables[table] = re.findall(r'^PATINA_\w+_INPUT\([\w:, ]*?\s*"(\w+)"', file.read(), re.MULTILINE)
     for name in ("bindSceneGeometry.cpp", "bindScene.cpp"):
         source = _source(name)
         start = re.search(r"Fields& readCommon.*?\n}", source, re.DOTALL)

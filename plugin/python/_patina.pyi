@@ -74,7 +74,7 @@ class SceneEdit:
     def set_camera(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomCamera; keywords are the fields of Camera. inputs: a dictionary of values by camera_input_names().
-        Keywords: transform, orthographic, horizontal_aperture, vertical_aperture, horizontal_aperture_offset, vertical_aperture_offset, focal_length, f_stop, focus_distance, clip_near, clip_far, clipping_planes, shutter_open, shutter_close, exposure_scale, inputs.
+        Keywords: transform, orthographic, clip_near, clip_far, clipping_planes, shutter_open, shutter_close, exposure_scale, inputs, horizontal_aperture, vertical_aperture, horizontal_aperture_offset, vertical_aperture_offset, focal_length, f_stop, focus_distance.
         """
     def set_curves(self, path: str, **kwargs: typing.Any) -> None:
         """
@@ -99,7 +99,7 @@ class SceneEdit:
     def set_light(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, type, transform and light_filter_inputs(). portals: of path, transform, width and height.
-        Keywords: group, type, transform, visible, camera_visible, color, intensity, exposure, diffuse, specular, normalize, enable_color_temperature, color_temperature, texture_file, texture_format, texture_color_space, guide_radius, shaping_focus, shaping_focus_tint, shaping_cone_angle, shaping_cone_softness, shaping_cone_authored, ies_file, ies_angle_scale, ies_normalize, shadow_enable, shadow_color, shadow_distance, shadow_falloff, shadow_falloff_gamma, light_link, shadow_link, filters, portals, light_group, geometry, material_sync_mode, angle, radius, width, height, length, treat_as_point, treat_as_line.
+        Keywords: group, type, transform, visible, camera_visible, texture_color_space, shaping_cone_authored, light_link, shadow_link, filters, portals, light_group, geometry, material_sync_mode, color, intensity, exposure, diffuse, specular, normalize, enable_color_temperature, color_temperature, angle, radius, width, height, length, treat_as_point, treat_as_line, shaping_focus, shaping_focus_tint, shaping_cone_angle, shaping_cone_softness, ies_angle_scale, ies_normalize, ies_file, shadow_enable, shadow_color, shadow_distance, shadow_falloff, shadow_falloff_gamma, texture_file, texture_format.
         """
     def set_material(self, path: str, network: Network) -> None:
         """
@@ -151,7 +151,7 @@ class Scene:
         ...
     def camera(self, path: str) -> dict[str, typing.Any]:
         """
-        A camera's values by set_camera()'s keywords, and image_aspect, the width over the height that its image has of itself; KeyError where there is none.
+        A camera's values by set_camera()'s keywords, has_overscan, and image_aspect, the width over the height that its image has of itself; KeyError where there is none.
         """
     def clear_warnings(self) -> None:
         """
@@ -338,6 +338,16 @@ class PartialWriter:
         """
     def commit(self, report: str) -> None:
         ...
+class PartialErrors:
+    """
+    What the tiles of parts told of their error while they were merged.
+    """
+    def __init__(self) -> None:
+        ...
+    def samples_of_whole(self, tolerance: float, min_samples: int) -> int:
+        """
+        The count at which the image rendered at once was done; 0: no tile went on after it.
+        """
 class Renderer:
     """
     Renders a scene into a film, in the background.
@@ -373,13 +383,13 @@ class Renderer:
         """
 class MaterialProbe:
     """
-    A compiled material at one shading point.
+    A compiled material at one shading point: its lobes, and light that passes straight on.
     """
     def __init__(self, network: Network, methods: dict[str, str] = {}, tolerance: float = -1.0) -> None:
         ...
     def albedo(self, wo: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float32]:
         """
-        Directional albedo, delta lobes included.
+        Directional albedo: what is reflected, transmitted and passes straight on.
         """
     def emission(self, wo: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float32]:
         ...
@@ -389,7 +399,7 @@ class MaterialProbe:
         """
     def eval(self, wo: numpy.typing.ArrayLike, wi: numpy.typing.ArrayLike) -> tuple[typing.Any, ...]:
         """
-        f without the cosine, and the density of sample(); delta lobes have no part in it.
+        f without the cosine, and the density of sample(); delta lobes and light that passes straight on have no part in it.
         """
     def move_to(self, u: float, v: float) -> None:
         """
@@ -449,6 +459,10 @@ def camera_input_names() -> list[str]:
     """
     Attributes of cameras beyond UsdGeomCamera's own; each may stand after 'primvars:' too.
     """
+def camera_inputs() -> list[typing.Any]:
+    """
+    Numbers of UsdGeomCamera: (attribute, keyword of set_camera(), fallback).
+    """
 def channels_of_aov(aov: str) -> str:
     """
     The prefix of an AOV's channels in files; ValueError says why there is no such AOV.
@@ -501,7 +515,7 @@ def displays() -> list[str]:
     """
     Displays of the OCIO configuration, in its order.
     """
-def end_at_second_signal(numbers: typing.Sequence[int], seconds: float) -> None:
+def end_at_second_signal(numbers: list[int], seconds: float) -> None:
     """
     Of these signals, by number, the first goes to Python's handler, and the next of any does what it does by default, even where Python hears none. The first number counts once within so many seconds. To be called again after signal.signal(), which takes the signal back and begins to count anew. Signals that are ignored, or have no handler, stay so.
     """
@@ -531,7 +545,7 @@ def light_filter_types() -> dict[str, typing.Any]:
     """
 def light_inputs() -> list[typing.Any]:
     """
-    Inputs that shape lights: (name in the schema, keyword of set_light(), float or bool).
+    Inputs of lights: (Light, Shape, Shaping, Shadow or Image, name in the schema, keyword of set_light(), float, bool, vec3 or std::string).
     """
 def light_path_accepts(expression: str, paths: list[list[tuple[str, str, str]]]) -> list[bool]:
     """
@@ -565,7 +579,7 @@ def measure_methods(point: str = '', timed: bool = True) -> list[typing.Any]:
     """
     Measures the methods of a choice point, or of all, here and now, on one thread.
     """
-def merge_partial(film: Film, file: str, tolerance: float = 0.0, min_samples: int = 0) -> str:
+def merge_partial(film: Film, file: str, tolerance: float = 0.0, min_samples: int = 0, samples: int = 0, errors: PartialErrors = None) -> str:
     """
     Adds a part behind the samples that a film has, and returns its report. Of the same tiles the parts come in the order of their samples.
     """
@@ -580,6 +594,10 @@ def method_table() -> list[typing.Any]:
 def model_warnings() -> list[typing.Any]:
     """
     Errors in the models of the library, those of PATINA_MODEL_PATH among them.
+    """
+def mtlx_files(path: str) -> list[bytes]:
+    """
+    The files that read_mtlx looks at, as bytes: a document and all that it includes.
     """
 def node_defaults(id: str) -> dict[str, typing.Any]:
     """
@@ -689,3 +707,4 @@ def write_images(film: Film, path: str, options: dict[str, typing.Any] = {}, met
     """
 ALBEDO_MICROFACET_SIZE: int = 515184
 ALBEDO_WARD_TABLE: int = 1058528
+STAND_IN_WIDTH: float = 0.004999999888241291

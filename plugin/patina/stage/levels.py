@@ -7,7 +7,8 @@ camera.
 """
 import math
 
-from pxr import Usd, UsdGeom
+import numpy as np
+from pxr import Gf, Usd, UsdGeom
 
 from . import cameras
 from .context import get, number
@@ -19,6 +20,8 @@ except ImportError:  # an older OpenUSD
     UsdLod = None
 
 _DOMAIN = "imaging"
+_MOST_ROOTS = 512  # in one native prototype, with those nested in it; beyond them its instances share their levels
+_ANY = Usd.PrimIsActive & Usd.PrimIsLoaded  # prototypes of point instancers may be overs and classes
 
 
 def is_root(prim):
@@ -74,24 +77,31 @@ class Levels:
                     found.append(own)
                 if prim.IsInstance():
                     found.extend(f"{own}/{below}" for below in self._roots_below(prim.GetPrototype()))
-            self._below[path] = tuple(found)
+                if len(found) >= _MOST_ROOTS:
+                    break
+            self._below[path] = tuple(found[:_MOST_ROOTS])
         return self._below[path]
 
     def nearest_place(self, instancer, group, root):
         """:param root: of a prototype of a point instancer
         :returns: the matrix of its instance nearest to the camera, None where no level depends on it"""
-        if not any(is_root(prim) for prim in Usd.PrimRange(root, Usd.TraverseInstanceProxies())):
+        if not any(is_root(prim) or prim.IsInstance() and self._roots_below(prim.GetPrototype())
+                   for prim in Usd.PrimRange(root, _ANY)):
             return None
         api, time = UsdGeom.PointInstancer(instancer), self.context.time
         targets = list(map(str, api.GetPrototypesRel().GetForwardedTargets()))
         own = targets.index(str(root.GetPath())) if str(root.GetPath()) in targets else None
-        indices = api.GetProtoIndicesAttr().Get(time) or ()
+        indices = np.array(api.GetProtoIndicesAttr().Get(time) or (), np.int64)
         matrices = api.ComputeInstanceTransformsAtTime(time, time, UsdGeom.PointInstancer.ExcludeProtoXform,
                                                        UsdGeom.PointInstancer.IgnoreMask)
         world = self.place_inside(instancer, group) or matrix_at(self.context, instancer, group.anchor, 0.0)
-        places = [m * world for m, index in zip(matrices, indices) if own in (None, index)]
-        eye = self._frustum().GetPosition()
-        return min(places, key=lambda m: (m.ExtractTranslation() - eye).GetLength(), default=world)
+        matrices = np.array(matrices, np.float64).reshape(-1, 4, 4)[:len(indices)]
+        if own is not None:
+            matrices = matrices[indices[:len(matrices)] == own]
+        if not len(matrices):
+            return world
+        away = (matrices[:, 3] @ np.array(world))[:, :3] - np.array(self._frustum().GetPosition())
+        return Gf.Matrix4d(matrices[np.argmin((away * away).sum(axis=1))].tolist()) * world
 
     def _shown(self, root, matrix):
         names = [child.GetName() for child in root.GetFilteredChildren(Usd.TraverseInstanceProxies())]

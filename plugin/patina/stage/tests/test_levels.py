@@ -127,3 +127,13 @@ def test_an_older_openusd_tells_and_draws_the_default(read, monkeypatch):
     reading = read(CAMERA % 60 + DISTANCE % "" + ROOT % ("", "int lod:default:index = 1  " + BY, ""))
     assert drawn(reading) == ["middle"]
     assert any("/root : levels of detail need OpenUSD 26.08" in w for w in reading.warnings), reading.warnings
+
+
+def test_instances_nested_without_end_are_read(read, usd_lod):
+    """Ten instances on each of nine levels, with levels of detail in the innermost: a thousand million of them."""
+    layers = 'class Xform "l0" { ' + ROOT % ("", "", "") + "\n}\n"
+    for i in range(1, 10):
+        layers += f'class Xform "l{i}" {{\n' + "".join(
+            f'def Xform "i{k}" (instanceable = true  prepend references = </l{i - 1}>) {{ }}\n' for k in range(10)) + "}\n"
+    reading = read(layers + 'def Xform "top" (prepend references = </l9>) { }')
+    assert " near" in reading.text.replace("/", " ") and not reading.has("/top/far")

@@ -8,6 +8,8 @@ import re
 
 # (words of the message, what to do)
 _ROWS = (
+    (r"back plate|plate is opaque|not finite and above 0; 1|levels of detail|is no heuristic|lod:|whose type",
+     "correct the camera's BackPlateAPI, or the LODRootAPI and its heuristics, as their schemas in OpenUSD 26.08 say"),
     # Back ends and drivers.
     (r"the path tracer renders instead|goes on without a first image",
      "install Mesa or a driver with OpenGL 4.5 and EGL (`PATINA_EGL_PLATFORM` chooses one), or ask for `--backend embree`"),

@@ -171,9 +171,7 @@ private:
         RasterCamera camera = cameraFrom(cameraPrim);
         if (cameraPrim.clippingPlanes.size() > size_t(RasterPasses::maxPlanes))
             _scene->diagnostics().warn(cameraPrim.path, "clippingPlanes",
-                                       "the rasterizer clips by the first " +
-                                           std::to_string(RasterPasses::maxPlanes) +
-                                           " planes only");
+                                       messages::clippingPlanesTooMany(RasterPasses::maxPlanes));
         checkDevice(0);
         // Somebody looks on: images of what there is until all is there.
         const bool early = _settings.interactive && _listener && _film->resumeToken.empty();
@@ -190,9 +188,7 @@ private:
         for (const AovSpec& aov : aovs)
             if (!aov.paths.empty() || aov.id == AovId::shadow)
                 _scene->diagnostics().warn("", "",
-                                           "the AOV " + channelsOfAov(aov.name) +
-                                               " is left empty: the rasterizer follows no light "
-                                               "paths");
+                                           messages::lightPathAovEmpty(channelsOfAov(aov.name)));
         _passes->clearSeconds();
         _passes->drawAovs(*_raster, camera, _settings.interactive);
         if (const vec3 origin = _passes->originOfSeen(*_raster); origin != _origin) {

@@ -13,13 +13,13 @@ def emit(context, found, common):
     for name, path in sorted(volume.GetFieldPaths().items()):
         prim = context.stage.GetPrimAtPath(path)
         if not prim:
-            context.warn(found.prim.GetPath(), f"field:{name}", f"there is no prim {path}; the field is left out")
+            context.warn(found.prim.GetPath(), f"field:{name}", "fieldNotFound", path)
             continue
         if "OpenVDBAsset" not in kinds.schemas_of(prim):
-            context.warn(path, "", f"fields of type {prim.GetTypeName() or 'none'} are not read")
+            context.warn(path, "", "fieldTypeNotRead", prim.GetTypeName() or "none")
             continue
         if _moved(context, prim, found.prim):
-            context.warn(path, "xformOpOrder", "its own transform is not used; a field moves with its volume")
+            context.warn(path, "xformOpOrder", "fieldTransformIgnored")
         names.append(name)
         files.append(resolve(context, prim.GetAttribute("filePath")))
         grids.append(get(prim, "fieldName", context.time) or name)

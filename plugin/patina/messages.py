@@ -58,4 +58,5 @@ def warning(prim, input_, id_, *fields):
     if len(fields) != len(row.fields):
         raise ValueError(f"the message {id_} has other fields: {row.fields}")
     named = dict(zip(row.fields, map(str, fields)))
-    return {"prim": str(prim), "input": input_, "id": id_, "message": row.text.format(**named), "fields": named, "count": 1}
+    return {"prim": str(prim), "input": str(input_), "id": id_, "message": row.text.format(**named), "fields": named,
+            "count": 1}

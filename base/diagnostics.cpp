@@ -9,9 +9,12 @@
 namespace patina {
 
 void Diagnostics::warn(const std::string& primBytes, const std::string& inputBytes,
-                       const std::string& messageBytes) {
-    const std::string prim = validUtf8(primBytes), input = validUtf8(inputBytes),
-                      message = validUtf8(messageBytes);
+                       const Message& given) {
+    const std::string prim = validUtf8(primBytes), input = validUtf8(inputBytes);
+    Message what = given;
+    for (std::string& field : what.fields)
+        field = validUtf8(field);
+    const std::string message = what.text();
     std::string key = prim;
     for (const std::string* part : {&input, &message}) {
         key += '\0';
@@ -23,7 +26,7 @@ void Diagnostics::warn(const std::string& primBytes, const std::string& inputByt
         ++_list[place->second].count;
         return;
     }
-    _list.push_back({prim, input, message}); // first: memory may end in between
+    _list.push_back({prim, input, std::move(what), message}); // first: memory may end in between
     _places.emplace(std::move(key), _list.size() - 1);
 }
 

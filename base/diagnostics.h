@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/messages.h"
+
 #include <mutex>
 #include <string>
 #include <unordered_map>
@@ -12,14 +14,15 @@ namespace patina {
 struct Diagnostic {
     std::string prim;    ///< path of the prim (or file) it concerns
     std::string input;   ///< attribute or input, may be empty
-    std::string message; ///< what is wrong and which fallback is used
+    Message what;        ///< what is wrong and which fallback is used
+    std::string message; ///< the same as text
     int count = 1;       ///< how often the same text was reported
 };
 
 /// Collects warnings from every room. Thread safe. Equal reports are counted, not repeated.
 class Diagnostics {
 public:
-    void warn(const std::string& prim, const std::string& input, const std::string& message);
+    void warn(const std::string& prim, const std::string& input, const Message& what);
     std::vector<Diagnostic> all() const;
     /// The warnings that are new to one reader, for long sessions: as soon as it has read more than
     /// `most`, all are forgotten, and one that comes again is new again.

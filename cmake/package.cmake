@@ -99,7 +99,7 @@ if(TARGET _patina)
         PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
     foreach(table hdDelegate/scene/settings.def hdDelegate/scene/primMarks.def
             hdDelegate/scene/cameraInputs.def hdDelegate/film/aovs.def
-            base/limits.def)
+            base/limits.def base/messages.def)
         get_filename_component(folder ${table} DIRECTORY)
         install(FILES ${table} DESTINATION ${pythonFolder}/patina/tables/${folder})
     endforeach()

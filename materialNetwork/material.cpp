@@ -28,8 +28,7 @@ bool isLost(const Graph& graph, const Network& network, Diagnostics& diagnostics
     if (graph.terminals.count("surface") || graph.terminals.count("volume") ||
         network.path == displayColorPath)
         return false;
-    diagnostics.warn(network.path, "outputs:surface",
-                     "the material has no usable surface; displayColor is shown");
+    diagnostics.warn(network.path, "outputs:surface", messages::noUsableSurface);
     return true;
 }
 

@@ -97,7 +97,7 @@ Network applyOverrides(const Network& network, const MaterialOverrides& override
         std::string input;
         const int node = findTarget(result, target, input);
         if (node < 0) {
-            diagnostics.warn(network.path, target, "no node of the material has such an input");
+            diagnostics.warn(network.path, target, messages::targetMissing);
             continue;
         }
         result.nodes[size_t(node)].inputs[input] = value;

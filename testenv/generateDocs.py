@@ -262,21 +262,22 @@ def by_design():
 
 
 def messages():
-    import messageTexts
-    from patina.cli import advice, causes
+    from patina import messages as texts
 
     lines = ["# Messages", "",
-             "A message names a prim and an input, says what is wrong, and what is shown instead. In this list …",
-             "stands for names and numbers of the scene. `/World/ball.points: are not all finite` is the message *are not all",
-             "finite*, at the input `points` of the prim `/World/ball`.", "",
+             "A message names a prim and an input, says what is wrong, and what is shown instead. Words in braces stand for",
+             "names and numbers of the scene. `/World/ball.normals: are not vectors; faces are drawn flat` is the message",
+             "`normalsNoVectors`, at the input `normals` of the prim `/World/ball`. In `--json` a warning has that name",
+             "as `id`, and what the braces stand for as `fields`.", "",
              "- *missing*: something that was authored is missing from the picture, and a fallback stands in its place.",
              "- *changed*: a default or an approximation is used.",
              "- Both are warnings, and the command goes on. `patina record --strict` fails at either.", "",
              "If a command can show nothing at all, it ends with one line that says why, and with status 1 (2 for",
              "wrong usage, 75 if the same may work later)."]
-    for area, listed in messageTexts.texts().items():
-        rows = [(causes.severity({"message": text}), text, advice.advice(text)) for text in listed]
-        lines += ["", f"## {area}", "", *table(("", "message", "what to do"), rows)]
+    for area in dict.fromkeys(row.area for row in texts.table().values()):
+        rows = [(f"`{id_}`", row.severity, row.text, row.advice)
+                for id_, row in texts.table().items() if row.area == area]
+        lines += ["", f"## {area}", "", *table(("id", "", "message", "what to do"), rows)]
     return lines
 
 

@@ -15,7 +15,7 @@ FallbackRenderer::FallbackRenderer(std::unique_ptr<Renderer> first, std::string 
 void FallbackRenderer::warn(Scene& scene) {
     const std::shared_ptr<Scene> warned = _warned.lock();
     if (warned.get() == &scene) return;
-    scene.diagnostics().warn("", "", _reason + "; the path tracer renders instead");
+    scene.diagnostics().warn("", "", messages::pathTracerInstead(_reason));
 }
 
 void FallbackRenderer::start(std::shared_ptr<Scene> scene, const std::string& camera,

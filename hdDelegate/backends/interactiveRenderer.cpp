@@ -141,8 +141,7 @@ bool InteractiveRenderer::fetch(Source& from, Source& to) {
 void InteractiveRenderer::checkFailure(const RenderProgress& quick) {
     if (!quick.failed || !quick.deviceFailed || _quickLost) return;
     _quickLost = true;
-    _scene->diagnostics().warn("", "",
-                               quick.error + "; the path tracer goes on without a first image");
+    _scene->diagnostics().warn("", "", messages::quickImageLost(quick.error));
 }
 
 /// With the mutex held: pause() and stop() see it started, or it is not.

@@ -12,8 +12,7 @@ std::shared_ptr<const MaterialPrim> CompiledMaterials::find(const std::string& p
     if (path.empty() || !settings.enableSceneMaterials) return nullptr;
     const auto found = state.materials.find(path);
     if (found != state.materials.end()) return found->second;
-    _diagnostics.warn(user, "material:binding",
-                      "material " + path + " does not exist; displayColor is shown");
+    _diagnostics.warn(user, "material:binding", messages::materialMissing(path));
     return nullptr;
 }
 

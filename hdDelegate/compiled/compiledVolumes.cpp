@@ -18,12 +18,10 @@ CompiledVolumes::medium(const std::shared_ptr<const Volume>& prim, const SceneSt
             request.program =
                 _materials.program(found->second, settings.methods, settings.tolerance);
         if (!request.program || !request.program->hasInterior()) {
-            const std::string why =
-                prim->material.empty()
-                    ? "no material is bound"
-                    : "material " + prim->material + " does not exist or is not a volume";
             _diagnostics.warn(prim->path, "material:binding",
-                              why + "; a grey one is shown that scatters 0.8 of the light");
+                              prim->material.empty()
+                                  ? messages::volumeWithoutMaterial()
+                                  : messages::volumeMaterialUnusable(prim->material));
             request.program = nullptr;
         }
     }

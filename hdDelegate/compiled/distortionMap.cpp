@@ -29,9 +29,7 @@ std::shared_ptr<const DistortionMap> DistortionMap::read(const Camera& camera,
     if (problem.empty() && (layout == TexelLayout::Grey || layout == TexelLayout::GreyAlpha))
         problem = "it has no green channel";
     if (!problem.empty()) {
-        diagnostics.warn(camera.path, input,
-                         "the distortion map " + file + " cannot be used: " + problem +
-                             "; the lens does not distort");
+        diagnostics.warn(camera.path, input, messages::distortionMapUnusable(file, problem));
         return nullptr;
     }
     const ImageRGB image = loadImageLinear(file, "raw", diagnostics, camera.path, input);

@@ -105,9 +105,7 @@ void Placements::keepWithinLimits(Diagnostics& diagnostics) {
     for (const auto& instancer : order)
         if ((kept += counts[instancer.get()]) > most) left.insert(instancer.get());
     diagnostics.warn(order.back()->path, "",
-                     "the scene has more instances than " + limitText(Limit::instances) +
-                         "; the instancer is left out, and " + std::to_string(left.size() - 1) +
-                         " others");
+                     messages::instancesTooMany(limitText(Limit::instances), left.size() - 1));
     const auto gone = [&](const auto& instancer) { return left.count(instancer.get()) > 0; };
     const auto remove = [&](Instancers& list) {
         list.erase(std::remove_if(list.begin(), list.end(), gone), list.end());

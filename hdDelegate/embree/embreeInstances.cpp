@@ -45,13 +45,11 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
         result->collapses[i] = !wide || volumes[0] < 1e-3f * volumes[1];
         const int prototype = i < prim->prototypeIndices.size() ? prim->prototypeIndices[i] : -1;
         if (prototype < 0 || size_t(prototype) >= prim->prototypes.size()) {
-            _diagnostics.warn(prim->path, "protoIndices",
-                              "index out of range; the instance is not drawn");
+            _diagnostics.warn(prim->path, "protoIndices", messages::prototypeOutOfRange);
             continue;
         }
         if (!problem.empty()) {
-            _diagnostics.warn(prim->path, "transform",
-                              "of an instance " + problem + "; that instance is not drawn");
+            _diagnostics.warn(prim->path, "transform", messages::instanceNotDrawn(problem));
             continue;
         }
         result->targets[i] = finishedGroup(prim->prototypes[prototype]);
@@ -83,9 +81,7 @@ EmbreeScene::currentNode(const std::shared_ptr<const Instancer>& prim) {
 EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth, const View& view) {
     if (EmbreeGroup* finished = finishedGroup(name)) return finished;
     if (depth > TraceContext::maxDepth || _building[name]) {
-        _diagnostics.warn(
-            name, "prototypes",
-            "a prototype contains itself, or instances nest more than 8 deep; they are left out");
+        _diagnostics.warn(name, "prototypes", messages::prototypeNests);
         return nullptr;
     }
     _building[name] = true;

@@ -111,9 +111,7 @@ std::unique_ptr<CausticCasters> EmbreeRenderer::casters(const RenderSettings& se
             : "";
     if (!reason) return nullptr;
     if (!*reason) return result;
-    _scene->diagnostics().warn(camera.path, "method:caustics",
-                               std::string("paths show the caustics, not photons, because ") +
-                                   reason);
+    _scene->diagnostics().warn(camera.path, "method:caustics", messages::causticsByPaths(reason));
     return nullptr;
 }
 

@@ -52,7 +52,8 @@ void EmbreeScene::onError(void* self, RTCError code, const char* text) {
     if (code == RTC_ERROR_OUT_OF_MEMORY)
         scene._outOfMemory = true;
     else if (code != RTC_ERROR_NONE && code != RTC_ERROR_CANCELLED)
-        scene._diagnostics.warn("Embree", "", text ? text : "reports an error without a reason");
+        scene._diagnostics.warn("Embree", "",
+                                text ? messages::embreeError(text) : messages::embreeSilent());
 }
 
 EmbreeScene::EmbreeScene(CompiledScene& compiled)

@@ -55,8 +55,7 @@ bool EmbreeScene::accepts(const RTCRay& ray) const {
     if (isTraceable(ray, _world->rayLimit)) return true;
     const bool clipped = ray.tfar < 0.0f; // there is nothing wrong with such a ray
     if (!clipped && !_warnedOfRays.exchange(true))
-        _diagnostics.warn("", "rays",
-                          "some start too far away, or have no direction; they hit nothing");
+        _diagnostics.warn("", "rays", messages::raysUnusable);
     return false;
 }
 

@@ -54,11 +54,8 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene, L
             warnOfMany(meshLight->second.light->path, diagnostics);
             _meshLights.erase(meshLight);
         } else { // paths that meet it see it glow
-            diagnostics.warn(
-                surface.prim->path, "",
-                "with it the scene has more glowing triangles, each wherever it is placed, than " +
-                    limitText(Limit::lights) +
-                    "; what it lights is found by chance alone, with more noise");
+            diagnostics.warn(surface.prim->path, "",
+                             messages::glowingTooMany(limitText(Limit::lights)));
         }
         return;
     }

@@ -33,9 +33,7 @@ bool SceneLights::haveRoom(double more, const LightSetInput& input) {
 }
 
 void SceneLights::warnOfMany(const std::string& light, Diagnostics& diagnostics) {
-    diagnostics.warn(light, "",
-                     "with it the scene has more lights, each wherever it is placed, than " +
-                         limitText(Limit::lights) + "; the light is off");
+    diagnostics.warn(light, "", messages::lightsTooMany(limitText(Limit::lights)));
 }
 
 LightInfo SceneLights::describe(const std::shared_ptr<const Light>& light, const EmbreeScene& scene,
@@ -97,8 +95,7 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
     for (const auto& light : meshLights) {
         const Surface* surface = scene.surfaceOf(light->geometry).get();
         if (!surface || surface->shape != Surface::Shape::Triangles) {
-            diagnostics.warn(light->path, "geometry",
-                             "the mesh light has no mesh and gives no light");
+            diagnostics.warn(light->path, "geometry", messages::meshLightWithoutMesh);
             continue;
         }
         MeshLight meshLight{light, lightBaseRadiance(*light), int(_infos.size()), {}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/messages.h"
 #include "hdDelegate/film/aovTable.h"
 #include "hdDelegate/film/coverage.h"
 #include "hdDelegate/film/filmSource.h"
@@ -46,8 +47,8 @@ void checkAovSpec(const AovSpec& spec);
 /// @throws std::invalid_argument naming an unknown AOV.
 std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names, int cryptomatteLevels = 6);
 /// Takes those AOVs of light paths out that a render has no room for beside those before them.
-/// @returns why, one line for each, which names the AOV
-std::vector<std::string> leaveOutLightPaths(std::vector<std::string>& names);
+/// @returns why, for each
+std::vector<Message> leaveOutLightPaths(std::vector<std::string>& names);
 
 /// Accumulates what a renderer finds. Row 0 is the top row. One thread writes one pixel at a time;
 /// different pixels may be written at once. Sums are kept in double and in a fixed order, span by

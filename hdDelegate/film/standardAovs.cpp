@@ -75,9 +75,10 @@ AovSpec standardAov(const std::string& name) {
     return spec;
 }
 
-std::vector<std::string> leaveOutLightPaths(std::vector<std::string>& names) {
+std::vector<Message> leaveOutLightPaths(std::vector<std::string>& names) {
     LightPathRoom room;
-    std::vector<std::string> kept, problems;
+    std::vector<std::string> kept;
+    std::vector<Message> problems;
     for (const std::string& name : names) {
         const AovId id = aovIdOf(name);
         std::string expression = lightPathAovOf(name).expression;
@@ -87,7 +88,7 @@ std::vector<std::string> leaveOutLightPaths(std::vector<std::string>& names) {
             if (!expression.empty()) room.add(expression);
             kept.push_back(name);
         } catch (const std::invalid_argument& error) {
-            problems.push_back("AOV '" + channelsOfAov(name) + "' is left out: " + error.what());
+            problems.push_back(messages::aovPathLeftOut(channelsOfAov(name), error.what()));
         }
     }
     names = std::move(kept);

@@ -48,21 +48,15 @@ CurveBatch takeApart(const Curves& curves, const PointSteps& points, Diagnostics
     batch.counts.varying = batch.counts.faceVarying = varying;
     if (batch.wrap != CurveWrap::Pinned) batch.shortVarying = varying;
 
-    const auto report = [&](size_t count, const char* input, const std::string& what) {
-        if (count > 0)
-            diagnostics.warn(curves.path, input, std::to_string(count) + " curves " + what);
+    const auto report = [&](size_t count, const char* input, const MessageMaker<1>& what) {
+        if (count > 0) diagnostics.warn(curves.path, input, what(count));
     };
-    report(tooShort, "curveVertexCounts",
-           "have too few points for their basis; they are not drawn");
-    report(unused, "curveVertexCounts",
-           "have points at the end that make no whole segment; these points are ignored");
-    report(truncated, "curveVertexCounts", "need more points than there are; they are not drawn");
-    report(notFinite, "points",
-           "have points that are not finite or beyond 1e15; they are not drawn");
+    report(tooShort, "curveVertexCounts", messages::curvesTooShort);
+    report(unused, "curveVertexCounts", messages::curvePointsUnused);
+    report(truncated, "curveVertexCounts", messages::curvesTruncated);
+    report(notFinite, "points", messages::curvesNotFinite);
     if (point < points.count())
-        diagnostics.warn(curves.path, "points",
-                         std::to_string(points.count() - point) +
-                             " points at the end belong to no curve and are ignored");
+        diagnostics.warn(curves.path, "points", messages::pointsOfNoCurve(points.count() - point));
     return batch;
 }
 
@@ -72,7 +66,7 @@ CurveValues readOr(const Curves& curves, const char* name, std::vector<float> fa
     CurveValues values;
     const Primvar* primvar = curves.primvar(name);
     if (primvar && primvar->components != int(fallback.size())) {
-        diagnostics.warn(curves.path, name, "has a wrong type; the default is used");
+        diagnostics.warn(curves.path, name, messages::wrongType);
         primvar = nullptr;
     }
     if (!primvar || !values.read(*primvar, batch, curves.path, diagnostics))
@@ -88,9 +82,7 @@ CurveValues readWidths(const Curves& curves, const CurveBatch& batch, Diagnostic
             width = 0.0f;
             ++negative;
         }
-    if (negative > 0)
-        diagnostics.warn(curves.path, "widths",
-                         std::to_string(negative) + " are negative; 0 is used");
+    if (negative > 0) diagnostics.warn(curves.path, "widths", messages::widthsNegative(negative));
     return widths;
 }
 
@@ -209,7 +201,7 @@ CurveSet buildCurves(const Curves& curves, const TessellationOptions& options,
                      Diagnostics& diagnostics) {
     const PointSteps points = resamplePoints(curves.points, curves.path, options, diagnostics);
     if (points.count() == 0 || curves.curveVertexCounts.empty())
-        diagnostics.warn(curves.path, "points", "there are no curves; nothing is drawn");
+        diagnostics.warn(curves.path, "points", messages::noCurves);
     const CurveBatch batch = takeApart(curves, points, diagnostics);
     const CurveValues widths = readWidths(curves, batch, diagnostics);
     CurveValues normals;

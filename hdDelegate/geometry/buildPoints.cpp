@@ -15,7 +15,7 @@ std::vector<float> perPoint(const Points& prim, const char* name, int components
     std::vector<float> values;
     if (!primvar) return values;
     if (primvar->components != components) {
-        diagnostics.warn(prim.path, name, "has a wrong type and is ignored");
+        diagnostics.warn(prim.path, name, messages::wrongTypeIgnored);
         return values;
     }
     ElementCounts counts;
@@ -37,8 +37,7 @@ PointSet buildPoints(const Points& prim, const TessellationOptions& options,
                      Diagnostics& diagnostics) {
     const PointSteps points = resamplePoints(prim.points, prim.path, options, diagnostics);
     const size_t count = points.count();
-    if (count == 0)
-        diagnostics.warn(prim.path, "points", "the prim has no points; nothing is drawn");
+    if (count == 0) diagnostics.warn(prim.path, "points", messages::noPoints);
     const std::vector<float> widths = perPoint(prim, "widths", 1, count, diagnostics);
     const std::vector<float> normals = perPoint(prim, "normals", 3, count, diagnostics);
     const std::vector<uint16_t> subsetOf = subsetOfElements(prim, count, diagnostics);
@@ -64,13 +63,8 @@ PointSet buildPoints(const Points& prim, const TessellationOptions& options,
         out.pointIndex.push_back(int(i));
         if (!subsetOf.empty()) out.pointSubset.push_back(subsetOf[i]);
     }
-    if (notFinite > 0)
-        diagnostics.warn(prim.path, "points",
-                         std::to_string(notFinite) +
-                             " points are not finite or beyond 1e15, and not drawn");
-    if (negative > 0)
-        diagnostics.warn(prim.path, "widths",
-                         std::to_string(negative) + " are negative; 0 is used");
+    if (notFinite > 0) diagnostics.warn(prim.path, "points", messages::pointsNotFinite(notFinite));
+    if (negative > 0) diagnostics.warn(prim.path, "widths", messages::widthsNegative(negative));
 
     ElementCounts counts;
     counts.varying = counts.vertex = counts.faceVarying = count;

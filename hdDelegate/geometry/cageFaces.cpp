@@ -12,11 +12,9 @@ struct Fault {
     void add(size_t index) {
         if (count++ == 0) first = index;
     }
-    void report(const Mesh& mesh, const char* input, const char* what, Diagnostics& diagnostics) {
-        if (count > 0)
-            diagnostics.warn(mesh.path, input,
-                             std::to_string(count) + " " + what +
-                                 " (first: " + std::to_string(first) + ")");
+    void report(const Mesh& mesh, const char* input, const MessageMaker<2>& what,
+                Diagnostics& diagnostics) {
+        if (count > 0) diagnostics.warn(mesh.path, input, what(count, first));
     }
 };
 
@@ -31,7 +29,7 @@ void markHoles(const Mesh& mesh, CageFaces& faces, Diagnostics& diagnostics) {
         else
             outside.add(i);
     }
-    outside.report(mesh, "holeIndices", "indices are out of range and ignored", diagnostics);
+    outside.report(mesh, "holeIndices", messages::holesOutOfRange, diagnostics);
     faces.hole.resize(faces.size());
     for (size_t f = 0; f < faces.size(); ++f)
         faces.hole[f] = authoredHole[faces.authored[f]];
@@ -76,19 +74,13 @@ CageFaces cageFaces(const Mesh& mesh, const PointSteps& points, Diagnostics& dia
         faces.firstCorner.push_back(first);
         faces.authored.push_back(int(f));
     }
-    small.report(mesh, "faceVertexCounts", "faces have fewer than 3 vertices and are not drawn",
-                 diagnostics);
-    truncated.report(mesh, "faceVertexIndices",
-                     "faces go beyond the end of the indices and are not drawn", diagnostics);
+    small.report(mesh, "faceVertexCounts", messages::facesTooSmall, diagnostics);
+    truncated.report(mesh, "faceVertexIndices", messages::facesTruncated, diagnostics);
     if (corner < faces.authoredCorners)
         diagnostics.warn(mesh.path, "faceVertexIndices",
-                         std::to_string(faces.authoredCorners - corner) +
-                             " indices at the end belong to no face and are ignored");
-    outside.report(mesh, "faceVertexIndices", "faces have indices out of range and are not drawn",
-                   diagnostics);
-    notFinite.report(mesh, "points",
-                     "faces have points that are not finite or beyond 1e15, and are not drawn",
-                     diagnostics);
+                         messages::indicesOfNoFace(faces.authoredCorners - corner));
+    outside.report(mesh, "faceVertexIndices", messages::facesOutOfRange, diagnostics);
+    notFinite.report(mesh, "points", messages::facesNotFinite, diagnostics);
     markHoles(mesh, faces, diagnostics);
     return faces;
 }

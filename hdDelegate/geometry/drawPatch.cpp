@@ -357,21 +357,18 @@ TriangleMesh drawPatch(const Mesh& mesh, const PointSteps& points,
     for (const auto& problem :
          {NurbsBasis::problem(patch.u, "u"), NurbsBasis::problem(patch.v, "v")})
         if (problem) {
-            diagnostics.warn(mesh.path, problem.input,
-                             problem.message + "; the patch is not drawn");
+            diagnostics.warn(mesh.path, problem.input, messages::patchNotDrawn(problem.message));
             return nothing;
         }
     const size_t needed = size_t(patch.u.vertexCount) * size_t(patch.v.vertexCount);
     if (points.count() != needed) {
-        diagnostics.warn(mesh.path, "points",
-                         std::to_string(points.count()) + " points where " +
-                             std::to_string(patch.u.vertexCount) + " by " +
-                             std::to_string(patch.v.vertexCount) +
-                             " are needed; the patch is not drawn");
+        diagnostics.warn(
+            mesh.path, "points",
+            messages::patchPointCount(points.count(), patch.u.vertexCount, patch.v.vertexCount));
         return nothing;
     }
     if (!points.bad.empty()) {
-        diagnostics.warn(mesh.path, "points", "are not all finite; the patch is not drawn");
+        diagnostics.warn(mesh.path, "points", messages::patchPointsNotFinite);
         return nothing;
     }
     PatchDrawer drawer(mesh, points, usableWeights(patch.weights, needed, mesh.path, diagnostics));
@@ -379,9 +376,7 @@ TriangleMesh drawPatch(const Mesh& mesh, const PointSteps& points,
     for (const auto& step : out.positions)
         for (const vec3& p : step)
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-                diagnostics.warn(mesh.path, "points",
-                                 "give a surface that is not finite, with these knots and weights; "
-                                 "the patch is not drawn");
+                diagnostics.warn(mesh.path, "points", messages::patchNotFinite);
                 return nothing;
             }
     return out;

@@ -51,7 +51,7 @@ void repairNormals(TriangleMesh& out) {
 void useAuthoredNormals(const Mesh& mesh, const Primvar& primvar, const ElementCounts& counts,
                         const DrawnTriangles& drawn, Diagnostics& diagnostics, TriangleMesh& out) {
     if (primvar.components != 3) {
-        diagnostics.warn(mesh.path, "normals", "are not vectors; faces are drawn flat");
+        diagnostics.warn(mesh.path, "normals", messages::normalsNoVectors);
         return;
     }
     std::vector<float> data;
@@ -66,9 +66,7 @@ void useAuthoredNormals(const Mesh& mesh, const Primvar& primvar, const ElementC
     }
     out.normals = {std::move(normals)};
     if (zeros == 0) return;
-    diagnostics.warn(mesh.path, "normals",
-                     std::to_string(zeros) +
-                         " normals have no direction; the normals of their faces are used");
+    diagnostics.warn(mesh.path, "normals", messages::normalsWithoutDirection(zeros));
     repairNormals(out);
 }
 

@@ -89,7 +89,7 @@ std::vector<uint16_t> subsetOfElements(const Geometry& prim, size_t elements,
     subsetOf.resize(elements);
     constexpr size_t maximum = 65534;
     if (prim.subsets.size() > maximum)
-        diagnostics.warn(prim.path, "subsets", "more than 65534 subsets; the others are ignored");
+        diagnostics.warn(prim.path, "subsets", messages::subsetsTooMany);
     for (size_t s = 0; s < std::min(prim.subsets.size(), maximum); ++s) {
         const GeomSubset& subset = prim.subsets[s];
         size_t outside = 0, taken = 0;
@@ -102,12 +102,8 @@ std::vector<uint16_t> subsetOfElements(const Geometry& prim, size_t elements,
                 subsetOf[element] = uint16_t(s + 1);
         }
         if (outside > 0)
-            diagnostics.warn(subset.path, "indices",
-                             std::to_string(outside) + " indices are out of range and ignored");
-        if (taken > 0)
-            diagnostics.warn(subset.path, "indices",
-                             std::to_string(taken) +
-                                 " elements are already in another subset, which is kept");
+            diagnostics.warn(subset.path, "indices", messages::subsetOutOfRange(outside));
+        if (taken > 0) diagnostics.warn(subset.path, "indices", messages::elementsTaken(taken));
     }
     return subsetOf;
 }

@@ -25,13 +25,11 @@ std::vector<Authored> usable(const HermiteCurves& curves, size_t points, Diagnos
             list.push_back({c, first, count});
         first += size_t(count);
     }
-    const auto report = [&](size_t count, const char* what) {
-        if (count > 0)
-            diagnostics.warn(curves.path, "curveVertexCounts",
-                             std::to_string(count) + " curves " + what + "; they are not drawn");
+    const auto report = [&](size_t count, const MessageMaker<1>& what) {
+        if (count > 0) diagnostics.warn(curves.path, "curveVertexCounts", what(count));
     };
-    report(tooShort, "have fewer than two points");
-    report(truncated, "need more points than there are");
+    report(tooShort, messages::hermiteTooShort);
+    report(truncated, messages::curvesTruncated);
     return list;
 }
 
@@ -77,10 +75,7 @@ std::shared_ptr<const Curves> toBezier(const HermiteCurves& curves, Diagnostics&
             }
         }
     }
-    if (!fits)
-        diagnostics.warn(
-            curves.path, "tangents",
-            "differ in number from the points; the directions from point to point are used");
+    if (!fits) diagnostics.warn(curves.path, "tangents", messages::tangentsDiffer);
     ElementCounts counts;
     counts.uniform = curves.curveVertexCounts.size();
     counts.varying = counts.vertex = counts.faceVarying =

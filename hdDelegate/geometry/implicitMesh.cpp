@@ -262,7 +262,7 @@ void cube(ShapeBuilder& shape, float size) {
 
 float checked(float value, const char* input, const Implicit& prim, Diagnostics& diagnostics) {
     if (std::isfinite(value) && value >= 0.0f) return value;
-    diagnostics.warn(prim.path, input, "is negative or not finite; 0 is used");
+    diagnostics.warn(prim.path, input, messages::sizeNegative);
     return 0.0f;
 }
 
@@ -295,7 +295,7 @@ TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& opt
     };
     int axis = implicit.axis;
     if (axis < 0 || axis > 2) {
-        diagnostics.warn(implicit.path, "axis", "is none of X, Y and Z; Z is used");
+        diagnostics.warn(implicit.path, "axis", messages::axisUnknown);
         axis = 2;
     }
     switch (implicit.shape) {

@@ -111,9 +111,7 @@ std::vector<double> usableWeights(const std::vector<double>& weights, size_t poi
                                   const std::string& prim, Diagnostics& diagnostics) {
     if (weights.empty()) return {};
     if (weights.size() != points) {
-        diagnostics.warn(prim, "pointWeights",
-                         std::to_string(weights.size()) + " weights for " + std::to_string(points) +
-                             " points; all count as 1");
+        diagnostics.warn(prim, "pointWeights", messages::weightsDiffer(weights.size(), points));
         return {};
     }
     std::vector<double> usable = weights;
@@ -123,9 +121,7 @@ std::vector<double> usableWeights(const std::vector<double>& weights, size_t poi
             w = 1.0;
             ++bad;
         }
-    if (bad > 0)
-        diagnostics.warn(prim, "pointWeights",
-                         std::to_string(bad) + " are not positive and finite; they count as 1");
+    if (bad > 0) diagnostics.warn(prim, "pointWeights", messages::weightsNotPositive(bad));
     return usable;
 }
 

@@ -165,8 +165,7 @@ Authored takeApart(const NurbsCurves& curves, size_t points, Diagnostics& diagno
     const size_t count = curves.curveVertexCounts.size();
     const bool ranges = curves.ranges.size() == 2 * count;
     if (!ranges && !curves.ranges.empty())
-        diagnostics.warn(curves.path, "ranges",
-                         "differ in number from the curves; whole curves are drawn");
+        diagnostics.warn(curves.path, "ranges", messages::rangesDiffer);
     size_t point = 0, knot = 0;
     for (size_t c = 0; c < count; ++c) {
         NurbsDirection d;
@@ -196,8 +195,7 @@ Authored takeApart(const NurbsCurves& curves, size_t points, Diagnostics& diagno
     }
     for (const auto& item : problems)
         diagnostics.warn(curves.path, item.first.first,
-                         item.first.second + "; " + std::to_string(item.second) +
-                             " curves are not drawn");
+                         messages::nurbsNotDrawn(item.first.second, item.second));
     return all;
 }
 
@@ -205,7 +203,7 @@ Authored takeApart(const NurbsCurves& curves, size_t points, Diagnostics& diagno
 
 std::shared_ptr<const Curves> toBezier(const NurbsCurves& curves, Diagnostics& diagnostics) {
     if (curves.orders.empty() && !curves.curveVertexCounts.empty()) {
-        diagnostics.warn(curves.path, "order", "has no value; lines join the points, as in Hydra");
+        diagnostics.warn(curves.path, "order", messages::orderMissing);
         auto lines = std::make_shared<Curves>(curves);
         lines->basis = CurveBasis::Linear;
         lines->wrap = CurveWrap::Nonperiodic;

@@ -21,7 +21,7 @@ UsableSamples usableSamples(const Sampled<std::vector<vec3>>& points, const std:
     for (size_t i = 1; timesFit && i < points.times.size(); ++i)
         timesFit = points.times[i] > points.times[i - 1];
     if (!timesFit && points.values.size() > 1) {
-        diagnostics.warn(prim, "points", "sample times do not ascend; only the first is used");
+        diagnostics.warn(prim, "points", messages::samplesNotAscending);
         result.times = {0.0f};
         result.values = {&points.values.front()};
         return result;
@@ -35,9 +35,7 @@ UsableSamples usableSamples(const Sampled<std::vector<vec3>>& points, const std:
         result.values.push_back(&points.values[i]);
     }
     if (result.values.size() != points.values.size())
-        diagnostics.warn(prim, "points",
-                         "the number of points changes over time; samples that differ from the "
-                         "one nearest to the frame are left out");
+        diagnostics.warn(prim, "points", messages::pointCountChanges);
     return result;
 }
 

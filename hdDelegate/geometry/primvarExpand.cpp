@@ -53,10 +53,7 @@ bool expandPrimvar(const Primvar& primvar, const ElementCounts& counts, const st
     const std::string input = "primvars:" + primvar.name;
     const int n = primvar.components;
     if (n < 1 || n > 16) {
-        diagnostics.warn(
-            prim, input,
-            "has " + std::to_string(n) +
-                " components per element, where 1 to 16 can be used; the primvar is ignored");
+        diagnostics.warn(prim, input, messages::primvarComponents(n));
         return false;
     }
     const size_t stored = primvar.values.size() / size_t(n);
@@ -67,9 +64,7 @@ bool expandPrimvar(const Primvar& primvar, const ElementCounts& counts, const st
         elements == 1; // one for all, whatever is authored, as Storm and RenderMan take it
     if (constant ? elements < 1 : elements != expected && !one) {
         diagnostics.warn(prim, input,
-                         std::to_string(elements) + " elements where " +
-                             nameOf(primvar.interpolation) + " interpolation needs " +
-                             std::to_string(expected) + "; the primvar is ignored");
+                         messages::primvarCount(elements, nameOf(primvar.interpolation), expected));
         return false;
     }
     size_t badIndices = 0, badValues = 0;
@@ -92,12 +87,8 @@ bool expandPrimvar(const Primvar& primvar, const ElementCounts& counts, const st
             value = 0.0f;
             ++badValues;
         }
-    if (badIndices > 0)
-        diagnostics.warn(prim, input,
-                         std::to_string(badIndices) + " indices are out of range and read as 0");
-    if (badValues > 0)
-        diagnostics.warn(prim, input,
-                         std::to_string(badValues) + " values are not finite and read as 0");
+    if (badIndices > 0) diagnostics.warn(prim, input, messages::indicesOutOfRange(badIndices));
+    if (badValues > 0) diagnostics.warn(prim, input, messages::valuesNotFinite(badValues));
     return true;
 }
 

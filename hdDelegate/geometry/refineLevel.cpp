@@ -67,9 +67,7 @@ int chooseRefineLevel(const Mesh& mesh, const PointSteps& points, const CageFace
     while (level > 0 && trianglesAt(mesh, faces, level) > double(options.triangleBudget))
         --level;
     if (level < floor)
-        diagnostics.warn(mesh.path, "refineLevel",
-                         std::to_string(floor) + " is more than the limits allow; " +
-                             std::to_string(level) + " is used");
+        diagnostics.warn(mesh.path, "refineLevel", messages::refineLevelTooHigh(floor, level));
     return level;
 }
 

@@ -40,7 +40,7 @@ template <class T> T choose(const std::string& value,
                             const Mesh& mesh, const char* input, Diagnostics& diagnostics) {
     for (const auto& choice : choices)
         if (value == choice.first) return choice.second;
-    if (!value.empty()) diagnostics.warn(mesh.path, input, "unknown value; the default is used");
+    if (!value.empty()) diagnostics.warn(mesh.path, input, messages::valueUnknown);
     return fallback;
 }
 
@@ -73,8 +73,7 @@ Sdc::SchemeType sdcScheme(const Mesh& mesh, const SubdivCage& cage, Diagnostics&
     if (mesh.scheme == SubdivisionScheme::Bilinear) return Sdc::SCHEME_BILINEAR;
     if (mesh.scheme == SubdivisionScheme::Loop) {
         if (cage.allTriangles) return Sdc::SCHEME_LOOP;
-        diagnostics.warn(mesh.path, "subdivisionScheme",
-                         "loop needs triangles; catmullClark is used");
+        diagnostics.warn(mesh.path, "subdivisionScheme", messages::loopNeedsTriangles);
     }
     return Sdc::SCHEME_CATMARK;
 }
@@ -112,16 +111,14 @@ refineTopology(const Mesh& mesh, const SubdivCage& cage,
     MessageCapture capture;
     std::unique_ptr<Far::TopologyRefiner> refiner(Factory::Create(descriptor, options));
     if (!refiner) {
-        diagnostics.warn(mesh.path, "subdivisionScheme",
-                         "OpenSubdiv cannot use the topology; polygons are drawn instead (" +
-                             capture.text + ")");
+        diagnostics.warn(mesh.path, "subdivisionScheme", messages::openSubdivFails(capture.text));
         return nullptr;
     }
     Far::TopologyRefiner::UniformOptions uniform(level);
     uniform.fullTopologyInLastLevel = true; // limit masks and sharp normals look around
     refiner->RefineUniform(uniform);
     if (!capture.text.empty())
-        diagnostics.warn(mesh.path, "subdivisionScheme", "OpenSubdiv: " + capture.text);
+        diagnostics.warn(mesh.path, "subdivisionScheme", messages::openSubdivSays(capture.text));
     return refiner;
 }
 

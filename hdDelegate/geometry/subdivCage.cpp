@@ -26,9 +26,7 @@ float clampSharpness(float s, size_t& bad) {
 }
 
 void reportBad(const Mesh& mesh, const char* input, size_t bad, Diagnostics& diagnostics) {
-    if (bad > 0)
-        diagnostics.warn(mesh.path, input,
-                         std::to_string(bad) + " are negative or not a number; 0 is used");
+    if (bad > 0) diagnostics.warn(mesh.path, input, messages::sharpnessUnusable(bad));
 }
 
 void addCreases(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& cage,
@@ -44,9 +42,7 @@ void addCreases(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& 
     const bool perEdge = mesh.creaseSharpnesses.size() == edges;
     if (!fits || points != mesh.creaseIndices.size() ||
         (!perEdge && mesh.creaseSharpnesses.size() != mesh.creaseLengths.size())) {
-        diagnostics.warn(mesh.path, "creaseIndices",
-                         "indices, lengths and sharpnesses of creases do not fit each other; "
-                         "there are no creases");
+        diagnostics.warn(mesh.path, "creaseIndices", messages::creasesUnusable);
         return;
     }
     size_t missing = 0, bad = 0, index = 0, edge = 0;
@@ -68,18 +64,14 @@ void addCreases(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& 
         index += mesh.creaseLengths[c];
     }
     if (missing > 0)
-        diagnostics.warn(mesh.path, "creaseIndices",
-                         std::to_string(missing) +
-                             " crease edges are not on a drawn face and are ignored");
+        diagnostics.warn(mesh.path, "creaseIndices", messages::creasesOffFaces(missing));
     reportBad(mesh, "creaseSharpnesses", bad, diagnostics);
 }
 
 void addCorners(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& cage,
                 Diagnostics& diagnostics) {
     if (mesh.cornerIndices.size() != mesh.cornerSharpnesses.size()) {
-        diagnostics.warn(mesh.path, "cornerIndices",
-                         "indices and sharpnesses of corners differ in number; there are no "
-                         "corners");
+        diagnostics.warn(mesh.path, "cornerIndices", messages::cornersUnusable);
         return;
     }
     size_t missing = 0, bad = 0;
@@ -93,9 +85,7 @@ void addCorners(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& 
         cage.cornerWeights.push_back(clampSharpness(mesh.cornerSharpnesses[i], bad));
     }
     if (missing > 0)
-        diagnostics.warn(mesh.path, "cornerIndices",
-                         std::to_string(missing) +
-                             " corners are not on a drawn face and are ignored");
+        diagnostics.warn(mesh.path, "cornerIndices", messages::cornersOffFaces(missing));
     reportBad(mesh, "cornerSharpnesses", bad, diagnostics);
 }
 
@@ -124,10 +114,7 @@ SubdivCage makeSubdivCage(const Mesh& mesh, const CageFaces& faces, size_t point
         }
     }
     if (unusable > 0)
-        diagnostics.warn(mesh.path, "faceVertexIndices",
-                         std::to_string(unusable) +
-                             " faces use a point twice, which cannot be subdivided; they are not "
-                             "drawn");
+        diagnostics.warn(mesh.path, "faceVertexIndices", messages::facesRepeatPoints(unusable));
     for (size_t p = 0; p < pointCount; ++p)
         if (vertexOf[p] == 0) {
             vertexOf[p] = int(cage.points.size());

@@ -12,9 +12,9 @@ TriangleMesh tessellate(const Mesh& mesh, const TessellationOptions& options,
     PointSteps points = resamplePoints(mesh.points, mesh.path, options, diagnostics);
     if (mesh.patch) return drawPatch(mesh, points, options, diagnostics);
     if (points.count() == 0)
-        diagnostics.warn(mesh.path, "points", "the mesh has no points and is not drawn");
+        diagnostics.warn(mesh.path, "points", messages::meshWithoutPoints);
     else if (mesh.faceVertexCounts.empty())
-        diagnostics.warn(mesh.path, "faceVertexCounts", "the mesh has no faces and is not drawn");
+        diagnostics.warn(mesh.path, "faceVertexCounts", messages::meshWithoutFaces);
     const CageFaces faces = cageFaces(mesh, points, diagnostics);
     if (mesh.scheme == SubdivisionScheme::None)
         return drawPolygons(mesh, std::move(points), faces, CageNormals::Authored, diagnostics);

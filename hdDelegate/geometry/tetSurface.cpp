@@ -58,11 +58,7 @@ std::vector<int> wholeTets(const TetMesh& mesh, size_t points, Diagnostics& diag
         else
             ++bad;
     }
-    if (bad > 0)
-        diagnostics.warn(
-            mesh.path, "tetVertexIndices",
-            std::to_string(bad) +
-                " tetrahedra have indices of points that do not exist; they are not drawn");
+    if (bad > 0) diagnostics.warn(mesh.path, "tetVertexIndices", messages::tetsOutOfRange(bad));
     return whole;
 }
 

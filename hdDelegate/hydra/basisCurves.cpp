@@ -18,7 +18,7 @@ CurveBasis basisOf(const HdBasisCurvesTopology& topology, HdPatinaRenderParam& p
     if (basis == HdTokens->bspline) return CurveBasis::Bspline;
     if (basis == HdTokens->catmullRom) return CurveBasis::CatmullRom;
     if (basis != HdTokens->bezier)
-        param.warn(id, "basis", "'" + basis.GetString() + "' is unknown; bezier is drawn");
+        param.warn(id, "basis", messages::basisUnknown(basis.GetString()));
     return CurveBasis::Bezier;
 }
 
@@ -96,9 +96,7 @@ void HdPatinaBasisCurves::expandPoints(HdPatinaRenderParam& param, Curves& curve
         }
         sample = std::move(ordered);
     }
-    if (broken)
-        param.warn(GetId(), "curveIndices",
-                   "has an index out of range; the first point is used there");
+    if (broken) param.warn(GetId(), "curveIndices", messages::firstPointUsed);
 }
 
 } // namespace patina

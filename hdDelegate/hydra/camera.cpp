@@ -38,7 +38,7 @@ bool knowsProjection(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
     if (!source) return true;
     const std::string name = source->GetTypedValue(0.0f).GetString();
     if (name == "perspective" || name == "orthographic") return true;
-    param.warn(id, "projection", "'" + name + "' is not known; perspective is used");
+    param.warn(id, "projection", messages::projectionUnknown(name));
     return false;
 }
 
@@ -48,7 +48,7 @@ MotionTransform placeOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param, c
     for (const dmat4& m : transform.values) {
         const float volume = glm::determinant(mat3(mat4(m)));
         if (std::isfinite(volume) && volume != 0.0f) continue;
-        param.warn(id, "transform", inverseProblem(m) + "; none is used");
+        param.warn(id, "transform", messages::transformUnused(inverseProblem(m)));
         return mat4(1.0f);
     }
     return transform;
@@ -92,7 +92,7 @@ void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     camera->shutterOpen = GetShutterOpen();
     camera->shutterClose = GetShutterClose();
     if (!(camera->shutterClose >= camera->shutterOpen)) {
-        param.warn(GetId(), "shutter:close", "is before shutter:open; nothing is blurred");
+        param.warn(GetId(), "shutter:close", messages::shutterCloses);
         camera->shutterOpen = camera->shutterClose = 0.0;
     }
     // Newer releases compute it from ISO, time and f-stop as well.

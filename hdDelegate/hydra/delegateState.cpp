@@ -29,7 +29,7 @@ void HdPatinaDelegateState::setSettingsPrim(const SdfPath& path, HdPatinaSetting
         const TfToken key = settingKey(TfToken(item.first));
         const std::string problem = key.IsEmpty() ? "is no render setting of Patina"
                                                   : applySetting(key, item.second, scratch);
-        if (!problem.empty()) param.warn(path, item.first, problem);
+        if (!problem.empty()) param.warn(path, item.first, messages::settingProblem(problem));
     }
     std::lock_guard<std::mutex> lock(_mutex);
     _prims[path] = std::move(prim);

@@ -46,9 +46,7 @@ void readGprim(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfP
                 path = instancer->GetParentId();
             }
             if (!path.IsEmpty())
-                param.warn(id, "instancer",
-                           "the host has no instancer " + path.GetString() +
-                               "; the prim is not drawn");
+                param.warn(id, "instancer", messages::instancerMissing(path.GetString()));
         }
     }
 }

@@ -42,7 +42,7 @@ void HdPatinaImplicit::syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam&
         double value = initial;
         const VtValue given = sourceOf(delegate, id, name);
         if (!given.IsEmpty() && (!numberOf(given, value) || !std::isfinite(value))) {
-            param.warn(id, name, "is not a number; the fallback is used");
+            param.warn(id, name, messages::noNumber);
             value = initial;
         }
         return float(value);

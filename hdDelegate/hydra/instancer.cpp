@@ -132,8 +132,7 @@ void HdPatinaInstancer::readPrimvars(HdSceneDelegate& delegate, HdPatinaRenderPa
         const size_t count = primvar.values.size() / size_t(primvar.components);
         if (count != instances)
             param.warn(GetId(), "primvars:" + primvar.name,
-                       "has " + std::to_string(count) + " values for " + std::to_string(instances) +
-                           " instances; it is left out");
+                       messages::instanceValuesLeftOut(count, instances));
         else {
             toRenderingSpace(delegate, param, GetId(), descriptor, primvar);
             data.primvars.push_back(std::move(primvar));

@@ -106,9 +106,7 @@ void keepCount(HdPatinaRenderParam& param, const SdfPath& id, const char* input,
     Part kept;
     for (size_t i = 0; i < part.times.size(); ++i) {
         if (part.values[i].size() != count) {
-            param.warn(id, input,
-                       "has " + std::to_string(part.values[i].size()) + " values for " +
-                           std::to_string(count) + " instances; that sample is left out");
+            param.warn(id, input, messages::instanceSampleLeftOut(part.values[i].size(), count));
             continue;
         }
         kept.times.push_back(part.times[i]);
@@ -128,8 +126,7 @@ Part read(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& 
         Matrices matrices = convertAll(value);
         if (matrices.empty()) {
             if (!value.IsEmpty() && !(value.IsArrayValued() && value.GetArraySize() == 0))
-                param.warn(id, input,
-                           "is of type " + value.GetTypeName() + ", which is not read here");
+                param.warn(id, input, messages::typeNotRead(value.GetTypeName()));
             continue;
         }
         part.times.push_back(samples.times[i]);
@@ -169,8 +166,7 @@ std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, c
         if (part.count() > 0 && part.count() != count) {
             // As of stages that are read without Hydra.
             param.warn(id, inputs[&part - parts],
-                       "has " + std::to_string(part.count()) + " values for " +
-                           std::to_string(count) + " instances; nothing is drawn of the instancer");
+                       messages::instanceValuesDiffer(part.count(), count));
             return {};
         }
         if (part.times.size() > 1) times.insert(part.times.begin(), part.times.end());
@@ -206,8 +202,7 @@ std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, c
         }
         result.push_back(sampledOf(kept, std::move(values)));
     }
-    if (broken)
-        param.warn(id, "transforms", "of some instances are not finite; these are not drawn");
+    if (broken) param.warn(id, "transforms", messages::someInstancesNotFinite);
     return result;
 }
 

@@ -119,8 +119,7 @@ std::shared_ptr<const Instancer> HdPatinaInstances::build(const SdfPath& path, c
         for (size_t ordinal = 0; ordinal < item.second.indices.size(); ++ordinal) {
             const int index = item.second.indices[ordinal];
             if (index < 0 || size_t(index) >= data.transforms.size()) {
-                param.warn(path, "instanceIndices",
-                           "name instances that it has no transform for; these are not drawn");
+                param.warn(path, "instanceIndices", messages::instancesWithoutTransform);
                 continue;
             }
             result->prototypeIndices.push_back(prototype);

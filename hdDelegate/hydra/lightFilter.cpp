@@ -51,8 +51,7 @@ public:
             field = float(number);
         else
             _param.warn(_light, "light:filters",
-                        _id.GetString() + " has an input " + names +
-                            " that is not a finite number; the fallback is used");
+                        messages::filterInputNotFinite(_id.GetString(), names));
     }
     void read(const char* names, bool& field) const {
         double number = 0.0;
@@ -66,8 +65,7 @@ public:
                 field = std::to_string(int(number));
             else
                 _param.warn(_light, "light:filters",
-                            _id.GetString() + " has an input " + names +
-                                " that is not a number of the schema; the fallback is used");
+                            messages::filterInputNoNumber(_id.GetString(), names));
         } else if (!textOf(value).empty()) {
             field = textOf(value);
         }
@@ -114,13 +112,10 @@ public:
 
 private:
     void warnOfArray(const char* names) const {
-        _param.warn(_light, "light:filters",
-                    _id.GetString() + " has an input " + names +
-                        " that is no array of finite numbers; the fallback is used");
+        _param.warn(_light, "light:filters", messages::filterInputNoArray(_id.GetString(), names));
     }
     void warn(const std::string& input) const {
-        _param.warn(_light, "light:filters",
-                    _id.GetString() + " has an input " + input + " that is not evaluated");
+        _param.warn(_light, "light:filters", messages::filterInputIgnored(_id.GetString(), input));
     }
     static bool isIdle(const VtValue& value, const char* idle) {
         double number = 0.0;
@@ -190,19 +185,14 @@ std::vector<LightFilter> readLightFilters(HdSceneDelegate& delegate, HdPatinaRen
         if (!row) {
             const std::string given = inputs.type();
             if (given.empty())
-                param.warn(light, "light:filters",
-                           path.GetString() +
-                               " has no type that this OpenUSD knows; the light filter is "
-                               "left out (a LightFilter may name it as lightFilter:shaderId)");
+                param.warn(light, "light:filters", messages::filterWithoutType(path.GetString()));
             else
                 param.warn(light, "light:filters",
-                           path.GetString() + " is a light filter of unknown type '" + given +
-                               "'; it is left out");
+                           messages::filterTypeNotKnown(path.GetString(), given));
             continue;
         }
         if (!delegate.GetRenderIndex().GetSprim(HdPrimTypeTokens->lightFilter, path)) {
-            param.warn(light, "light:filters",
-                       path.GetString() + " is no light filter; it is left out");
+            param.warn(light, "light:filters", messages::noLightFilter(path.GetString()));
             continue;
         }
         LightFilter filter;

@@ -33,7 +33,7 @@ public:
         if (value.IsEmpty()) return;
         double given = 0.0;
         if (!numberOf(value, given) || !std::isfinite(given))
-            _param.warn(_id, name, "is not a finite number; the fallback is used");
+            _param.warn(_id, name, messages::notFinite);
         else
             field = float(given);
     }
@@ -47,7 +47,7 @@ public:
         int components = 0;
         const std::vector<float> c = floatsOf(value, components);
         if (c.size() < 3 || !std::isfinite(c[0] + c[1] + c[2]))
-            _param.warn(_id, name, "is not a finite colour; the fallback is used");
+            _param.warn(_id, name, messages::colorNotFinite);
         else
             field = vec3(c[0], c[1], c[2]);
     }
@@ -101,8 +101,7 @@ void convertColor(const HdMaterialNode& node, const char* input, HdPatinaRenderP
     if (given == node.parameters.end()) return;
     const std::string space = textOf(given->second);
     if (!ColorSpaces::shared().valueToRendering(space, &color.x))
-        param.warn(id, std::string("inputs:") + input,
-                   "unknown colour space '" + space + "'; the value is used as it is");
+        param.warn(id, std::string("inputs:") + input, messages::valueSpaceUnknown(space));
     else if (!ColorSpaces::isData(space))
         color = glm::max(color, vec3(0.0f)); // of what Rec.709 does not reach
 }
@@ -130,14 +129,11 @@ void readNetwork(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const Sd
     convertColor(node, input, param, id, light.field);
 #include "hdDelegate/scene/lightTypes.inc"
     if (node.identifier.GetString().compare(0, 3, "ND_") == 0)
-        param.warn(id, "light:shaderId",
-                   "is " + node.identifier.GetString() +
-                       ", which is not evaluated; the light is drawn by its type");
+        param.warn(id, "light:shaderId", messages::lightShaderIgnored(node.identifier.GetString()));
     for (const HdMaterialRelationship& relation : network.relationships)
         if (relation.outputId == node.path)
             param.warn(id, "inputs:" + relation.outputName.GetString(),
-                       "is connected to " + relation.inputId.GetString() +
-                           ", which is not evaluated for lights; its own value is used");
+                       messages::lightInputConnected(relation.inputId.GetString()));
 }
 
 /// Hosts differ in the name by which they give what is no input of UsdLux.

@@ -39,7 +39,7 @@ std::vector<LightPortal> readLightPortals(HdSceneDelegate& delegate, HdPatinaRen
             prim ? HdContainerDataSource::Cast(prim->Get(HdLightSchema::GetSchemaToken()))
                  : nullptr;
         if (!light) {
-            param.warn(dome, relationship, path.GetString() + " is no PortalLight; it is left out");
+            param.warn(dome, relationship, messages::noPortalLight(path.GetString()));
             continue;
         }
         LightPortal portal;

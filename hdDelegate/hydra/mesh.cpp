@@ -59,7 +59,7 @@ void HdPatinaMesh::readTopology(HdSceneDelegate& delegate, HdPatinaRenderParam& 
     mesh.subsets.clear();
     for (const HdGeomSubset& subset : topology.GetGeomSubsets()) {
         if (subset.type != HdGeomSubset::TypeFaceSet) {
-            param.warn(subset.id, "elementType", "is not 'face'; the subset is left out");
+            param.warn(subset.id, "elementType", messages::subsetNotFace);
             continue;
         }
         mesh.subsets.push_back({subset.id.GetString(),

@@ -126,8 +126,7 @@ void addNode(const HdMaterialNode& given, const SdfPath& material, HdPatinaRende
             refineType(def, name, value), node.inputs[name] = std::move(value);
         else
             param.warn(SdfPath(node.path), name,
-                       "values of type " + item.second.GetTypeName() +
-                           " cannot be used; the default is used");
+                       messages::valueTypeUnusable(item.second.GetTypeName()));
     }
 #if PATINA_HAS_FILE_COLOR_SPACES
     moveColorSpace(node);
@@ -170,9 +169,7 @@ Network networkOf(const VtValue& resource, const SdfPath& material, HdPatinaRend
     Network network;
     network.path = material.GetString();
     if (!resource.IsHolding<HdMaterialNetworkMap>()) {
-        param.warn(
-            material, "",
-            "has no surface, displacement or volume that can be shown; displayColor is shown");
+        param.warn(material, "", messages::materialNotShown);
         return network;
     }
     const HdMaterialNetworkMap& map = resource.UncheckedGet<HdMaterialNetworkMap>();
@@ -204,11 +201,8 @@ Network networkOf(const VtValue& resource, const SdfPath& material, HdPatinaRend
     others.expandIn(network);
     for (const Diagnostic& d : others.diagnostics.all())
         param.warn(SdfPath::IsValidPathString(d.prim) ? SdfPath(d.prim) : material, d.input,
-                   d.message);
-    if (network.terminals.empty())
-        param.warn(
-            material, "",
-            "has no surface, displacement or volume that can be shown; displayColor is shown");
+                   d.what);
+    if (network.terminals.empty()) param.warn(material, "", messages::materialNotShown);
     return network;
 }
 

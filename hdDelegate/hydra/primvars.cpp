@@ -87,8 +87,7 @@ void setPrimvar(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const Sdf
     const int count = int(primvar.values.size()) / primvar.components;
     for (int& index : primvar.indices)
         if (index < 0 || index >= count) {
-            param.warn(id, "primvars:" + primvar.name + ":indices",
-                       "has an index out of range; the first value is used there");
+            param.warn(id, "primvars:" + primvar.name + ":indices", messages::firstValueUsed);
             index = 0;
         }
     replace(prim, std::move(primvar));
@@ -103,9 +102,7 @@ Sampled<std::vector<vec3>> pointsFrom(const HdTimeSampleArray<VtValue, CAPACITY>
         std::vector<vec3> points;
         if (!pointsOf(samples.values[i], points)) {
             if (!samples.values[i].IsEmpty())
-                param.warn(id, "points",
-                           "are of type " + samples.values[i].GetTypeName() +
-                               " in one of the samples; that sample is left out");
+                param.warn(id, "points", messages::pointsOfType(samples.values[i].GetTypeName()));
             continue;
         }
         times.push_back(samples.times[i]);
@@ -124,7 +121,7 @@ std::string labelOf(const VtValue& value, HdPatinaRenderParam& param, const SdfP
         text = value.UncheckedGet<VtTokenArray>()[0].GetString();
     const bool isText = value.IsHolding<std::string>() || value.IsHolding<TfToken>() ||
                         !text.empty() || value.IsEmpty();
-    if (!isText) param.warn(id, "primvars:lightGroup", "is not of type string; it is left out");
+    if (!isText) param.warn(id, "primvars:lightGroup", messages::notString);
     return text;
 }
 
@@ -152,8 +149,7 @@ void warnOfType(HdPatinaRenderParam& param, const SdfPath& id, const std::string
                 const VtValue& value) {
     if (value.IsEmpty() || isText(value) || (value.IsArrayValued() && value.GetArraySize() == 0))
         return;
-    param.warn(id, "primvars:" + primvar,
-               "is of type " + value.GetTypeName() + ", which holds no numbers; it is left out");
+    param.warn(id, "primvars:" + primvar, messages::typeWithoutNumbers(value.GetTypeName()));
 }
 
 void toRenderingSpace(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
@@ -163,8 +159,7 @@ void toRenderingSpace(HdSceneDelegate& delegate, HdPatinaRenderParam& param, con
     if (!ColorSpaces::shared().valueToRendering(space, primvar.values.data(),
                                                 primvar.values.size() / size_t(primvar.components),
                                                 primvar.components))
-        param.warn(id, "primvars:" + primvar.name,
-                   "unknown colour space '" + space + "'; the values are used as they are");
+        param.warn(id, "primvars:" + primvar.name, messages::valuesSpaceUnknown(space));
 }
 
 PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
@@ -211,8 +206,7 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
         for (const auto& descriptor : computed) {
             ValueSamples& samples = values[descriptor.name];
             if (samples.count == 0) {
-                param.warn(id, descriptor.name.GetString(),
-                           "cannot be computed by the host; what is authored is shown");
+                param.warn(id, descriptor.name.GetString(), messages::computationFails);
                 samplePrimvar(delegate, param, id, descriptor.name, samples);
             }
             if (descriptor.name == HdTokens->points) {

@@ -83,9 +83,8 @@ bool HdPatinaRenderParam::widenShutter(double open, double close) {
     return true;
 }
 
-void HdPatinaRenderParam::warn(const SdfPath& prim, const std::string& input,
-                               const std::string& message) {
-    _scene->diagnostics().warn(prim.GetString(), input, message);
+void HdPatinaRenderParam::warn(const SdfPath& prim, const std::string& input, const Message& what) {
+    _scene->diagnostics().warn(prim.GetString(), input, what);
 }
 
 void HdPatinaRenderParam::reportWarnings() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/messages.h"
 #include "hdDelegate/hydra/compat.h"
 #include "hdDelegate/hydra/dirtiedPrimvars.h"
 #include "hdDelegate/hydra/documentNodes.h"
@@ -57,7 +58,7 @@ public:
     bool takeLinksChanged() { return _linksChanged.exchange(false); }
 
     /// A warning that names prim and input. Any thread.
-    void warn(const SdfPath& prim, const std::string& input, const std::string& message);
+    void warn(const SdfPath& prim, const std::string& input, const Message& what);
 
     /// Instances of rprims, gathered while prims sync.
     HdPatinaInstances& instances() { return *_instances; }

@@ -98,7 +98,7 @@ void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
     param.commit(); // hosts may execute without CommitResources
     const HdPatinaView view =
         viewOf(*passState, param.scene()->snapshot()->cameras, width, height, _cameraPath);
-    if (!view.problem.empty()) param.warn(SdfPath(), "framing or camera matrices", view.problem);
+    if (!view.finite) param.warn(SdfPath(), "framing or camera matrices", messages::viewNotFinite);
     const bool moved = !(view == _view);
     if (view.ownCamera && (moved || !_hasOwnCamera)) {
         param.set(std::shared_ptr<const Camera>(std::make_shared<Camera>(view.camera)));

@@ -127,12 +127,11 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
     HdPatinaSettings& s = output.settings;
     if (product.type != "raster") {
         param.warn(product.productPath, "productType",
-                   "'" + product.type.GetString() +
-                       "' products cannot be written; only raster products can");
+                   messages::productTypeUnknown(product.type.GetString()));
         return false;
     }
     if (output.file.empty()) {
-        param.warn(product.productPath, "productName", "is empty; the product is not written");
+        param.warn(product.productPath, "productName", messages::productNameEmpty);
         return false;
     }
     s.width = product.resolution[0];
@@ -142,12 +141,9 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
         s.aspectRatioConformPolicy = product.aspectRatioConformPolicy.GetString();
     const auto window = pixelsOf(product.dataWindowNDC, s.width, s.height);
     if (!window)
-        param.warn(product.productPath, "dataWindowNDC",
-                   "holds no pixel; the whole image is rendered");
+        param.warn(product.productPath, "dataWindowNDC", messages::windowEmpty);
     else if (!place(s, *window, *param.scene(), output.camera))
-        param.warn(product.productPath, "dataWindowNDC",
-                   "reaches beyond the image, and the camera has no such film; no pixels are "
-                   "rendered outside of it");
+        param.warn(product.productPath, "dataWindowNDC", messages::windowBeyondImage);
     s.enableMotionBlur = s.enableMotionBlur && !product.disableMotionBlur;
 #if PATINA_HAS_PRODUCT_DEPTH_OF_FIELD
     s.enableDepthOfField = s.enableDepthOfField && !product.disableDepthOfField;
@@ -156,10 +152,9 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
         const std::string aov = filmAovOfVar(var);
         const std::string problem = problemOf(aov);
         if (aov.empty())
-            param.warn(var.varPath, "sourceName",
-                       "'" + var.sourceName + "' is no AOV; it is left out");
+            param.warn(var.varPath, "sourceName", messages::aovUnknown(var.sourceName));
         else if (!problem.empty())
-            param.warn(var.varPath, "sourceName", "the AOV is left out: " + problem);
+            param.warn(var.varPath, "sourceName", messages::aovLeftOut(problem));
         else if (std::find(output.order.begin(), output.order.end(), aov) == output.order.end())
             output.order.push_back(aov);
     }
@@ -168,7 +163,7 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
     try {
         checkImagePath(output.file, output.order);
     } catch (const std::exception& error) {
-        param.warn(product.productPath, "productName", error.what());
+        param.warn(product.productPath, "productName", messages::productUnwritable(error.what()));
         return false;
     }
     return true;
@@ -198,7 +193,7 @@ bool HdPatinaRenderProducts::update() {
     if (frame->error.empty())
         write(output);
     else
-        _state.param.warn(output.path, "", frame->error + "; the product is not written");
+        _state.param.warn(output.path, "", messages::productNotRendered(frame->error));
     ++_next;
     startNext();
     return _next >= _outputs.size();
@@ -240,7 +235,7 @@ void HdPatinaRenderProducts::write(const Output& output) {
                     {"patina:camera", output.camera},
                     {"patina:samples", output.settings.samples}});
     } catch (const std::exception& error) {
-        _state.param.warn(output.path, "productName", error.what());
+        _state.param.warn(output.path, "productName", messages::productUnwritable(error.what()));
     }
 }
 

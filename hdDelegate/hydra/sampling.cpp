@@ -7,9 +7,7 @@ namespace patina {
 
 void warnOfSamples(HdPatinaRenderParam& param, const SdfPath& id, const std::string& input,
                    size_t count) {
-    param.warn(id, input,
-               "has " + std::to_string(count) + " time samples in the shutter; " +
-                   std::to_string(maxTimeSamples) + " of them are used");
+    param.warn(id, input, messages::timeSamplesTooMany(count, maxTimeSamples));
 }
 
 MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
@@ -23,7 +21,7 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
         for (int c = 0; c < 4; ++c)
             for (int r = 0; r < 4; ++r)
                 if (!std::isfinite(float(m[c][r]))) {
-                    param.warn(id, "transform", "is not finite; none is used");
+                    param.warn(id, "transform", messages::transformNotFinite);
                     return mat4(1.0f);
                 }
         times.push_back(samples.times[i]);

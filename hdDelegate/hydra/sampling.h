@@ -98,7 +98,7 @@ template <class T> Sampled<T> inOrder(std::vector<float> times, std::vector<T> v
                                       const char* input) {
     bool mistaken = false;
     Sampled<T> result = sampledOf(std::move(times), std::move(values), &mistaken);
-    if (mistaken) param.warn(id, input, "sample times do not ascend; only the first is used");
+    if (mistaken) param.warn(id, input, messages::samplesNotAscending);
     return result;
 }
 

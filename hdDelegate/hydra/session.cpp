@@ -93,8 +93,7 @@ bool HdPatinaSession::denoiseCopy(const Film& film, Film& clean) {
         denoise(clean, _settings.threads);
         return true;
     } catch (const std::runtime_error& error) {
-        _scene->diagnostics().warn("", "denoise",
-                                   std::string(error.what()) + "; the image stays as it is");
+        _scene->diagnostics().warn("", "denoise", messages::notDenoised(error.what()));
         return false;
     }
 }

@@ -67,8 +67,7 @@ bool readPatch(HdSceneDelegate& delegate, const SdfPath& id, Diagnostics& diagno
     patch->weights = doublesOf(sourceOf(delegate, id, "pointWeights"));
     mesh.patch = std::move(patch);
     if (!intsOf(sourceOf(delegate, id, "trimCurve:counts")).empty())
-        diagnostics.warn(id.GetString(), "trimCurve:counts",
-                         "is not supported: nothing is cut out of the patch");
+        diagnostics.warn(id.GetString(), "trimCurve:counts", messages::trimCurvesIgnored);
     return true;
 }
 
@@ -101,9 +100,7 @@ std::shared_ptr<const Curves> bezierOf(HdSceneDelegate& delegate, const SdfPath&
     static_cast<Curves&>(hermite) = curves;
     hermite.tangents = tangents;
     if (!hermite.primvar("widths"))
-        diagnostics.warn(
-            id.GetString(), "widths",
-            "of Hermite curves are not handed on by UsdImaging; they are drawn 1 wide");
+        diagnostics.warn(id.GetString(), "widths", messages::hermiteWidths);
     return toBezier(hermite, diagnostics);
 }
 

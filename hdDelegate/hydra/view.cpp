@@ -174,7 +174,7 @@ HdPatinaView viewOf(const HdRenderPassState& state, const PrimMap<Camera>& camer
         view.width = view.height = 0;
     if (!isFinite(view)) {
         view = HdPatinaView();
-        view.problem = "has values that are not finite; nothing is drawn";
+        view.finite = false;
     }
     return view;
 }

@@ -20,7 +20,7 @@ struct HdPatinaView {
     int dataWindow[4] = {0, 0, -1, -1}; ///< as in RenderSettings
     double pixelAspectRatio = 1.0;
     std::string policy;
-    std::string problem; ///< why there is nothing to draw, where the host's numbers are none
+    bool finite = true; ///< else there is nothing to draw: the host's numbers are none
 
     bool operator==(const HdPatinaView& other) const;
 };

@@ -27,9 +27,7 @@ void HdPatinaVolume::syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& p
         const std::string input = "field:" + field.fieldName.GetString();
         if (std::find(fieldTypes().begin(), fieldTypes().end(), field.fieldPrimType) ==
             fieldTypes().end()) {
-            param.warn(GetId(), input,
-                       "is of type " + field.fieldPrimType.GetString() +
-                           ", which is not read; it is left out");
+            param.warn(GetId(), input, messages::fieldOfType(field.fieldPrimType.GetString()));
             continue;
         }
         const std::string name = textOf(delegate.Get(field.fieldId, HdFieldTokens->fieldName));

@@ -149,8 +149,7 @@ std::shared_ptr<const FieldGrid> readFieldGrid(const std::string& file, const st
     } else {
         problem = "the file " + problem;
     }
-    diagnostics.warn(prim, "field",
-                     "grid '" + field + "' of " + file + " cannot be read: " + problem);
+    diagnostics.warn(prim, "field", messages::gridUnreadable(field, file, problem));
     return nullptr;
 }
 
@@ -158,7 +157,7 @@ std::shared_ptr<const FieldGrid> readFieldGrid(const std::string& file, const st
 
 std::shared_ptr<const FieldGrid> readFieldGrid(const std::string& file, const std::string&,
                                                const std::string& prim, Diagnostics& diagnostics) {
-    diagnostics.warn(prim, "field", file + " is not read: this build has no OpenVDB");
+    diagnostics.warn(prim, "field", messages::openVdbMissing(file));
     return nullptr;
 }
 

@@ -22,9 +22,7 @@ std::shared_ptr<const FieldGrid> FieldGrids::read(const std::string& file, const
     auto grid = readFieldGrid(file, field, prim, diagnostics);
     if (!grid) return nullptr;
     if (held + grid->bytes() > limitOf(Limit::gridBytes)) {
-        diagnostics.warn(prim, "field",
-                         "with it the volumes of the scene take more bytes than " +
-                             limitText(Limit::gridBytes) + "; the field is left out");
+        diagnostics.warn(prim, "field", messages::gridsTooLarge(limitText(Limit::gridBytes)));
         return nullptr;
     }
     _known[key] = grid;

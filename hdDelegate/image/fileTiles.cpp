@@ -68,8 +68,7 @@ bool FileTiles::readTile(int level, const TexelBlock& block, void* texels) const
                            error)) {
         if (!_toldUnreadable.exchange(true))
             _diagnostics.warn(_source.prim, _source.input,
-                              "texture '" + _source.file + "': " + error +
-                                  "; magenta is shown where it cannot be read");
+                              messages::textureTilesUnreadable(_source.file, error));
         return false;
     }
     if (_conversion.isAsRead()) return true;
@@ -77,9 +76,7 @@ bool FileTiles::readTile(int level, const TexelBlock& block, void* texels) const
     for (size_t y = 0; y < size_t(block.height()); ++y)
         bad += _conversion.row(read + y * fileRow, to + y * row, block.width());
     if (bad && !_toldBad.exchange(true))
-        _diagnostics.warn(_source.prim, _source.input,
-                          "texture '" + _source.file +
-                              "' holds values that are NaN or infinite; 0 is used for them");
+        _diagnostics.warn(_source.prim, _source.input, messages::someTexelsNotFinite(_source.file));
     return true;
 }
 

@@ -25,22 +25,16 @@ ColorTransformPtr transformOf(const ImageSource& source, const TextureFile& file
         name =
             automaticSpace(source.file, file.input->format_name(), file.spec, colorSpaces, unread);
     if (unread)
-        diagnostics.warn(source.prim, source.input,
-                         "texture '" + source.file +
-                             "': its ICC profile is none of a matrix and an exponent; '" + name +
-                             "' is used");
+        diagnostics.warn(source.prim, source.input, messages::iccProfileUnread(source.file, name));
     ColorTransformPtr transform = colorSpaces.toRendering(name);
     if (transform) return transform;
-    diagnostics.warn(source.prim, source.input,
-                     "unknown colour space '" + name + "' of '" + source.file +
-                         "'; its values are used as they are");
+    diagnostics.warn(source.prim, source.input, messages::fileSpaceUnknown(name, source.file));
     return colorSpaces.toRendering("raw");
 }
 
 std::shared_ptr<ImageTexture> unreadable(const ImageSource& source, const std::string& reason,
                                          Diagnostics& diagnostics) {
-    diagnostics.warn(source.prim, source.input,
-                     "texture '" + source.file + "': " + reason + "; magenta is shown");
+    diagnostics.warn(source.prim, source.input, messages::textureUnreadable(source.file, reason));
     return nullptr;
 }
 
@@ -173,8 +167,7 @@ std::shared_ptr<ImageTexture> loadImageTexture(const ImageSource& source,
             }
             if (bad)
                 diagnostics.warn(source.prim, source.input,
-                                 "texture '" + source.file + "' holds " + std::to_string(bad) +
-                                     " values that are NaN or infinite; 0 is used for them");
+                                 messages::texelsNotFinite(source.file, bad.load()));
         }
         buffer.reset();
         if (std::shared_ptr<ImageTexture> grey = texture->asGrey(file.levels))

@@ -172,8 +172,8 @@ struct TextureSystem::Entry {
 
 TextureSystem::TextureSystem(Diagnostics& diagnostics, const ColorSpaces& colorSpaces)
     : _diagnostics(diagnostics), _colorSpaces(colorSpaces) {
-    if (&colorSpaces == &ColorSpaces::shared() && !ColorSpaces::sharedProblem().empty())
-        diagnostics.warn("", "OCIO", ColorSpaces::sharedProblem());
+    const auto& problem = ColorSpaces::sharedProblem();
+    if (problem && &colorSpaces == &ColorSpaces::shared()) diagnostics.warn("", "OCIO", *problem);
 }
 
 TextureSystem::~TextureSystem() = default;
@@ -212,7 +212,7 @@ std::shared_ptr<const EmissionProfile> TextureSystem::openProfile(const TextureR
     std::string error;
     if (!profile->load(request.file, error)) {
         _diagnostics.warn(request.prim, request.input,
-                          "'" + request.file + "' " + error + "; it emits the same everywhere");
+                          messages::emissionUnshaped(request.file, error));
         profile = nullptr;
     }
     _profiles[request.file] = profile;
@@ -243,8 +243,7 @@ int TextureSystem::open(const TextureRequest& request) {
         std::string reason = entry.tiles.empty() ? "no tile of it exists" : "no tile can be read";
         if (!entry.udim) reason = entry.tiles[0]->problem;
         _diagnostics.warn(request.prim, request.input,
-                          "texture '" + request.file + "': " + reason +
-                              "; its authored fallback, else magenta, is shown");
+                          messages::textureFallback(request.file, reason));
     }
     return handle;
 }
@@ -299,8 +298,7 @@ const TextureSystem::Image* TextureSystem::tileAt(const Entry& entry, glm::vec2&
         std::string which = inside ? "tile " + std::to_string(firstTile + int(number))
                                    : std::string("tile at some texture coordinates");
         _diagnostics.warn(entry.request.prim, entry.request.input,
-                          "texture '" + entry.request.file + "' has no " + which +
-                              "; magenta is shown");
+                          messages::tileMissing(entry.request.file, which));
     }
     return nullptr;
 }

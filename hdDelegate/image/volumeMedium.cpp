@@ -79,7 +79,7 @@ VolumeMedium::VolumeMedium(const Volume& prim, std::shared_ptr<const MaterialPro
         if (_density < 0 && !_fields.empty()) _density = 0;
     }
     if (_fields.empty())
-        diagnostics.warn(prim.path, "field", "the volume has no field and is not drawn");
+        diagnostics.warn(prim.path, "field", messages::volumeWithoutField);
     else
         measure();
 }

@@ -35,9 +35,6 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
                            LightImages& images, Diagnostics& diagnostics)
     : _light(light), _group(groupToWorld), _origin(origin) {
     if (!light.visible || light.type == LightType::Mesh) return;
-    const auto warn = [&](const std::string& input, const char* message) {
-        diagnostics.warn(light.path, input, message);
-    };
     _times = {shutterOpen};
     if (light.transform.moves() && shutterClose > shutterOpen) {
         for (float time : light.transform.times)
@@ -52,7 +49,7 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
     if (_resolved.kind == Kind::None) return;
     for (size_t i = 1; i < _times.size(); ++i)
         if (!isFinite(toWorldAt(_times[i]))) {
-            warn("xformOpOrder", "the transform is not finite; the light is off");
+            diagnostics.warn(light.path, "xformOpOrder", messages::lightTransformNotFinite);
             _resolved.kind = Kind::None;
             return;
         }
@@ -75,8 +72,7 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
     _pose = makePose(toWorldAt(shutterOpen));
     for (size_t i = 1; i < _times.size(); ++i)
         if (_resolved.kind == Kind::Area && !makePose(toWorldAt(_times[i])).shape.valid) {
-            warn(lightSizeInput(_light),
-                 "the light has no size or is flattened to nothing; it is off");
+            diagnostics.warn(light.path, lightSizeInput(_light), messages::lightWithoutSize);
             _resolved.kind = Kind::None;
         }
     if (_resolved.kind == Kind::Dome) addPortals(shutterOpen, diagnostics);
@@ -109,9 +105,7 @@ void LightEmitter::addPortals(float time, Diagnostics& diagnostics) {
         if (made.valid())
             _portals.add(std::move(made));
         else
-            diagnostics.warn(_light.path, "portals",
-                             portal.path +
-                                 " has no size or shows nothing of the sky; it is left out");
+            diagnostics.warn(_light.path, "portals", messages::portalLeftOut(portal.path));
     }
 }
 

@@ -55,10 +55,7 @@ LightFilters::Curve LightFilters::curveOf(const LightFilter& f, bool colors,
         curve.kind = shLights::CURVE_BSPLINE;
     const bool fits = curve.knots.size() == curve.values.size() &&
                       std::is_sorted(curve.knots.begin(), curve.knots.end());
-    if (!fits)
-        diagnostics.warn(light, "light:filters",
-                         f.path + " has a ramp whose knots do not ascend or are not as many as its "
-                                  "values; the fallback is used");
+    if (!fits) diagnostics.warn(light, "light:filters", messages::rampUnusable(f.path));
     if (!fits || curve.values.empty()) {
         curve.knots = {0.0f, 1.0f};
         curve.values = {vec3(1.0f), vec3(colors ? 1.0f : 0.0f)};
@@ -81,25 +78,23 @@ vec3 LightFilters::Curve::at(float x) const {
 /// @returns false where there is none
 bool LightFilters::addImage(const LightFilter& f, const std::string& light, LightImages& images,
                             Diagnostics& diagnostics, Filter& to) {
-    const auto warn = [&](const std::string& message) {
-        diagnostics.warn(light, "light:filters", f.path + " " + message);
-    };
+    const auto warn = [&](const Message& what) { diagnostics.warn(light, "light:filters", what); };
     if (f.textureFile.empty()) {
-        warn("has no map; it is left out");
+        warn(messages::filterWithoutMap(f.path));
         return false;
     }
     to.shown.size = vec2(f.width * f.scaleU, f.height * f.scaleV);
     to.shown.center = vec2(f.width * f.offsetU, f.height * f.offsetV);
     const vec2 size = to.shown.size * to.shown.center;
     if (to.shown.size.x == 0.0f || to.shown.size.y == 0.0f || !std::isfinite(size.x + size.y)) {
-        warn("has an image without a finite size and place; it is left out");
+        warn(messages::filterImageUnusable(f.path));
         return false;
     }
     if (f.invertU) to.shown.size.x *= -1.0f;
     if (f.invertV) to.shown.size.y *= -1.0f;
     to.shown.wrap = choiceOf(f.textureWrap, {"off", "clamp", "repeat"});
     if (to.shown.wrap < 0) {
-        warn("has an unknown tileMode '" + f.textureWrap + "'; off is used");
+        warn(messages::tileModeUnknown(f.path, f.textureWrap));
         to.shown.wrap = shLights::IMAGE_OFF;
     }
     to.image = images.image(f.textureFile, "", light, "light:filters " + f.path + " map");
@@ -113,8 +108,8 @@ LightFilters::LightFilters(const Light& light, const mat4& groupToWorld, const d
                            float time, LightImages& images, Diagnostics& diagnostics)
     : _group(groupToWorld), _origin(origin) {
     for (const LightFilter& f : light.filters) {
-        const auto warn = [&](const std::string& message) {
-            diagnostics.warn(light.path, "light:filters", f.path + " " + message);
+        const auto warn = [&](const Message& what) {
+            diagnostics.warn(light.path, "light:filters", what);
         };
         Filter filter;
         filter.type = f.type;
@@ -125,30 +120,29 @@ LightFilters::LightFilters(const Light& light, const mat4& groupToWorld, const d
         filter.toFilter = toFilterAt(filter, time);
         const bool places = f.type != LightFilterType::Multiplier;
         if (places && !isFinite(filter.toFilter)) {
-            warn("is flattened to nothing or not finite; it is left out");
+            warn(messages::filterFlat(f.path));
             continue;
         }
         const int mode = choiceOf(f.mode, {"physical", "analytic"});
-        if (mode < 0) warn("has an unknown mode '" + f.mode + "'; physical is used");
+        if (mode < 0) warn(messages::filterModeUnknown(f.path, f.mode));
         filter.analytic = mode == 1;
         filter.directional = f.directional;
         filter.shear = vec2(f.shearX / f.scaleWidth, f.shearY / f.scaleHeight);
         filter.apex = f.apex;
         filter.density = std::clamp(f.density, 0.0f, 1.0f);
-        if (filter.density != f.density)
-            warn("has a density that is not within 0..1; it is clamped");
+        if (filter.density != f.density) warn(messages::filterDensityClamped(f.path));
         filter.invert = f.invert;
         filter.intensity = f.intensity;
         if (f.type == LightFilterType::Multiplier) filter.intensity *= std::exp2(f.exposure);
         if (!std::isfinite(filter.intensity + f.density)) {
-            warn("has a density or intensity that is not finite; it is left out");
+            warn(messages::filterNotFinite(f.path));
             continue;
         }
         if (f.type == LightFilterType::Ramp) {
             filter.rampType =
                 choiceOf(f.rampType, {"distanceToLight", "linear", "spherical", "radial"});
             if (filter.rampType < 0) {
-                warn("has an unknown rampType '" + f.rampType + "'; distanceToLight is used");
+                warn(messages::rampTypeUnknown(f.path, f.rampType));
                 filter.rampType = 0;
             }
             filter.start = f.beginDistance;

@@ -35,8 +35,8 @@ bool rotationOf(const mat4& m, mat3& out) {
 /// The shape that stands for the light, and its brightness, before its colour's sign is looked at.
 ResolvedLight kindOf(const Light& light, const mat4& toWorld, Diagnostics& diagnostics) {
     ResolvedLight r;
-    const auto off = [&](const std::string& input, const char* message) {
-        diagnostics.warn(light.path, input, message);
+    const auto off = [&](const std::string& input, const Message& why) {
+        diagnostics.warn(light.path, input, why);
         return ResolvedLight();
     };
     const double size = lightSizeFactor(light, toWorld);
@@ -45,8 +45,7 @@ ResolvedLight kindOf(const Light& light, const mat4& toWorld, Diagnostics& diagn
     switch (light.type) {
     case LightType::Distant: {
         r.kind = Kind::Distant;
-        if (!std::isfinite(light.angle))
-            return off("inputs:angle", "the angle is not finite; the light is off");
+        if (!std::isfinite(light.angle)) return off("inputs:angle", messages::lightAngleNotFinite);
         r.halfAngle = 0.5f * std::clamp(light.angle, 0.0f, 360.0f) * (pi / 180.0f);
         const float s = std::sin(0.5f * r.halfAngle);
         r.versine = 2.0f * s * s;
@@ -59,8 +58,7 @@ ResolvedLight kindOf(const Light& light, const mat4& toWorld, Diagnostics& diagn
         const bool sphere = light.type == LightType::Sphere;
         const double length = glm::length(glm::dvec3(vec3(toWorld[0]))) * std::abs(light.length);
         if (!std::isfinite(size) || (!sphere && !(length > 0.0)))
-            return off(sphere ? "inputs:radius" : "inputs:length",
-                       "the light's size is zero or not finite; the light is off");
+            return off(sphere ? "inputs:radius" : "inputs:length", messages::lightSizeUnusable);
         const bool hint = sphere ? light.treatAsPoint : light.treatAsLine;
         if (hint || (size == 0.0 && light.normalize)) {
             // The mean projected area of a convex body is a quarter of its surface (Cauchy); a thin
@@ -77,8 +75,7 @@ ResolvedLight kindOf(const Light& light, const mat4& toWorld, Diagnostics& diagn
     }
     r.kind = Kind::Area;
     if (!(size > 0.0) || !std::isfinite(size))
-        return off(lightSizeInput(light),
-                   "the light's size is zero or not finite; the light is off");
+        return off(lightSizeInput(light), messages::lightSizeUnusable);
     return r;
 }
 
@@ -95,25 +92,21 @@ bool isFinite(const mat4& m) {
 }
 
 ResolvedLight resolveLight(const Light& light, const mat4& toWorld, Diagnostics& diagnostics) {
-    const auto warn = [&](const char* input, const char* message) {
-        diagnostics.warn(light.path, input, message);
-    };
     if (!light.visible || light.type == LightType::Mesh) return {};
     if (!isFinite(toWorld)) {
-        warn("xformOpOrder", "the transform is not finite; the light is off");
+        diagnostics.warn(light.path, "xformOpOrder", messages::lightTransformNotFinite);
         return {};
     }
     const vec3 base = lightBaseRadiance(light);
     if (!isFinite(base)) {
-        warn("inputs:intensity", "the light's colour or intensity is not finite; the light is off");
+        diagnostics.warn(light.path, "inputs:intensity", messages::lightNotFinite);
         return {};
     }
     if (base == vec3(0.0f)) return {};
     ResolvedLight r = kindOf(light, toWorld, diagnostics);
     if (r.kind == Kind::None) return r;
     if (r.kind == Kind::Area && !makeAreaShape(light, toWorld).valid) {
-        diagnostics.warn(light.path, lightSizeInput(light),
-                         "the light has no size or is flattened to nothing; it is off");
+        diagnostics.warn(light.path, lightSizeInput(light), messages::lightWithoutSize);
         return {};
     }
     if (r.radiance == vec3(0.0f) || !isFinite(r.radiance)) return {};
@@ -181,7 +174,7 @@ std::shared_ptr<const IesProfile> lightProfile(const Light& light, Diagnostics& 
     std::string error;
     if (profile->load(light.iesFile, error)) return profile;
     diagnostics.warn(light.path, "inputs:shaping:ies:file",
-                     "'" + light.iesFile + "' " + error + "; the light is not shaped by it");
+                     messages::profileUnreadable(light.iesFile, error));
     return nullptr;
 }
 

@@ -168,9 +168,7 @@ private:
         RasterCamera camera = cameraFrom(cameraPrim);
         if (cameraPrim.clippingPlanes.size() > size_t(RasterPassBlock::maxPlanes))
             _scene->diagnostics().warn(cameraPrim.path, "clippingPlanes",
-                                       "the rasterizer clips by the first " +
-                                           std::to_string(RasterPassBlock::maxPlanes) +
-                                           " planes only");
+                                       messages::clippingPlanesTooMany(RasterPassBlock::maxPlanes));
         checkDevice(0);
         // Somebody looks on: images of what there is until all is there.
         const bool early = _settings.interactive && _listener && _film->resumeToken.empty();
@@ -187,9 +185,7 @@ private:
         for (const AovSpec& aov : aovs)
             if (!aov.paths.empty() || aov.id == AovId::shadow)
                 _scene->diagnostics().warn("", "",
-                                           "the AOV " + channelsOfAov(aov.name) +
-                                               " is left empty: the rasterizer follows no light "
-                                               "paths");
+                                           messages::lightPathAovEmpty(channelsOfAov(aov.name)));
         _passes->timer().clear();
         _passes->drawAovs(*_raster, camera, _settings.interactive);
         if (const vec3 origin = _passes->seen().originOf(*_raster); origin != _origin) {

@@ -107,13 +107,11 @@ void RenderLoop::run(const Job& job) {
     std::string failure;
     bool temporary = false;
     try {
-        for (const std::string& problem : leaveOutLightPaths(_settings.aovs))
+        for (const Message& problem : leaveOutLightPaths(_settings.aovs))
             _scene->diagnostics().warn("", "aovs", problem);
         prepareAndRender(*job.state, job.camera);
         if (_film->leftOutCoverage())
-            _scene->diagnostics().warn("", "aovs",
-                                       "the least ids of some pixels are left out of Cryptomatte: "
-                                       "there are too many for its memory");
+            _scene->diagnostics().warn("", "aovs", messages::cryptomatteFull);
     } catch (const std::bad_alloc&) {
         failure = "out of memory";
         temporary = true;
@@ -214,7 +212,7 @@ void RenderLoop::maybeCheckpoint() {
     try {
         _film->saveCheckpoint(_settings.checkpointFile);
     } catch (const std::exception& e) { // a full disk: the render is worth more
-        _scene->diagnostics().warn("", "", e.what());
+        _scene->diagnostics().warn("", "", messages::checkpointNotWritten(e.what()));
     }
     _lastCheckpoint = Clock::now();
 }

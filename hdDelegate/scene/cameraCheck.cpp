@@ -17,23 +17,21 @@ public:
         : _camera(camera), _diagnostics(diagnostics) {}
 
     template <class T>
-    void number(const char* input, T& value, T fallback, const std::string& what, bool sound) {
+    void number(const char* input, T& value, T fallback, const Message& what, bool sound) {
         if (sound) return;
         _diagnostics.warn(_camera.path, input, what);
         value = fallback;
         changed = true;
     }
     template <class T> void finite(const char* input, T& value, T fallback) {
-        number(input, value, fallback, "is not finite; the schema's default is used",
-               std::isfinite(value));
+        number(input, value, fallback, messages::schemaDefaultUsed, std::isfinite(value));
     }
 
     void planes() {
         auto& list = _camera.clippingPlanes;
         const auto sound = [](const vec4& p) { return std::isfinite(p.x + p.y + p.z + p.w); };
         if (std::all_of(list.begin(), list.end(), sound)) return;
-        _diagnostics.warn(_camera.path, "clippingPlanes",
-                          "some planes are not finite; they clip nothing");
+        _diagnostics.warn(_camera.path, "clippingPlanes", messages::clippingPlanesNotFinite);
         list.erase(
             std::remove_if(list.begin(), list.end(), [&](const vec4& p) { return !sound(p); }),
             list.end());
@@ -65,20 +63,19 @@ std::shared_ptr<const Camera> checkedCamera(std::shared_ptr<const Camera> camera
     replace.finite("shutter:close", c->shutterClose, 0.0);
     constexpr float maximum = float(largestPlace);
     const auto within = [](float x) { return std::abs(x) <= maximum; };
-    replace.number("clippingRange", c->clipNear, 0.0f, "starts at no finite distance; 0 is used",
+    replace.number("clippingRange", c->clipNear, 0.0f, messages::nearNotFinite,
                    within(c->clipNear));
-    replace.number("clippingRange", c->clipFar, maximum, "ends at no finite distance; 1e15 is used",
+    replace.number("clippingRange", c->clipFar, maximum, messages::farNotFinite,
                    within(c->clipFar));
     if (c->clipFar <= c->clipNear)
-        diagnostics.warn(c->path, "clippingRange", "ends before it starts; nothing is seen");
+        diagnostics.warn(c->path, "clippingRange", messages::clippingRangeEmpty);
     replace.planes();
     replace.number("focusDistance", c->focusDistance,
                    std::isnan(c->focusDistance) ? 0.0f : std::copysign(maximum, c->focusDistance),
-                   std::isnan(c->focusDistance) ? "is no number; everything is sharp"
-                                                : "is too large; 1e15 is used",
+                   std::isnan(c->focusDistance) ? messages::focusNoNumber : messages::focusTooFar,
                    within(c->focusDistance));
     const float lens = c->focalLength / c->fStop; // 0 / 0 where there is none
-    replace.number("fStop", c->fStop, 0.0f, "makes a lens of no usable size; everything is sharp",
+    replace.number("fStop", c->fStop, 0.0f, messages::lensUnusable,
                    c->fStop == 0.0f || (std::isfinite(c->fStop) && within(lens)));
     return replace.changed ? c : camera;
 }

@@ -135,10 +135,7 @@ void checkTogether(CameraLens& lens, const std::string& path, Diagnostics& diagn
     constexpr float widestCylinder = 179.0f, widestStereographic = 340.0f; // degrees
     const auto limit = [&](const char* input, float& value, float most) {
         if (value <= most) return;
-        diagnostics.warn(path, input,
-                         "is more than the " + shortNumber(most) +
-                             " degrees that this projection can show; " + shortNumber(most) +
-                             " are used");
+        diagnostics.warn(path, input, messages::fieldOfViewTooWide(shortNumber(most)));
         value = most;
     };
     if (lens.projection == LensProjection::Cylindrical)
@@ -146,8 +143,7 @@ void checkTogether(CameraLens& lens, const std::string& path, Diagnostics& diagn
     if (lens.projection == LensProjection::FisheyeStereographic)
         limit("patina:fieldOfView", lens.fieldOfView, widestStereographic);
     if (lens.stereo != StereoView::Mono && lens.interocularDistance == 0.0f)
-        diagnostics.warn(path, "patina:interocularDistance",
-                         "is 0 or not given; both eyes see the same");
+        diagnostics.warn(path, "patina:interocularDistance", messages::eyesAlike);
 }
 
 } // namespace
@@ -166,7 +162,7 @@ void applyCameraInputs(const Marks& inputs, Camera& camera, Diagnostics& diagnos
         if (found == inputs.end()) continue;
         const std::string problem = row.take(found->second, camera.lens);
         if (!problem.empty())
-            diagnostics.warn(camera.path, row.name, problem + "; the camera attribute is left out");
+            diagnostics.warn(camera.path, row.name, messages::cameraAttributeLeftOut(problem));
     }
     checkTogether(camera.lens, camera.path, diagnostics);
 }

@@ -72,12 +72,9 @@ void warnOfInstances(const Instancer& instancer, float timeCode, Diagnostics& di
         if (problem.empty())
             problem = inverseProblem(dmat4(transformAt(instancer.transforms[i], timeCode)));
     }
-    if (outside)
-        diagnostics.warn(instancer.path, "protoIndices",
-                         "index out of range; the instance is not drawn");
+    if (outside) diagnostics.warn(instancer.path, "protoIndices", messages::prototypeOutOfRange);
     if (!problem.empty())
-        diagnostics.warn(instancer.path, "transform",
-                         "of an instance " + problem + "; that instance is not drawn");
+        diagnostics.warn(instancer.path, "transform", messages::instanceNotDrawn(problem));
 }
 
 } // namespace patina

@@ -164,9 +164,8 @@ void applyMarks(const Marks& marks, Marked& prim, const std::string& path,
                  : takeNumber(row, std::get<double>(found->second), prim))
             continue;
         diagnostics.warn(path, "primvars:" + found->first,
-                         row.kind == MarkKind::DiffuseTransmission
-                             ? "is not read; rays of this kind see the prim"
-                             : "has an unknown value; it is left out");
+                         row.kind == MarkKind::DiffuseTransmission ? messages::markNotRead
+                                                                   : messages::markUnknown);
     }
 }
 

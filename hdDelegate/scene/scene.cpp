@@ -74,17 +74,17 @@ template <class F> void SceneEdit::forMaps(PrimKind kind, const F& f) {
     if (wanted(PrimKind::Material)) f(_materials);
 }
 
-template <class T> bool SceneEdit::stands(const T& prim, PrimKind kind, const char* consequence) {
+template <class T>
+bool SceneEdit::stands(const T& prim, PrimKind kind, const MessageMaker<1>& what) {
     if (isPlace(prim.transform)) return true;
     if (_scene)
-        _scene->diagnostics().warn(prim.path, "transform",
-                                   placeProblem(prim.transform) + "; " + consequence);
+        _scene->diagnostics().warn(prim.path, "transform", what(placeProblem(prim.transform)));
     remove(prim.path, kind);
     return false;
 }
 
 void SceneEdit::set(std::shared_ptr<const Geometry> prim) {
-    if (prim && stands(*prim, PrimKind::Geometry, "the prim is not drawn"))
+    if (prim && stands(*prim, PrimKind::Geometry, messages::primTransformUnusable))
         _geometry[prim->path] = std::move(prim);
 }
 
@@ -93,7 +93,7 @@ void SceneEdit::set(std::shared_ptr<const Instancer> prim) {
 }
 
 void SceneEdit::set(std::shared_ptr<const Light> prim) {
-    if (prim && stands(*prim, PrimKind::Light, "the light is off"))
+    if (prim && stands(*prim, PrimKind::Light, messages::lightTransformUnusable))
         _lights[prim->path] = std::move(prim);
 }
 
@@ -110,8 +110,7 @@ void SceneEdit::setMetersPerUnit(double metersPerUnit) {
     if (std::isfinite(metersPerUnit) && metersPerUnit > 0.0)
         _metersPerUnit = metersPerUnit;
     else if (_scene)
-        _scene->diagnostics().warn("/", "metersPerUnit",
-                                   "is not a positive number; the value before is kept");
+        _scene->diagnostics().warn("/", "metersPerUnit", messages::metersPerUnitUnusable);
 }
 
 void SceneEdit::remove(const std::string& path, PrimKind kind) {

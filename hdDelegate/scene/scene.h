@@ -86,7 +86,7 @@ public:
     void commit();
 
 private:
-    template <class T> bool stands(const T& prim, PrimKind kind, const char* consequence);
+    template <class T> bool stands(const T& prim, PrimKind kind, const MessageMaker<1>& what);
     template <class F> void forMaps(PrimKind kind, const F& f);
 
     Scene* _scene;

@@ -61,9 +61,8 @@ void SceneLimits::report() {
     for (const Refused& refused : _refused)
         if (refused.count > 0)
             _diagnostics.warn(refused.first, "",
-                              "the scene has more " + std::string(refused.what) + " than " +
-                                  limitText(refused.limit) + "; the prim is left out, and " +
-                                  std::to_string(refused.count - 1) + " others");
+                              messages::scenePrimsTooMany(refused.what, limitText(refused.limit),
+                                                          refused.count - 1));
 }
 
 } // namespace patina

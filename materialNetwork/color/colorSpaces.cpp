@@ -150,13 +150,13 @@ namespace {
 
 struct Shared {
     std::unique_ptr<ColorSpaces> spaces;
-    std::string problem;
+    std::optional<Message> problem;
     Shared() {
         const char* file = std::getenv("OCIO");
         try {
             spaces = std::make_unique<ColorSpaces>(file ? file : "");
         } catch (const std::exception& e) {
-            problem = std::string(e.what()) + "; the built-in colour spaces are used";
+            problem = messages::ocioUnusable(e.what());
             spaces = std::make_unique<ColorSpaces>();
         }
     }
@@ -173,7 +173,7 @@ const ColorSpaces& ColorSpaces::shared() {
     return *sharedSpaces().spaces;
 }
 
-const std::string& ColorSpaces::sharedProblem() {
+const std::optional<Message>& ColorSpaces::sharedProblem() {
     return sharedSpaces().problem;
 }
 

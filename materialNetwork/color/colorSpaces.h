@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/messages.h"
+
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,7 +46,7 @@ public:
     /// The configuration that the environment variable OCIO names, else the built-in one.
     static const ColorSpaces& shared();
     /// Why the file that OCIO names could not be used by shared(); empty when all is well.
-    static const std::string& sharedProblem();
+    static const std::optional<Message>& sharedProblem();
 
     static bool isData(const std::string& name);
     /// @returns null for an unknown name

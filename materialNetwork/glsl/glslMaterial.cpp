@@ -44,12 +44,8 @@ public:
             line("vec3 lobeTransmittance[" + number(lobes) + "];");
         line("Frame frames[" + number(std::max(1, int(_code.frames.size()))) + "];");
         line("vec3 passThrough;");
-        for (const std::string& walks : glslWalksLeftOut(_code))
-            _out.leftOut.push_back(walks);
-        if (asksForDispersion())
-            _out.leftOut.push_back(
-                "chromatic dispersion is the path tracer's alone: all light bends as that of the "
-                "d line");
+        _out.leftOut = glslWalksLeftOut(_code);
+        if (asksForDispersion()) _out.leftOut.push_back(messages::dispersionLeftOut);
         instantiateFunction();
         setupFunction();
         presenceFunction();
@@ -265,8 +261,7 @@ private:
             const GlslProfileTable table(*op.profile);
             const size_t first = _out.parameters.size();
             if (first + table.values.size() > maxWithCurves) {
-                _out.leftOut.push_back(
-                    "there is no room for the profile of a measured_edf: it emits evenly");
+                _out.leftOut.push_back(messages::profileWithoutRoom);
                 break;
             }
             _out.parameters.insert(_out.parameters.end(), table.values.begin(), table.values.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/messages.h"
 #include "materialNetwork/glsl/glslTextures.h"
 #include "materialNetwork/ir/materialIr.h"
 
@@ -30,7 +31,7 @@ struct GlslMaterial {
     std::string traitsText;            ///< may follow: see glslTraits()
     std::vector<glm::vec4> parameters; ///< `vec4 parameters[]` of the text
     std::vector<GlslTexture> textures; ///< those of `texture0`...
-    std::vector<std::string> leftOut;  ///< patterns that have no GLSL: their value at one point
+    std::vector<Message> leftOut;      ///< patterns that have no GLSL: their value at one point
     bool presence = false;             ///< materialPresence() may be less than 1
     bool emission = false;
     bool hasColoredPresence = false; ///< what passes where the surface is absent may be coloured

@@ -157,18 +157,15 @@ std::string glslDefinitions(const MaterialIr& code) {
                             : film.definition("PATINA_FILM_METHOD(method)"));
 }
 
-std::vector<std::string> glslWalksLeftOut(const MaterialIr& code) {
-    std::vector<std::string> lines;
+std::vector<Message> glslWalksLeftOut(const MaterialIr& code) {
+    std::vector<Message> found;
     for (const LobeTemplate& t : code.lobes)
         if (t.walks && lobeHas(t.kind, lobe::Microfacet)) {
-            lines.push_back("energyCompensation=randomWalk is for the path tracer alone; "
-                            "turquin is shown");
+            found.push_back(messages::compensationReplaced);
             break;
         }
-    if (code.walkedLayers > 0)
-        lines.push_back("layering=positionFree is for the path tracer alone; "
-                        "returned is shown");
-    return lines;
+    if (code.walkedLayers > 0) found.push_back(messages::layeringReplaced);
+    return found;
 }
 
 } // namespace patina

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/messages.h"
 #include "materialNetwork/ir/materialIr.h"
 
 #include <string>
@@ -35,6 +36,6 @@ std::string glslDefinitions(const MaterialIr& code);
 
 /// @returns a line for each method of the program that walks, whose values are random and not
 /// GLSL's
-std::vector<std::string> glslWalksLeftOut(const MaterialIr& code);
+std::vector<Message> glslWalksLeftOut(const MaterialIr& code);
 
 } // namespace patina

@@ -28,20 +28,17 @@ int addTable(const GlslTexture& texture, std::vector<glm::vec4>& parameters) {
 
 std::string glslTextureText(const std::vector<int>& handles, const TextureSource* source,
                             bool arrays, std::vector<GlslTexture>& textures,
-                            std::vector<glm::vec4>& parameters, std::vector<std::string>& leftOut) {
+                            std::vector<glm::vec4>& parameters, std::vector<Message>& leftOut) {
     const bool many = arrays && int(handles.size()) > glslTextureUnits;
     const int last = glslTextureUnits - 1;
-    if (many)
-        leftOut.push_back("more than " + std::to_string(glslTextureUnits) +
-                          " textures: those beyond the " + std::to_string(last) +
-                          "th are shown at one common size");
+    if (many) leftOut.push_back(messages::texturesShareSize(glslTextureUnits, last));
     std::string samplers, functions, reads;
     int layers = 0;
     bool used = false;
     for (size_t i = 0; i < handles.size(); ++i) {
         TextureTiling tiling = source ? source->tiling(handles[i]) : TextureTiling();
         if (!arrays && !tiling.tiles.empty()) {
-            leftOut.push_back("UDIM tiles: the first is shown everywhere");
+            leftOut.push_back(messages::firstTileShown);
             tiling.tiles.clear();
         }
         GlslTexture t;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/messages.h"
 #include "materialNetwork/textureSource.h"
 
 #include <glm/glm.hpp>
@@ -31,6 +32,6 @@ constexpr int glslTextureUnits = 16;
 ///        units than OpenGL promises
 std::string glslTextureText(const std::vector<int>& handles, const TextureSource* source,
                             bool arrays, std::vector<GlslTexture>& textures,
-                            std::vector<glm::vec4>& parameters, std::vector<std::string>& leftOut);
+                            std::vector<glm::vec4>& parameters, std::vector<Message>& leftOut);
 
 } // namespace patina

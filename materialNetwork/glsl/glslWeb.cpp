@@ -83,7 +83,7 @@ GlslWebMaterial makeGlslWebMaterial(const MaterialIr& ir) {
     out.leftOut = desktop.leftOut;
     const auto isNumber = [](const glm::vec4& v) { return !glm::any(glm::isnan(v)); };
     if (!std::all_of(desktop.parameters.begin(), desktop.parameters.end(), isNumber))
-        out.leftOut.push_back("a value that is not a number counts as 0");
+        out.leftOut.push_back(messages::notANumberIsZero);
     out.presence = desktop.presence;
     out.emission = desktop.emission;
     // Every text defines it for what stands before; without curves and tiles nobody asks for a

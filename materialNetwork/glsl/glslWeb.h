@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/messages.h"
 #include "materialNetwork/ir/materialIr.h"
 
 #include <glm/glm.hpp>
@@ -17,8 +18,8 @@ namespace patina {
 /// defines before the text. No string of a scene is part of it.
 struct GlslWebMaterial {
     std::string text;
-    std::vector<int> textures;        ///< TextureSource handle of each `sampler<i>`
-    std::vector<std::string> leftOut; ///< as GlslMaterial::leftOut, and NaN that became 0
+    std::vector<int> textures;    ///< TextureSource handle of each `sampler<i>`
+    std::vector<Message> leftOut; ///< as GlslMaterial::leftOut, and NaN that became 0
     /// Texels of a row `parameterTable`, where the text finds parameters by a number that it works
     /// out; else empty.
     std::vector<glm::vec4> parameters;

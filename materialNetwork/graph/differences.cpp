@@ -71,8 +71,7 @@ private:
 
     Operand slopeOf(const GraphNode& node) {
         if (_out.nodes.size() > maxNodes) {
-            _diagnostics.warn(node.path, "in",
-                              "too much would have to be evaluated for its slope; it is flat");
+            _diagnostics.warn(node.path, "in", messages::slopeTooLarge);
             return add(node);
         }
         const auto along = [&](int input, float axis) {
@@ -98,8 +97,7 @@ private:
         const std::string& filter = node.inputs[2].value.text;
         const bool gaussian = filter == "gaussian";
         if (!gaussian && filter != "box")
-            _diagnostics.warn(node.path, "filtertype",
-                              "'" + filter + "' is not known; box is used");
+            _diagnostics.warn(node.path, "filtertype", messages::wordUnknown(filter, "box"));
         float constantSize = 1.0f;
         if (in.isConstant()) return add(node);
         if (constantNumber(size, constantSize) && !(constantSize > 0.0f)) return in;
@@ -109,9 +107,7 @@ private:
         Operand sum;
         for (int i = 0; i < blurTaps; ++i) {
             if (_out.nodes.size() > maxNodes) {
-                _diagnostics.warn(node.path, "in",
-                                  "too much would have to be evaluated to blur it; "
-                                  "the input is not blurred");
+                _diagnostics.warn(node.path, "in", messages::blurTooLarge);
                 return in;
             }
             const Operand tap = moved(in, [&](const Operand& read, ValueType type, bool world) {

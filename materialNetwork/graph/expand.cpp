@@ -41,12 +41,10 @@ public:
             // Definitions that use others twice, those others twice, and so on.
             if (_nodes > _maxNodes)
                 _diagnostics.warn(_network.path, "",
-                                  "the material expands to more nodes than " +
-                                      limitText(Limit::nodes) + "; it is left out");
+                                  messages::nodesTooMany(limitText(Limit::nodes)));
             else
                 _diagnostics.warn(_network.path, "",
-                                  "the names and texts of the material take more bytes than " +
-                                      limitText(Limit::documentBytes) + "; it is left out");
+                                  messages::materialTextTooLong(limitText(Limit::documentBytes)));
             Network nothing;
             nothing.path = _network.path;
             return nothing;
@@ -83,9 +81,7 @@ private:
         if (model && depth >= maxDepth) {
             // Of many such nodes one is named.
             if (_tooDeep.empty())
-                _diagnostics.warn(node.path, "",
-                                  "models are nested too deeply (does " + node.id +
-                                      " contain itself?); the node is left out");
+                _diagnostics.warn(node.path, "", messages::modelsTooDeep(node.id));
             _tooDeep.insert(node.path);
             return;
         }
@@ -116,15 +112,14 @@ private:
         const auto check = [&](const std::string& input, const Value* value) {
             const int i = model.def.findInput(input);
             if (i < 0) {
-                _diagnostics.warn(node.path, input, node.id + " has no such input; it is ignored");
+                _diagnostics.warn(node.path, input, messages::inputMissing(node.id));
                 return;
             }
             const InputDef& def = model.def.inputs[size_t(i)];
             if (def.notModelled.empty() || !_asked) return;
             const auto c = node.connections.find(input);
             if (!(value ? value->numbers == def.value.numbers : foldsTo(c->second, def.value)))
-                _diagnostics.warn(node.path, input,
-                                  def.notModelled + " is not modelled; the input is ignored");
+                _diagnostics.warn(node.path, input, messages::inputNotModelled(def.notModelled));
         };
         for (const auto& [input, value] : node.inputs)
             if (!node.connections.count(input)) check(input, &value);
@@ -213,12 +208,10 @@ private:
         const auto v = outer.inputs.find(def.name);
         if (v == outer.inputs.end()) return withTokens(def.value);
         Value value;
-        std::string problem;
+        std::optional<Message> problem;
         const bool usable = coerceValue(v->second, def, value, problem);
-        if (usable && !problem.empty()) _diagnostics.warn(outer.path, def.name, problem);
-        if (usable) return value;
-        _diagnostics.warn(outer.path, def.name, problem + "; the default is used");
-        return def.value;
+        if (problem) _diagnostics.warn(outer.path, def.name, *problem);
+        return usable ? value : def.value;
     }
 
     std::string dot(const NetworkNode& outer, const InputDef& def, const Connection& c, int depth) {
@@ -246,8 +239,7 @@ private:
             const auto out =
                 i < 0 ? model.outputs.end() : model.outputs.find(model.def.outputs[size_t(i)].name);
             if (out == model.outputs.end()) {
-                _diagnostics.warn(c.node, c.output,
-                                  model.def.category + " has no such output; the default is used");
+                _diagnostics.warn(c.node, c.output, messages::outputMissing(model.def.category));
                 c = {};
                 return true;
             }
@@ -282,8 +274,7 @@ std::optional<Network> withoutLongTexts(const Network& network, Diagnostics& dia
         for (const auto& [input, value] : network.nodes[i].inputs) {
             if (value.text.size() <= most) continue;
             diagnostics.warn(network.nodes[i].path, input,
-                             "the text is longer than " + limitText(Limit::textLength) +
-                                 "; the default is used");
+                             messages::textTooLong(limitText(Limit::textLength)));
             if (!result) result = network;
             result->nodes[i].inputs.erase(input);
         }

@@ -23,9 +23,6 @@ int maxChain() {
 int maxHeight() {
     return 3 * maxChain();
 }
-std::string tooLong() {
-    return "more nodes follow each other than " + limitText(Limit::chain);
-}
 
 class GraphBuilder {
 public:
@@ -40,11 +37,11 @@ public:
         for (const auto& [name, c] : _network.terminals) {
             if (c.node.empty()) continue;
             Operand operand;
-            std::string problem;
-            if (follow(c, operand, problem))
+            std::optional<Message> problem;
+            if (follow(c, "the terminal is ignored", operand, problem))
                 _graph.terminals[name] = operand;
             else
-                _diagnostics.warn(_network.path, name, problem + "; the terminal is ignored");
+                _diagnostics.warn(_network.path, name, *problem);
         }
         return insertDifferences(_graph, _diagnostics);
     }
@@ -54,26 +51,28 @@ private:
     static constexpr int unusable = -3;
 
     /// Reports a problem of an input. The "dot" of a model's input is named "node.input".
-    void warn(const std::string& path, const std::string& input, const std::string& message) {
+    void warn(const std::string& path, const std::string& input, const Message& what) {
         const size_t slash = path.rfind('/');
         const size_t point = path.find('.', slash == std::string::npos ? 0 : slash);
         if (point != std::string::npos && input == "in")
-            _diagnostics.warn(path.substr(0, point), path.substr(point + 1), message);
+            _diagnostics.warn(path.substr(0, point), path.substr(point + 1), what);
         else
-            _diagnostics.warn(path, input, message);
+            _diagnostics.warn(path, input, what);
     }
 
-    bool follow(const Connection& c, Operand& out, std::string& problem) {
-        const int node = build(c.node, problem);
+    /// @param used what is taken where there is a problem, in words
+    bool follow(const Connection& c, const char* used, Operand& out,
+                std::optional<Message>& problem) {
+        const int node = build(c.node, used, problem);
         if (node < 0) return false;
         if (heightOf(node) > maxHeight()) {
-            problem = tooLong();
+            problem = messages::chainTooLong(limitText(Limit::chain), used);
             return false;
         }
         const NodeDef& def = *_graph.nodes[size_t(node)].def;
         const int output = def.findOutput(c.output);
         if (output < 0) {
-            problem = "node " + c.node + " (" + def.category + ") has no output '" + c.output + "'";
+            problem = messages::sourceWithoutOutput(c.node, def.category, c.output, used);
             return false;
         }
         out.node = node;
@@ -81,32 +80,32 @@ private:
         return true;
     }
 
-    int build(const std::string& path, std::string& problem) {
+    int build(const std::string& path, const char* used, std::optional<Message>& problem) {
         const auto known = _built.find(path);
         if (known != _built.end()) {
             if (known->second == inProgress)
-                problem = "connections form a cycle through " + path;
+                problem = messages::sourceCycle(path, used);
             else if (known->second == unusable)
-                problem = "node " + path + " is not usable";
+                problem = messages::sourceUnusable(path, used);
             return known->second;
         }
         const auto source = _source.find(path);
         if (source == _source.end()) {
-            problem = path.empty() ? "connected to nothing" : "node " + path + " does not exist";
+            problem =
+                path.empty() ? messages::sourceUnnamed(used) : messages::sourceMissing(path, used);
             return unusable;
         }
         const NetworkNode& node = *source->second;
         const NodeDef* def = NodeTable::get().find(node.id);
         if (!def) {
             const char* reason = whyNotDrawn(node.id);
-            problem = "node " + path +
-                      (reason ? " (" + node.id + ") is not drawn: " + reason
-                              : " has the unknown type '" + node.id + "'");
+            problem = reason ? messages::nodeNotDrawn(path, node.id, reason, used)
+                             : messages::nodeTypeUnknown(path, node.id, used);
             _built[path] = unusable;
             return unusable;
         }
         if (_depth > maxChain()) {
-            problem = tooLong();
+            problem = messages::chainTooLong(limitText(Limit::chain), used);
             return unusable;
         }
         _built[path] = inProgress;
@@ -139,8 +138,7 @@ private:
             result.authored.push_back(authored);
         }
         const auto check = [&](const std::string& input) {
-            if (def.findInput(input) < 0)
-                warn(node.path, input, def.id + " has no such input; it is ignored");
+            if (def.findInput(input) < 0) warn(node.path, input, messages::inputMissing(def.id));
         };
         for (const auto& [input, value] : node.inputs)
             check(input);
@@ -154,31 +152,28 @@ private:
         Operand operand;
         const auto c = node.connections.find(input.name);
         if (c != node.connections.end()) {
-            std::string problem;
-            if (follow(c->second, operand, problem)) {
+            // The dot of a model's input carries the model's default as its value.
+            const char* used = node.inputs.count(input.name) > 0
+                                   ? "its own value or default is used"
+                                   : "the default is used";
+            std::optional<Message> problem;
+            if (follow(c->second, used, operand, problem)) {
                 if (convert(operand, input.type, node.path)) {
                     authored = true;
                     return operand;
                 }
-                problem = std::string("type mismatch: ") + outputTypeName(operand) +
-                          " connected, " + valueTypeName(input.type) + " expected";
+                problem = messages::sourceTypeDiffers(outputTypeName(operand),
+                                                      valueTypeName(input.type), used);
             }
-            // The dot of a model's input carries the model's default as its value.
-            const bool valued = node.inputs.count(input.name) > 0;
-            warn(node.path, input.name,
-                 problem +
-                     (valued ? "; its own value or default is used" : "; the default is used"));
+            warn(node.path, input.name, *problem);
         }
         operand = Operand();
         const auto v = node.inputs.find(input.name);
         if (v != node.inputs.end()) {
-            std::string problem;
-            if (coerceValue(v->second, input, operand.value, problem)) {
-                if (!problem.empty()) warn(node.path, input.name, problem);
-                authored = true;
-                return operand;
-            }
-            warn(node.path, input.name, problem + "; the default is used");
+            std::optional<Message> problem;
+            authored = coerceValue(v->second, input, operand.value, problem);
+            if (problem) warn(node.path, input.name, *problem);
+            if (authored) return operand;
         }
         if (!input.geomprop.empty()) return geomprop(input);
         operand.value = input.value;

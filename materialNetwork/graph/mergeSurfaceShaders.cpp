@@ -182,7 +182,7 @@ private:
         else {
             s.changed = true; // to a black one; nobody complains twice
             _diagnostics.warn(pathOf(operand), "surface",
-                              nodeOf(operand).def->category + " is not a surface; black is shown");
+                              messages::noSurface(nodeOf(operand).def->category));
         }
         return s;
     }
@@ -317,8 +317,7 @@ private:
         }
         default:
             _diagnostics.warn(pathOf(operand), "displacement",
-                              nodeOf(operand).def->category +
-                                  " is not a displacement; it is ignored");
+                              messages::noDisplacement(nodeOf(operand).def->category));
             return d;
         }
     }
@@ -352,7 +351,7 @@ private:
             v.vdf = operand;
         else
             _diagnostics.warn(pathOf(operand), "volume",
-                              nodeOf(operand).def->category + " is not a volume; it is ignored");
+                              messages::noVolume(nodeOf(operand).def->category));
         return v;
     }
 

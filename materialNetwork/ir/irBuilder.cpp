@@ -38,8 +38,8 @@ public:
         list.push_back({name, type});
         return int(list.size()) - 1;
     }
-    void warn(const char* input, const std::string& message) override {
-        _b._diagnostics.warn(_b.nodeOf(_index).path, input, message);
+    void warn(const char* input, const Message& what) override {
+        _b._diagnostics.warn(_b.nodeOf(_index).path, input, what);
     }
 
 private:
@@ -164,7 +164,7 @@ MaterialIr IrBuilder::build() {
             _register[i] = allocate(count);
         }
     if (_overflow) {
-        _diagnostics.warn(_plan.graph.path, "", "the material is too large; black is shown");
+        _diagnostics.warn(_plan.graph.path, "", messages::materialTooLarge);
         Plan empty;
         empty.opacity.value = Value::makeFloat(1.0f);
         return IrBuilder(empty, _textures, _diagnostics).build();

@@ -69,7 +69,7 @@ std::shared_ptr<const EmissionProfile> IrBuilder::profile(const PlanClosure& clo
     const std::string& prim = nodeOf(closure.node).path;
     const Operand& file = closureInput(_plan, closure, "file");
     if (!file.isConstant() || file.value.text.empty()) {
-        _diagnostics.warn(prim, "file", "names no IES file; it emits the same everywhere");
+        _diagnostics.warn(prim, "file", messages::noIesFile);
         return nullptr;
     }
     TextureRequest request;
@@ -138,9 +138,7 @@ void IrBuilder::markVastTops(const std::vector<ClosureOp>& ops) {
         _ir.topsAreVast |= ops[i].kind == ClosureKind::Layer && ways[i] == mostWays;
     }
     if (_ir.topsAreVast && chosenMethod(_plan.methods, "layering") != "albedoScaling")
-        _diagnostics.warn(_plan.graph.path, "",
-                          "its layers share too many closures; light that they send back down is "
-                          "left out, as by the method layering=albedoScaling");
+        _diagnostics.warn(_plan.graph.path, "", messages::layersTooMany);
 }
 
 void IrBuilder::markLobes(std::vector<ClosureOp>& ops) const {

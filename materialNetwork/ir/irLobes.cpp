@@ -37,8 +37,7 @@ int IrBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bool>& 
             frames[i].flips == f.flips && frames[i].bends == f.bends)
             return int(i);
     if (int(frames.size()) >= MaterialIr::maxFrames) {
-        _diagnostics.warn(nodeOf(closure.node).path, "normal",
-                          "the material has too many different normals; the first is used");
+        _diagnostics.warn(nodeOf(closure.node).path, "normal", messages::normalsTooMany);
         return 0;
     }
     frames.push_back(f);
@@ -49,9 +48,7 @@ void IrBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasInside,
                      std::vector<bool>& needed) {
     const GraphNode& node = nodeOf(closure.node);
     if (int(_ir.lobes.size()) >= MaterialIr::maxLobes) {
-        _diagnostics.warn(node.path, "",
-                          "the material has more than " + std::to_string(MaterialIr::maxLobes) +
-                              " lobes; this one is left out");
+        _diagnostics.warn(node.path, "", messages::lobesTooMany(MaterialIr::maxLobes));
         return;
     }
     LobeTemplate t;

@@ -87,7 +87,7 @@ private:
         if (type.empty()) {
             const std::string name = owner.attribute("name").value();
             _diagnostics.warn(_path + ":/" + name, isOutput ? "" : port.attribute("name").value(),
-                              "the channels of this connection are unknown and are ignored");
+                              messages::channelsUnknown);
             return;
         }
         if (type == "float" && wanted == "float") return;

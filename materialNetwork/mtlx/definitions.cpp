@@ -70,8 +70,7 @@ void MtlxParser::readDef(const Element& element, NodeDef& def, int depth) {
             def = *library;
         else
             _diagnostics.warn(where(element), "inherit",
-                              std::string("there is no definition '") + parent.value() +
-                                  "' to inherit from; only its own inputs and outputs are used");
+                              messages::definitionMissing(parent.value()));
     }
     if (!hasRoom(sizeof(InputDef) * def.inputs.size())) def.inputs.clear();
     Heirs<InputDef> inputs(def.inputs);
@@ -111,9 +110,7 @@ void MtlxParser::readGeomprops(const Element& root) {
         if (NodeTable::get().find(geompropNode(custom).id))
             _geomprops[name] = custom;
         else
-            _diagnostics.warn(where(child), "geomprop",
-                              "there is no such property of the geometry; inputs that default to "
-                              "it are 0");
+            _diagnostics.warn(where(child), "geomprop", messages::geompropMissing);
     }
 }
 
@@ -172,8 +169,7 @@ std::string MtlxParser::findDefinition(const Element& element, const std::string
         const std::string& found = best.model()->version;
         if (!version.empty() && !found.empty() && found != version)
             _diagnostics.warn(where(element), "version",
-                              "there is no version " + version + " of " + category + "; version " +
-                                  found + " is used");
+                              messages::versionMissing(version, category, found));
         return best.model()->def.id;
     }
     if (def) return def->id;

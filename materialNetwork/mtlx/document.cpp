@@ -16,12 +16,12 @@ bool parseMtlx(const std::string& text, const std::string& path, bool wantMateri
     pugi::xml_document xml;
     std::string problem;
     if (!loadXml(text, xml, problem, limitOf(Limit::markup))) {
-        diagnostics.warn(path, "", problem + "; the document is ignored");
+        diagnostics.warn(path, "", messages::documentIgnored(problem));
         return false;
     }
     pugi::xml_node root = xml.child("materialx");
     if (!root) {
-        diagnostics.warn(path, "", "no <materialx> element; the document is ignored");
+        diagnostics.warn(path, "", messages::noMaterialx);
         return false;
     }
     includeDocuments(root, path, markupOf(text), diagnostics);
@@ -34,7 +34,7 @@ std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics,
                               double metersPerUnit) {
     std::string text, problem;
     if (!readRegularFile(path, Limit::documentBytes, text, problem)) {
-        diagnostics.warn(path, "", "the file " + problem);
+        diagnostics.warn(path, "", messages::fileUnreadable(problem));
         return {};
     }
     MtlxDocument document;
@@ -62,9 +62,7 @@ std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics,
     }
     if (leftOut)
         diagnostics.warn(path, "",
-                         "the materials expand to more nodes than five times " +
-                             limitText(Limit::nodes) + "; the last " + std::to_string(leftOut) +
-                             " are left out");
+                         messages::expandedNodesTooMany(limitText(Limit::nodes), leftOut));
     return std::move(document.materials);
 }
 
@@ -75,7 +73,7 @@ const ShadingModel* MtlxDefinitions::find(const std::string& file, const std::st
     std::string text, problem;
     if (_read.insert(file).second) {
         if (!readRegularFile(file, Limit::documentBytes, text, problem))
-            diagnostics.warn(file, "", "the file " + problem);
+            diagnostics.warn(file, "", messages::fileUnreadable(problem));
         else
             parseMtlx(text, file, true, document, diagnostics); // so that they may use the library
     }

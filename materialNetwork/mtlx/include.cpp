@@ -48,21 +48,17 @@ private:
             fs::path(name).is_absolute() ? fs::path(name) : fs::path(path).parent_path() / name;
         const std::string target = file.lexically_normal().string();
         if (_open.count(canonical(target))) {
-            _diagnostics.warn(path, "",
-                              "the document includes itself through " + name +
-                                  "; that include is left out");
+            _diagnostics.warn(path, "", messages::includesItself(name));
             return;
         }
         if (++_documents > limitOf(Limit::includes)) {
             _diagnostics.warn(path, "",
-                              "there are more included documents than " +
-                                  limitText(Limit::includes) + "; " + name + " is left out");
+                              messages::includesTooMany(limitText(Limit::includes), name));
             return;
         }
         if (_open.size() > limitOf(Limit::includeDepth)) {
             _diagnostics.warn(path, "",
-                              "included documents are more levels deep than " +
-                                  limitText(Limit::includeDepth) + "; " + name + " is left out");
+                              messages::includesTooDeep(limitText(Limit::includeDepth), name));
             return;
         }
         if (_files) _files->push_back(target);
@@ -77,8 +73,7 @@ private:
         const pugi::xml_node included = xml.child("materialx");
         if (problem.empty() && !included) problem = "is no MaterialX document";
         if (!problem.empty()) {
-            _diagnostics.warn(
-                path, "", "the included document '" + name + "' " + problem + "; it is left out");
+            _diagnostics.warn(path, "", messages::includeUnusable(name, problem));
             return;
         }
         run(included, target);

@@ -55,8 +55,7 @@ bool MtlxParser::connect(const Element& port, const Scope& scope, Connection& ou
     const auto graph = _graphs.find(referenced(port, graphName.value(), _graphs));
     if (graph == _graphs.end()) {
         _diagnostics.warn(where(port.parent()), port.attribute("name").value(),
-                          std::string("node graph '") + graphName.value() +
-                              "' does not exist; the default is used");
+                          messages::nodeGraphMissing(graphName.value()));
         return false;
     }
     const Element first = graph->second.child("output");
@@ -74,8 +73,7 @@ bool MtlxParser::connect(const Element& port, const Scope& scope, Connection& ou
             return found;
         }
     _diagnostics.warn(where(port.parent()), port.attribute("name").value(),
-                      std::string("node graph '") + graphName.value() + "' has no output '" +
-                          output + "'; the default is used");
+                      messages::nodeGraphWithoutOutput(graphName.value(), output));
     return false;
 }
 
@@ -93,8 +91,7 @@ bool MtlxParser::connectInterface(const Element& port, const Scope& scope, Netwo
             take(child, outer, node, name);
             return true;
         }
-    _diagnostics.warn(where(port.parent()), name,
-                      "the graph has no input '" + interface + "'; the default is used");
+    _diagnostics.warn(where(port.parent()), name, messages::graphWithoutInput(interface));
     return true;
 }
 
@@ -129,8 +126,7 @@ bool MtlxParser::hasRoom(size_t bytes) {
     _bytes += bytes;
     if (_bytes > most)
         _diagnostics.warn(_path, "",
-                          "the names and texts of its nodes take more bytes than " +
-                              limitText(Limit::documentBytes) + "; what follows is left out");
+                          messages::documentTextTooLong(limitText(Limit::documentBytes)));
     return _bytes <= most;
 }
 
@@ -197,9 +193,7 @@ void MtlxParser::readMaterials(const Element& root, MtlxDocument& out) {
         const std::string type = child.attribute("type").value();
         const std::string name = child.attribute("name").value();
         if (!isNode(child)) continue;
-        if (type == "lightshader")
-            _diagnostics.warn(where(child), "",
-                              "lights of documents are not drawn; the node is ignored");
+        if (type == "lightshader") _diagnostics.warn(where(child), "", messages::documentLights);
         if (type == "material" && std::strcmp(child.name(), "surfacematerial") != 0 &&
             std::strcmp(child.name(), "volumematerial") != 0)
             addMaterial(name).terminals["surface"] = {"/" + name, ""};
@@ -225,9 +219,7 @@ void MtlxParser::readMaterials(const Element& root, MtlxDocument& out) {
             }
     if (const size_t leftOut = giveNodes(nodes, out.materials))
         _diagnostics.warn(_path, "",
-                          "the materials have more nodes than five times " +
-                              limitText(Limit::nodes) + "; " + std::to_string(leftOut) +
-                              " of them are left out");
+                          messages::documentNodesTooMany(limitText(Limit::nodes), leftOut));
     const auto before139 = [&](const std::string& path) { return _before139.count(path) > 0; };
     for (Network& material : out.materials)
         upgradeNodes(material.nodes, material.terminals, before139, _diagnostics);

@@ -48,8 +48,7 @@ double MtlxParser::factorOf(const Element& port, const std::string& id,
     const Unit unit = own == _units.end() ? unitOf(name) : own->second;
     if (unit.kind == Unit::Kind::Unknown)
         _diagnostics.warn(where(port.parent()), port.attribute("name").value(),
-                          "there is no unit '" + name +
-                              "' of a distance or an angle; the number is used as it is");
+                          messages::unitUnknown(name));
     return unitFactor(unit, id, input, _metersPerUnit);
 }
 

@@ -60,9 +60,7 @@ Network translateMaterial(const Network& network, const std::string& target,
     const ShadingModel* wanted = library.find(target);
     if (!model || !wanted) {
         diagnostics.warn(surface ? surface->path : network.path, "",
-                         !wanted ? "there is no shading model " + target
-                                 : std::string("the surface is no shading model, so it cannot be "
-                                               "translated"));
+                         !wanted ? messages::modelMissing(target) : messages::surfaceNoModel());
         return empty;
     }
     const std::string& source = model->def.category;
@@ -74,8 +72,7 @@ Network translateMaterial(const Network& network, const std::string& target,
     } else {
         steps = {translator(source, hub), translator(hub, target)};
         if (!steps[0] || !steps[1]) {
-            diagnostics.warn(surface->path, "",
-                             "there is no translation from " + source + " to " + target);
+            diagnostics.warn(surface->path, "", messages::translationMissing(source, target));
             return empty;
         }
     }

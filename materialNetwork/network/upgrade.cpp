@@ -114,8 +114,7 @@ private:
         const auto given = node.inputs.find("channels");
         const std::string channels = given == node.inputs.end() ? "" : given->second.text;
         if (node.connections.count("channels"))
-            _diagnostics.warn(node.path, "channels",
-                              "the channels come from a connection; the first one is used");
+            _diagnostics.warn(node.path, "channels", messages::channelsConnected);
         const NetworkNode source = std::move(node);
         node = {};
         node.path = source.path;
@@ -272,8 +271,7 @@ private:
                 *end->second = {material.path, "out"};
         }
         if (materials == lastMaterial && ends == lastEnd)
-            _diagnostics.warn(front, "back_bsdf",
-                              "the back of a thin_surface that no material uses is left out");
+            _diagnostics.warn(front, "back_bsdf", messages::thinSurfaceUnused);
     }
     static void side(const NetworkNode& thin, const std::string& which, NetworkNode& surface) {
         copy(thin, which + "_bsdf", surface, "bsdf");

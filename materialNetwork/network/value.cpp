@@ -36,8 +36,9 @@ Coercion coercion(ValueType from, ValueType to) {
     return n == 2 && m == 3 ? Coercion::Append : Coercion::None;
 }
 
-bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string& problem) {
-    problem.clear();
+bool coerceValue(const Value& from, const InputDef& to, Value& out,
+                 std::optional<Message>& problem) {
+    problem.reset();
     out = from;
     out.type = to.type;
     if (from.type == ValueType::String && isNumeric(to.type)) {
@@ -47,25 +48,24 @@ bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string&
                 out.text.clear();
                 return true;
             }
-        problem = "'" + from.text + "' is not " + valueTypeName(to.type);
+        problem = messages::textUnfit(from.text, valueTypeName(to.type));
         return false;
     }
     const Coercion c = coercion(from.type, to.type);
     if (c == Coercion::None) {
-        problem = std::string("type mismatch: ") + valueTypeName(from.type) + " given, " +
-                  valueTypeName(to.type) + " expected";
+        problem = messages::valueTypeDiffers(valueTypeName(from.type), valueTypeName(to.type));
         return false;
     }
     if (!isNumeric(to.type)) return true;
     const auto finite = [&](const std::vector<float>& numbers) {
         for (const float x : numbers)
-            if (!std::isfinite(x)) problem = "the value is not a finite number";
-        return problem.empty();
+            if (!std::isfinite(x)) problem = messages::valueNotFinite;
+        return !problem;
     };
     if (!finite(from.numbers)) return false;
     const size_t n = size_t(valueTypeComponents(to.type));
     if (from.numbers.empty()) {
-        problem = "no value given";
+        problem = messages::valueMissing;
         return false;
     }
     const float fill = from.numbers.size() == 1   ? from.numbers[0]
@@ -76,8 +76,7 @@ bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string&
         const bool known =
             ColorSpaces::shared().valueToRendering(from.colorSpace, out.numbers.data());
         if (!finite(out.numbers)) return false; // curves may overflow
-        if (!known)
-            problem = "unknown colour space '" + from.colorSpace + "'; the value is used as it is";
+        if (!known) problem = messages::valueSpaceUnknown(from.colorSpace);
     }
     if (to.type != ValueType::Filename) out.colorSpace.clear();
     return true;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/messages.h"
 #include "materialNetwork/nodes/nodeDef.h"
 
 #include <glm/glm.hpp>
 
+#include <optional>
 #include <string>
 
 namespace patina {
@@ -22,7 +24,8 @@ Coercion coercion(ValueType from, ValueType to);
 /// to 3), names of an enumeration to numbers, colours to linear Rec.709.
 /// @param problem says what is wrong when false is returned; with true it is empty, or says that
 /// the colour space is not known and the value is used as it is
-bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string& problem);
+bool coerceValue(const Value& from, const InputDef& to, Value& out,
+                 std::optional<Message>& problem);
 
 /// Registers that a value of this type takes: one per row of a matrix, else one.
 int registerCount(ValueType type);

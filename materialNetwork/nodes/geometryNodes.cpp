@@ -13,7 +13,7 @@ void prepareSpace(PatternSetup& setup, PatternData& data) {
     const std::string space = setup.text("space");
     data.mode = space == "world" ? sh::SPACE_WORLD : sh::SPACE_OBJECT;
     if (space != "world" && space != "object" && space != "model")
-        setup.warn("space", "unknown space '" + space + "'; object space is used");
+        setup.warn("space", messages::objectSpaceUsed(space));
 }
 
 void prepareTexcoord(PatternSetup& setup, PatternData& data) {
@@ -37,7 +37,7 @@ void prepareNamed(PatternSetup& setup, PatternData& data, const char* input) {
     const Value* fallback =
         setup.constant(input == std::string("varname") ? "fallback" : "default");
     if (name.empty())
-        setup.warn(input, "no primvar is named; the fallback is used");
+        setup.warn(input, messages::primvarUnnamed);
     else
         data.slot = setup.primvarSlot(name, fallback ? fallback->type : ValueType::Vec4);
 }
@@ -49,10 +49,10 @@ void prepareVarname(PatternSetup& setup, PatternData& data) {
 }
 
 void prepareFallback(PatternSetup& setup, PatternData&) {
-    setup.warn("varname", "primvars of this type are not read; the fallback is used");
+    setup.warn("varname", messages::primvarTypeFallback);
 }
 void prepareUniform(PatternSetup& setup, PatternData&) {
-    setup.warn("geomprop", "primvars of this type are not read; the default is used");
+    setup.warn("geomprop", messages::primvarTypeDefault);
 }
 
 #define PATINA_NODE_ROWS

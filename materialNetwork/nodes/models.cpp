@@ -27,16 +27,14 @@ ModelLibrary::ModelLibrary() {
             for (fs::directory_iterator it(folder, error), end; !error && it != end;
                  it.increment(error))
                 if (it->path().extension() == ".mtlx") files.push_back(it->path());
-            if (error)
-                _diagnostics.warn(folder, "PATINA_MODEL_PATH",
-                                  "the folder cannot be read; it is left out");
+            if (error) _diagnostics.warn(folder, "PATINA_MODEL_PATH", messages::folderUnreadable);
             std::sort(files.begin(), files.end());
             for (const fs::path& file : files) {
                 std::string text, problem;
                 if (readRegularFile(file.string(), Limit::documentBytes, text, problem))
                     add(text, file.string());
                 else
-                    _diagnostics.warn(file.string(), "", "the file " + problem);
+                    _diagnostics.warn(file.string(), "", messages::fileUnreadable(problem));
             }
         }
     }

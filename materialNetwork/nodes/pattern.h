@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/messages.h"
 #include "materialNetwork/shadingPoint.h"
 #include "materialNetwork/textureSource.h"
 #include "materialNetwork/network/network.h"
@@ -136,7 +137,7 @@ public:
     virtual int openTexture(const TextureRequest& request) = 0;
     virtual bool textureValid(int handle) const = 0;
     virtual int primvarSlot(const std::string& name, ValueType type) = 0;
-    virtual void warn(const char* input, const std::string& message) = 0;
+    virtual void warn(const char* input, const Message& what) = 0;
 
     std::string text(const char* input) const {
         const Value* v = constant(input);

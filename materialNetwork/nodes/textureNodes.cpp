@@ -13,8 +13,7 @@ TextureWrap addressMode(PatternSetup& setup, const char* input) {
     const std::string mode = setup.text(input);
     if (mode == "constant" || mode == "clamp") return TextureWrap::Clamp;
     if (mode == "mirror") return TextureWrap::Mirror;
-    if (mode != "periodic" && !mode.empty())
-        setup.warn(input, "unknown address mode '" + mode + "'; periodic is used");
+    if (mode != "periodic" && !mode.empty()) setup.warn(input, messages::addressModeUnknown(mode));
     return TextureWrap::Repeat;
 }
 
@@ -27,11 +26,11 @@ int openImage(PatternSetup& setup, const char* input) {
     TextureRequest request;
     const Value* file = setup.constant(input);
     if (!file) {
-        setup.warn(input, "the file name varies over the surface; the default is used");
+        setup.warn(input, messages::fileNameVaries);
         return -1;
     }
     if (file->text.empty()) {
-        setup.warn(input, "no file is given; the default is used");
+        setup.warn(input, messages::noFileDefault);
         return -1;
     }
     request.file = file->text;
@@ -41,8 +40,7 @@ int openImage(PatternSetup& setup, const char* input) {
     request.nearest = setup.text("filtertype") == "closest";
     request.input = input;
     if (!setup.text("layer").empty() || !setup.text("framerange").empty())
-        setup.warn(input, "layers and frame ranges of images are not read; the file as it is named "
-                          "is used");
+        setup.warn(input, messages::imageLayersNotRead);
     const int handle = setup.openTexture(request);
     // Without an authored default the source's own sign of a missing texture shows.
     return setup.textureValid(handle) || !setup.authored("default") ? handle : -1;

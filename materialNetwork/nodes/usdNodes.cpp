@@ -18,15 +18,14 @@ TextureWrap wrapMode(PatternSetup& setup, const char* input, bool& own) {
     if (mode == "repeat" || mode == "periodic") return TextureWrap::Repeat;
     if (mode == "clamp" || mode == "constant") return TextureWrap::Clamp;
     if (mode == "mirror") return TextureWrap::Mirror;
-    if (mode != "black" && !own)
-        setup.warn(input, "unknown wrap mode '" + mode + "'; black is used");
+    if (mode != "black" && !own) setup.warn(input, messages::wrapModeUnknown(mode));
     return TextureWrap::Black;
 }
 
 void prepareUvTexture(PatternSetup& setup, PatternData& data) {
     const Value* file = setup.constant("file");
     if (!file || file->text.empty()) {
-        setup.warn("file", "no file is given; the fallback is used");
+        setup.warn("file", messages::noFileFallback);
         return;
     }
     TextureRequest request;

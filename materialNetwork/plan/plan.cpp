@@ -71,8 +71,7 @@ private:
         else if (type == ValueType::Edf)
             _plan.edf = build(operand);
         else
-            _diagnostics.warn(node.path, terminal,
-                              node.def->category + " is not a surface; black is shown");
+            _diagnostics.warn(node.path, terminal, messages::noSurface(node.def->category));
     }
 
     void buildBsdf(const Operand& operand, bool thin) {
@@ -136,8 +135,7 @@ private:
         } else if (node.def->outputs[size_t(operand.output)].type == ValueType::Vdf) {
             _plan.vdf = build(operand);
         } else {
-            _diagnostics.warn(node.path, "volume",
-                              node.def->category + " is not a volume; it is ignored");
+            _diagnostics.warn(node.path, "volume", messages::noVolume(node.def->category));
         }
     }
 
@@ -149,7 +147,7 @@ private:
             planDisplacement(input(node, "displacementshader"));
         else if (node.def->closure != ClosureKind::Displacement)
             _diagnostics.warn(node.path, "displacement",
-                              node.def->category + " is not a displacement; it is ignored");
+                              messages::noDisplacement(node.def->category));
         else if (!isConstantValue(input(node, "displacement"), 0.0f) &&
                  !isConstantValue(input(node, "scale"), 0.0f))
             _plan.displacementNode = operand.node;
@@ -216,8 +214,7 @@ private:
             if (closure.a < 0) return -1;
             break;
         case ClosureKind::ThinFilm:
-            _diagnostics.warn(node.path, "",
-                              "thin_film_bsdf coats only as the top of a layer; it is left out");
+            _diagnostics.warn(node.path, "", messages::thinFilmOutOfPlace);
             return -1;
         case ClosureKind::Unsupported:
             leaveOut(node, node.def->category + " is not modelled");
@@ -232,8 +229,7 @@ private:
                 planLobe(node, place, closure);
                 break;
             }
-            _diagnostics.warn(node.path, "",
-                              node.def->category + " cannot be used at this place; it is left out");
+            _diagnostics.warn(node.path, "", messages::nodeOutOfPlace(node.def->category));
             return -1;
         }
         closure.reflects |= reflects(closure.a) || reflects(closure.b);
@@ -293,8 +289,7 @@ private:
         const InputDef& input = node.def->inputs[i];
         const std::string& text = node.inputs[i].value.text;
         if (input.words.empty() || text == input.words[size_t(wordIndex(input, text))]) return;
-        _diagnostics.warn(node.path, input.name,
-                          "'" + text + "' is not known; " + input.words[0] + " is used");
+        _diagnostics.warn(node.path, input.name, messages::wordUnknown(text, input.words[0]));
     }
 
     Plan& _plan;

@@ -17,7 +17,10 @@ glm::vec3 linear(const std::string& space, glm::vec3 c, std::string& problem) {
     def.type = ValueType::Color3;
     Value value = color(c.x, c.y, c.z), out;
     value.colorSpace = space;
-    if (!coerceValue(value, def, out, problem)) return glm::vec3(NAN);
+    std::optional<Message> found;
+    const bool usable = coerceValue(value, def, out, found);
+    problem = found ? found->text() : "";
+    if (!usable) return glm::vec3(NAN);
     return {out.numbers[0], out.numbers[1], out.numbers[2]};
 }
 

@@ -10,14 +10,14 @@ namespace patina {
 TEST(Diagnostics, EqualWarningsAreCountedAndAReaderMeetsEachOnce) {
     Diagnostics diagnostics;
     size_t read = 0;
-    diagnostics.warn("/a", "x", "is wrong");
-    diagnostics.warn("/a", "x", "is wrong");
-    diagnostics.warn("/a", "", "xis wrong"); // no other text with the parts put together
+    diagnostics.warn("/a", "x", messages::notFinite);
+    diagnostics.warn("/a", "x", messages::notFinite);
+    diagnostics.warn("/ax", "", messages::notFinite); // the same text with the parts put together
     ASSERT_EQ(diagnostics.all().size(), 2u);
     EXPECT_EQ(diagnostics.all()[0].count, 2);
     EXPECT_EQ(diagnostics.news(read, 3).size(), 2u);
     EXPECT_TRUE(diagnostics.news(read, 3).empty());
-    diagnostics.warn("/b", "x", "is wrong");
+    diagnostics.warn("/b", "x", messages::notFinite);
     ASSERT_EQ(diagnostics.news(read, 3).size(), 1u);
 }
 
@@ -25,7 +25,7 @@ TEST(Diagnostics, LongSessionsForgetWhatTheyTold) {
     Diagnostics diagnostics;
     size_t read = 0, told = 0, most = 0;
     for (int i = 0; i < 100; ++i) {
-        diagnostics.warn("/a", "x", std::to_string(i) + " is wrong");
+        diagnostics.warn("/a", "x", messages::basisUnknown(i));
         told += diagnostics.news(read, 10).size();
         most = std::max(most, diagnostics.all().size());
     }
@@ -33,7 +33,7 @@ TEST(Diagnostics, LongSessionsForgetWhatTheyTold) {
     EXPECT_EQ(diagnostics.count(), 100);
     EXPECT_EQ(most, 10u);
     diagnostics.clear();
-    diagnostics.warn("/a", "x", "99 is wrong");
+    diagnostics.warn("/a", "x", messages::basisUnknown(99));
     EXPECT_EQ(diagnostics.count(), 1);
 }
 

@@ -158,7 +158,7 @@ TEST(Graph, SharedClosuresCostNoMoreThanTheirNumber) {
 TEST(Values, AreBroughtToTheTypeOfTheInput) {
     InputDef def;
     Value out;
-    std::string problem;
+    std::optional<Message> problem;
     def.type = ValueType::Color3;
     EXPECT_TRUE(coerceValue(number(0.5f), def, out, problem));
     EXPECT_EQ(out.numbers, (std::vector<float>{0.5f, 0.5f, 0.5f}));

@@ -142,7 +142,7 @@ TEST_F(MtlxHostile, ValuesThatAreNotOfTheirTypeAreToldAndNotUsed) {
         if (networks.size() != 1) return glm::vec3(-1);
         const Compiled compiled(networks[0]);
         for (const Diagnostic& d : compiled.diagnostics.all())
-            diagnostics.warn(d.prim, d.input, d.message);
+            diagnostics.warn(d.prim, d.input, d.what);
         Bsdf bsdf;
         compiled.program->evaluate(ShadingPoint(), bsdf);
         return bsdf.albedo();

@@ -27,11 +27,11 @@ TEST(Utf8, EveryByteOfNoCharacterIsReplaced) {
 
 TEST(Utf8, WarningsAreUtf8) {
     Diagnostics diagnostics;
-    diagnostics.warn("/a\xFF", "\xFE", "of \xC3");
+    diagnostics.warn("/a\xFF", "\xFE", messages::fileMissing("\xC3"));
     const Diagnostic found = diagnostics.all().at(0);
-    for (const std::string& text : {found.prim, found.input, found.message})
+    for (const std::string& text : {found.prim, found.input, found.message, found.what.fields[0]})
         EXPECT_EQ(validUtf8(text), text);
-    diagnostics.warn("/a\xFF", "\xFE", "of \xC3");
+    diagnostics.warn("/a\xFF", "\xFE", messages::fileMissing("\xC3"));
     EXPECT_EQ(diagnostics.count(), 1);
 }
 

@@ -39,7 +39,7 @@ class Network:
         """
     def upgrade(self) -> list[typing.Any]:
         """
-        Makes a network of MaterialX 1.38 one of 1.39, whose nodes differ. Returns warnings, dicts of prim, input, message and count.
+        Makes a network of MaterialX 1.38 one of 1.39, whose nodes differ. Returns warnings, dicts as Scene.warnings() gives them.
         """
     @property
     def empty(self) -> bool:
@@ -139,9 +139,9 @@ class SceneEdit:
         A UsdVolVolume; fields are given by their names, files and the grids in the files.
         Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, field_names, field_files, field_grids.
         """
-    def warn(self, prim: str, input: str, message: str) -> None:
+    def warn(self, prim: str, input: str, id: str, *args) -> None:
         """
-        Adds a warning to the scene's.
+        Adds a warning to the scene's: a message of base/messages.def with its fields, in the order of its row.
         """
 class Scene:
     """
@@ -173,13 +173,13 @@ class Scene:
         """
         Paths of all geometry, instancers, lights, cameras or materials; ValueError for another kind.
         """
-    def warn(self, prim: str, input: str, message: str) -> None:
+    def warn(self, prim: str, input: str, id: str, *args) -> None:
         """
-        Adds a warning; one that is there already is counted.
+        Adds a warning, as SceneEdit.warn(); one that is there already is counted.
         """
     def warnings(self) -> list[typing.Any]:
         """
-        Problems of the scene: dicts of prim, input, message, and count, how often it was met.
+        Problems of the scene: dicts of prim, input, id, message, fields of the message by name, and count, how often it was met.
         """
     @property
     def meters_per_unit(self) -> float:
@@ -679,7 +679,7 @@ def web_light_meshes(scene: Scene) -> list[str]:
     """
 def web_lights(scene: Scene) -> dict[str, typing.Any]:
     """
-    lights: (path, floats in the layout of shaders/lights/fields.glsl); table: the values (n, 4) that they point into; domes: dicts of path, texture, radiance, axes and, where the image is no latlong map, pixels of one; notes: texts on what is left out.
+    lights: (path, floats in the layout of shaders/lights/fields.glsl); table: the values (n, 4) that they point into; domes: dicts of path, texture, radiance, axes and, where the image is no latlong map, pixels of one; warnings: of what is left out.
     """
 def web_material(network: Network, methods: dict[str, str] = {}, largest_texture: int = 1024) -> dict[str, typing.Any]:
     """

@@ -197,10 +197,12 @@ void bindScene(py::module_& m) {
         .def(
             "warn",
             [](PythonEdit& edit, const std::string& prim, const std::string& input,
-               const std::string& message) {
-                edit.scene->diagnostics().warn(prim, input, message);
+               const std::string& id, const py::args& fields) {
+                edit.scene->diagnostics().warn(prim, input, messageOf(id, fields));
             },
-            py::arg("prim"), py::arg("input"), py::arg("message"), "Adds a warning to the scene's.")
+            py::arg("prim"), py::arg("input"), py::arg("id"),
+            "Adds a warning to the scene's: a message of base/messages.def with its fields, in the "
+            "order of its row.")
         .def("__enter__", [](py::object self) { return self; })
         .def("__exit__", [](PythonEdit& self, const py::args&) { self.commit(); });
 
@@ -236,14 +238,16 @@ void bindScene(py::module_& m) {
             py::arg("values") = 16, "The scene as text; arrays are cut after so many values.")
         .def(
             "warn",
-            [](Scene& s, const std::string& prim, const std::string& input,
-               const std::string& message) { s.diagnostics().warn(prim, input, message); },
-            py::arg("prim"), py::arg("input"), py::arg("message"),
-            "Adds a warning; one that is there already is counted.")
+            [](Scene& s, const std::string& prim, const std::string& input, const std::string& id,
+               const py::args& fields) {
+                s.diagnostics().warn(prim, input, messageOf(id, fields));
+            },
+            py::arg("prim"), py::arg("input"), py::arg("id"),
+            "Adds a warning, as SceneEdit.warn(); one that is there already is counted.")
         .def(
             "warnings", [](Scene& s) { return warningList(s.diagnostics()); },
-            "Problems of the scene: dicts of prim, input, message, and count, how often it was "
-            "met.")
+            "Problems of the scene: dicts of prim, input, id, message, fields of the message by "
+            "name, and count, how often it was met.")
         .def(
             "clear_warnings", [](Scene& s) { s.diagnostics().clear(); }, "Forgets all warnings.");
 }

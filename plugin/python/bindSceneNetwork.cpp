@@ -129,7 +129,7 @@ void bindNetwork(py::module_& m) {
                 return warningList(diagnostics);
             },
             "Makes a network of MaterialX 1.38 one of 1.39, whose nodes differ. Returns warnings, "
-            "dicts of prim, input, message and count.")
+            "dicts as Scene.warnings() gives them.")
         .def_property_readonly("empty", &Network::empty, "Whether it has no node.")
         .def("nodes", &nodes, "Dicts of path, id, inputs and connections.")
         .def(

@@ -7,6 +7,7 @@
 #include "materialNetwork/glsl/glslLobes.h"
 #include "materialNetwork/glsl/glslWeb.h"
 #include "materialNetwork/material.h"
+#include "plugin/python/warningList.h"
 #include "shaders/shaderText.h"
 #include "shaders/shaders.h"
 #include "shaders/unusedFunctions.h"
@@ -105,7 +106,10 @@ py::dict webMaterial(const Network& network, const MethodChoices& methods, int l
         for (int c = 0; c < 4; ++c)
             parameters.append(p[c]);
     dict["parameters"] = parameters;
-    dict["leftOut"] = glsl.leftOut;
+    py::list leftOut;
+    for (const Message& what : glsl.leftOut)
+        leftOut.append(py::make_tuple(nameOf(what.id), what.text()));
+    dict["leftOut"] = leftOut;
     dict["presence"] = glsl.presence;
     dict["emission"] = glsl.emission;
     dict["lobes"] = lobesOf(*program);
@@ -113,16 +117,14 @@ py::dict webMaterial(const Network& network, const MethodChoices& methods, int l
     dict["interior"] = program->hasInterior();
     dict["volumeOnly"] = program->isVolumeOnly();
     dict["displacement"] = program->hasDisplacement();
-    py::list primvars, images, warnings;
+    py::list primvars, images;
     for (const MaterialPrimvar& primvar : program->primvars())
         primvars.append(py::make_tuple(primvar.name, valueTypeName(primvar.type)));
     for (const int handle : glsl.textures)
         images.append(textureOf(textures, handle, largestTexture));
-    for (const Diagnostic& d : diagnostics.all())
-        warnings.append(py::make_tuple(d.prim, d.input, d.message));
     dict["primvars"] = primvars;
     dict["textures"] = images;
-    dict["warnings"] = warnings;
+    dict["warnings"] = warningList(diagnostics);
     return dict;
 }
 

@@ -9,6 +9,7 @@
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/scene.h"
 #include "base/maths.h"
+#include "plugin/python/warningList.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -32,7 +33,6 @@ constexpr size_t largestTable = 1u << 20u; ///< texels
 /// Facts about lights that the page tells its user.
 struct WebLights {
     std::vector<vec4> table; ///< values that rows point into
-    std::vector<std::string> notes;
     Diagnostics diagnostics;
     LightImages images{diagnostics};
     py::list direct, domes;
@@ -44,9 +44,7 @@ std::array<float, 3> triple(const vec3& v) {
 
 vec3 notNegative(const Light& light, const vec3& radiance, WebLights& out) {
     const vec3 kept = glm::max(radiance, vec3(0.0f));
-    if (kept != radiance)
-        out.notes.push_back("the light " + light.path +
-                            " takes light away, which counts as zero on the page");
+    if (kept != radiance) out.diagnostics.warn("", "", messages::pageLightNegative(light.path));
     return kept;
 }
 
@@ -117,8 +115,7 @@ bool addTriangles(const Scene& scene, const Light& light, LightFields& row, WebL
         std::nth_element(all.begin(), all.begin() + maxTriangles, all.end(),
                          [](const Triangle& a, const Triangle& b) { return a.area > b.area; });
         all.resize(maxTriangles);
-        out.notes.push_back("the light " + light.path +
-                            " shines from its largest triangles, as if they were all");
+        out.diagnostics.warn("", "", messages::pageLightOfMesh(light.path));
     }
     for (const Triangle& t : all)
         kept += double(t.area);
@@ -228,7 +225,9 @@ void addLight(const Scene& scene, const std::string& path, const Light& light, W
     const std::vector<float> row = lightRow(scene, light, toWorld, out);
     if (row.empty() || out.table.size() > largestTable) {
         out.table.resize(std::min(before, out.table.size()));
-        out.notes.push_back("the light " + path + (row.empty() ? " gives none" : " is too large"));
+        out.diagnostics.warn("", "",
+                             row.empty() ? messages::pageLightDark(path)
+                                         : messages::pageLightTooLarge(path));
         return;
     }
     out.direct.append(py::make_tuple(path, row));
@@ -247,12 +246,10 @@ py::dict lightsOf(const Scene& scene) {
     for (const auto& [path, light] : scene.snapshot()->lights) {
         if (!light->visible) continue;
         if (!light->group.empty())
-            out.notes.push_back("the light " + path + " of instances is left out");
+            out.diagnostics.warn("", "", messages::pageLightOfInstances(path));
         else
             addLight(scene, path, *light, out);
     }
-    for (const Diagnostic& d : out.diagnostics.all())
-        out.notes.push_back(d.prim + (d.input.empty() ? "" : "." + d.input) + ": " + d.message);
     py::array_t<float> table(std::vector<size_t>{out.table.size(), 4});
     if (!out.table.empty())
         std::copy_n(&out.table[0].x, 4 * out.table.size(), table.mutable_data());
@@ -260,7 +257,7 @@ py::dict lightsOf(const Scene& scene) {
     dict["lights"] = out.direct;
     dict["domes"] = out.domes;
     dict["table"] = table;
-    dict["notes"] = out.notes;
+    dict["warnings"] = warningList(out.diagnostics);
     return dict;
 }
 
@@ -271,7 +268,7 @@ void bindWebLights(py::module_& m) {
     m.def("web_lights", &lightsOf, py::arg("scene"),
           "lights: (path, floats in the layout of shaders/lights/fields.glsl); table: the values "
           "(n, 4) that they point into; domes: dicts of path, texture, radiance, axes and, where "
-          "the image is no latlong map, pixels of one; notes: texts on what is left out.");
+          "the image is no latlong map, pixels of one; warnings: of what is left out.");
 }
 
 } // namespace patina

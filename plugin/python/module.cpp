@@ -67,7 +67,7 @@ Scene()
                                 KeyError if absent
     material(path) -> Network   as set; KeyError if absent
     dump(values=16) -> str      the scene as text, arrays cut after so many values
-    warn(prim, input, message), warnings() -> list of dicts prim, input, message, count
+    warn(prim, input, id, *fields), warnings() -> list of dicts prim, input, id, message, fields, count
     clear_warnings()
 
 SceneEdit, each prim by path and keywords named like the fields of the C++ structs, in snake case;
@@ -80,7 +80,7 @@ an unknown keyword is a TypeError, a value of the wrong shape a ValueError
     set_light(path, type=, transform=, ...)
     set_camera(path, transform=, ...)
     set_material(path, network)
-    set_meters_per_unit(x), remove(path), clear(), commit(), warn(prim, input, message)
+    set_meters_per_unit(x), remove(path), clear(), commit(), warn(prim, input, id, *fields)
 
 Arrays are anything that has the buffer protocol (numpy, pxr.Vt) and are copied once.
 Matrices are those of Gf: 16 numbers row by row, the translation last.

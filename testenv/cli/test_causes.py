@@ -5,96 +5,94 @@ import re
 
 import pytest
 
+from patina import messages
 from patina.cli import causes, main
 from patina.cli.causes import Causes
 
 
-def warning(message, prim="/p", name="", count=1):
-    return {"prim": prim, "input": name, "message": message, "count": count}
+def warning(id_, *fields, prim="/p", name="", count=1):
+    return {**messages.warning(prim, name, id_, *fields), "count": count}
 
 
-MISSING = "texture '/textures/wood.png': the file cannot be opened; magenta is shown"
+MISSING = ("textureUnreadable", "/textures/wood.png", "the file cannot be opened")
+TEXT = "texture '/textures/wood.png': the file cannot be opened; magenta is shown"
 
 
 def test_one_missing_file_is_one_cause():
-    found = Causes([warning(MISSING, f"/m{i}", f"image{i}.file") for i in range(561)]
-                   + [warning("the mesh has no faces and is not drawn", "/hull", "faceVertexCounts")])
+    found = Causes([warning(*MISSING, prim=f"/m{i}", name=f"image{i}.file") for i in range(561)]
+                   + [warning("meshWithoutFaces", prim="/hull", name="faceVertexCounts")])
     assert [(g["count"], g["culprit"]) for g in found.groups] == [(561, "/textures/wood.png"), (1, "faceVertexCounts")]
-    assert found.lines() == [f"warning: /m0.image0.file: {MISSING} (561 times at 561 prims, first this)",
+    assert found.lines() == [f"warning: /m0.image0.file: {TEXT} (561 times at 561 prims, first this)",
                              "warning: /hull.faceVertexCounts: the mesh has no faces and is not drawn"]
 
 
 @pytest.mark.parametrize("one, other", [
-    (MISSING, MISSING.replace("wood", "iron")),
-    ("unsupported node ND_a_float; the default is used", "unsupported node ND_b_float; the default is used"),
-    ("prims of type PortalLight are not drawn", "prims of type PluginLight are not drawn"),
-    ("there is no prim /a/b; it is not drawn", "there is no prim /a/c; it is not drawn")])
+    (MISSING, ("textureUnreadable", "/textures/iron.png", MISSING[2])),
+    (MISSING, (*MISSING[:2], "out of memory")),
+    (("inputMissing", "ND_a_float"), ("inputMissing", "ND_b_float")),
+    (("typeNotDrawn", "PortalLight"), ("typeNotDrawn", "PluginLight")),
+    (("projectionUnknown", "1"), ("projectionUnknown", "2")),
+    (("prototypeNotFound", "/a/b"), ("prototypeNotFound", "/a/c"))])
 def test_another_culprit_is_another_cause(one, other):
-    assert len(Causes([warning(one, "/p"), warning(other, "/q")])) == 2
-    assert len(Causes([warning(one, "/p", "a"), warning(one, "/q", "b")])) == 1
+    assert len(Causes([warning(*one, prim="/p"), warning(*other, prim="/q")])) == 2
+    assert len(Causes([warning(*one, prim="/p", name="a"), warning(*one, prim="/q", name="b")])) == 1
 
 
 def test_where_no_culprit_is_named_it_is_the_input():
-    text = "is not a finite number; the fallback is used"
-    assert len(Causes([warning(text, "/p", "x.inputs:radius"), warning(text, "/q", "y.inputs:radius")])) == 1
-    assert len(Causes([warning(text, "/p", "radius"), warning(text, "/p", "height")])) == 2
+    found = Causes([warning("notFinite", prim="/p", name="x.inputs:radius"),
+                    warning("notFinite", prim="/q", name="y.inputs:radius")])
+    assert [g["culprit"] for g in found.groups] == ["radius"]
+    assert len(Causes([warning("notFinite", name="radius"), warning("notFinite", name="height")])) == 2
 
 
-def test_numbers_and_the_own_path_make_no_other_cause():
-    assert len(Causes([warning("3 indices are out of range and read as 0", "/a", "primvars:st"),
-                       warning("1500 indices are out of range and read as 0", "/b", "primvars:st")])) == 1
-    assert len(Causes([warning("/a/b: a loop at </a/b>", "/a/b"), warning("/c/d: a loop at </c/d>", "/c/d")])) == 1
+def test_numbers_limits_and_the_own_path_make_no_other_cause():
+    assert len(Causes([warning("indicesOutOfRange", 3, prim="/a", name="primvars:st"),
+                       warning("indicesOutOfRange", 1500, prim="/b", name="primvars:st")])) == 1
+    assert len(Causes([warning("compositionError", "/a/b: a loop at </a/b>", prim="/a/b"),
+                       warning("compositionError", "/c/d: a loop at </c/d>", prim="/c/d")])) == 1
+    assert len(Causes([warning("lightsTooMany", "7 (--limit lights)", prim="/a"),
+                       warning("lightsTooMany", "8 (--limit lights)", prim="/b")])) == 1
 
 
 def test_what_is_missing_comes_first_then_what_is_met_most_often():
-    found = Causes([warning("rare default is used", "/a"), warning("loop needs triangles; catmullClark is used", "/b", count=9),
-                    warning("the material does not exist; displayColor is shown", "/c"),
-                    warning("prims of type X are not drawn", "/d", count=3)])
+    found = Causes([warning("wrongType", prim="/a"), warning("loopNeedsTriangles", prim="/b", count=9),
+                    warning("materialMissing", "/m", prim="/c"), warning("typeNotDrawn", "X", prim="/d", count=3)])
     assert [(g["severity"], g["prim"]) for g in found.groups] == [
         ("missing", "/d"), ("missing", "/c"), ("changed", "/b"), ("changed", "/a")]
 
 
-@pytest.mark.parametrize("reason", ("the file does not exist", "the file is a device, not a regular file",
-                                    "no tile of it exists"))
-def test_a_texture_that_is_missing_is_missing_for_whatever_reason(reason):
-    assert causes.severity(warning(f"texture 'a.png': {reason}; its authored fallback, else magenta, is shown")) == "missing"
+# Twenty-six messages that nothing is missing with.
+CHANGED = [(id_, *row.fields) for id_, row in messages.table().items() if row.severity == "changed"][:26]
+OFF = warning("lightNotFinite", prim="/sun")
 
 
 def test_the_terminal_shows_twenty_causes_and_counts_the_rest():
-    letters = [chr(ord("a") + i) for i in range(26)]
-    found = Causes([warning(f"{a}{a} is odd; box is used", f"/p{a}") for a in letters]
-                   + [warning("the light is not finite; it is off", "/sun")])
-    lines = found.lines()
+    lines = Causes([*(warning(*one) for one in CHANGED), OFF]).lines()
     assert len(lines) == causes.MAX_CAUSES + 1 and lines[0].startswith("warning: /sun")
     assert lines[-1] == "warning: 7 more causes are in --json"
+    assert Causes([warning(*one) for one in CHANGED]).lines(json=False)[-1] == "warning: 6 more causes"
 
 
 def test_where_there_are_too_many_culprits_of_one_kind_count_as_one():
-    many = [warning(f"'{i}' is unknown; box is used", f"/p{i}", count=1 + (i == 7)) for i in range(30)]
-    found = Causes(many + [warning("the light is not finite; it is off", "/sun"), warning("the default is used", "/q")])
+    many = [warning("basisUnknown", i, prim=f"/p{i}", count=1 + (i == 7)) for i in range(30)]
+    found = Causes([*many, OFF, warning("wrongType", prim="/q")])
     assert found.lines() == [
-        "warning: /sun: the light is not finite; it is off",
-        "warning: /p7: '7' is unknown; box is used (and 29 causes like it: 31 times, all in --json)",
-        "warning: /q: the default is used"]
+        "warning: /sun: the light's colour or intensity is not finite; the light is off",
+        "warning: /p7: '7' is unknown; bezier is drawn (and 29 causes like it: 31 times, all in --json)",
+        "warning: /q: has a wrong type; the default is used"]
     assert len(found) == 32
-
-
-def test_without_json_the_rest_is_counted():
-    found = Causes([warning(f"'{i}' is unknown; box is used", f"/p{i}") for i in range(30)])
-    assert found.lines(json=False) == ["warning: /p0: '0' is unknown; box is used (and 29 causes like it: 30 times)"]
-    letters = [chr(ord("a") + i) for i in range(26)]
-    found = Causes([warning(f"{a}{a} is odd; box is used", f"/p{a}") for a in letters])
-    assert found.lines(json=False)[-1] == "warning: 6 more causes"
+    assert Causes(many[:7] + many[8:]).lines(json=False) == [
+        "warning: /p0: '0' is unknown; bezier is drawn (and 28 causes like it: 29 times)"]
 
 
 def test_names_stay_in_their_line():
-    found = Causes([warning("node 's\n  error: forged\x1b[2J' is unknown; box is used", "/p\rq")])
-    assert found.lines() == ["warning: /p q: node 's error: forged\\x1b[2J' is unknown; box is used"]
+    found = Causes([warning("basisUnknown", "s\n  error: forged\x1b[2J", prim="/p\rq")])
+    assert found.lines() == ["warning: /p q: 's error: forged\\x1b[2J' is unknown; bezier is drawn"]
 
 
 def test_what_was_told_is_told_again_only_at_the_end_and_when_there_is_more():
     reported = {}
-    few, many = [[warning(MISSING, f"/m{i}") for i in range(n)] for n in (2, 50)]
+    few, many = [[warning(*MISSING, prim=f"/m{i}") for i in range(n)] for n in (2, 50)]
     assert len(Causes(few).lines(reported, last=False)) == 1
     assert Causes(many).lines(reported, last=False) == []
     assert "(50 times" in Causes(many).lines(reported)[0]
@@ -149,6 +147,7 @@ def test_record_tells_causes(stage, tmp_path, capsys):
     found = json.loads(out.read_text())
     assert len([w for w in found["warnings"] if "missing.png" in w["message"]]) == 30
     assert {g["count"] for g in found["causes"] if "missing.png" in g["culprit"]} == {30}
+    assert all(w["fields"].keys() == set(messages.table()[w["id"]].fields) for w in found["warnings"])
     assert any(g["prim"] == "/hull" and g["severity"] == "missing" for g in found["causes"])
     assert main.main(["record", str(stage), str(image), "--imageWidth", "8", "--samples", "1", "--strict"]) == 1
     said = capsys.readouterr().err.splitlines()
@@ -167,8 +166,8 @@ def test_explain_and_check_tell_causes(stage, capsys):
 
 @pytest.mark.parametrize("text", ["'" + "<" * 10 ** 6, "-" * 10 ** 6, "1" * 10 ** 6 + "a", "a." * 10 ** 6])
 def test_long_names_in_messages_take_no_time_without_end(text):
-    warning = {"prim": "/a", "input": "basis", "message": f"'{text}' is unknown; bezier is used", "count": 1}
-    assert causes.Causes([warning]).groups[0]["message"] == warning["message"]
+    for id_ in ("basisUnknown", "compositionError"):
+        assert text in Causes([warning(id_, text)]).groups[0]["message"]
 
 
 def test_printable_text_stays_in_its_line():
@@ -184,7 +183,7 @@ def test_long_blanks_take_no_time_without_end(text, last):
 
 
 def test_a_long_warning_shows_its_ends():
-    message = "'" + "a" * 10 ** 6 + "' is unknown; box is used"
-    shown, = Causes([warning(message)]).lines()
-    assert len(shown) < 2100 and shown.startswith("warning: /p: 'aaa") and shown.endswith("aaa' is unknown; box is used")
-    assert Causes([warning(message)]).groups[0]["message"] == message
+    long = warning("basisUnknown", "a" * 10 ** 6)
+    shown, = Causes([long]).lines()
+    assert len(shown) < 2100 and shown.startswith("warning: /p: 'aaa") and shown.endswith("aaa' is unknown; bezier is drawn")
+    assert Causes([long]).groups[0]["message"] == long["message"]

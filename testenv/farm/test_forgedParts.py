@@ -9,6 +9,7 @@ import re
 import pytest
 
 from inProcess import patina, scene
+from patina import messages
 from patina.cli import record
 from patina.farm import cut, missing, partial
 
@@ -85,7 +86,7 @@ def test_each_field_of_a_header(real, tmp_path):
 
 def test_each_field_of_a_report(real, tmp_path):
     refused = set()
-    report = dict(real.report, warnings=[{"prim": "/a", "input": "b", "message": "c is left out", "count": 1}],
+    report = dict(real.report, warnings=[messages.warning("/a", "b", "settingNotNumbers", 3)],
                   plans={"/m": {"error": 0.1, "albedo": 0.5, "choices": [{"point": "lobe", "method": "exact"}]}})
     one = [("warnings", 0), *(("warnings", 0, name) for name in report["warnings"][0])]
     deep = places(report, statistics=("rays", "maxDepth"), seconds=("render", "build"), plans=("/m",))

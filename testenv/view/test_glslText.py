@@ -68,5 +68,5 @@ def test_numbers_that_are_none_become_literals():
     network.set_terminal("surface", "/m/s", "out")
     made = module.web_material(network)
     text = made["text"]
-    assert [warning[1] for warning in made["warnings"]] == ["color"]
+    assert [warning["input"] for warning in made["warnings"]] == ["color"]
     assert not re.search(r"\b(inf|nan)\b", text) and "vec4(" in text

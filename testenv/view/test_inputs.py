@@ -117,7 +117,7 @@ def test_what_is_not_modelled_is_told_where_an_author_asks_for_it(name, behind):
     module = compiled.load()
     for given in (None, 0.0, 0.5):
         page, _, warnings = materials.build("m", dispersive(module, name, given, behind), {}, materials.Textures(16))
-        reported = [w for w in warnings if "chromatic dispersion" in w]
+        reported = [w for w in warnings if w["id"] == "dispersionLeftOut"]
         assert len(reported) == len(warnings) == (1 if given else 0), (given, warnings)
         keys = {i["input"] for i in page["inputs"]}
         assert "/m/s.base_color" in keys  # all others keep their sliders

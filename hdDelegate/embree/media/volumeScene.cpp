@@ -139,8 +139,7 @@ void VolumeScene::update(const std::vector<std::shared_ptr<const Volume>>& prims
             if (usable)
                 placed.push_back({medium, inverse, prim->visibility});
             else
-                diagnostics.warn(prim->path, "transform",
-                                 "has no inverse; the volume is not drawn");
+                diagnostics.warn(prim->path, "transform", messages::volumeWithoutInverse);
         }
     }
     _placed = std::move(placed);

@@ -96,9 +96,10 @@ TEST(LightPaths, AovsThatThereIsNoRoomForAreLeftOut) {
     for (int i = 0; i < 20; ++i)
         names.push_back("large" + std::to_string(i) + "=lpe:" + large("a", 1));
     names.push_back("key=lpe:C.*<L.'key'>");
-    const std::vector<std::string> problems = leaveOutLightPaths(names);
+    const std::vector<Message> problems = leaveOutLightPaths(names);
     ASSERT_EQ(problems.size(), 3u);
-    EXPECT_EQ(problems[0].find("AOV 'large17' is left out: "), 0u) << problems[0];
+    EXPECT_EQ(problems[0].id, MessageId::aovPathLeftOut);
+    EXPECT_EQ(problems[0].fields[0], "large17");
     EXPECT_EQ(names.size(), 20u);
     EXPECT_EQ(names[1], "diffuse");
     EXPECT_EQ(names.back(), "key=lpe:C.*<L.'key'>") << "those that need little stay";

@@ -31,7 +31,7 @@ void syncPrim(HdPatinaRenderParam& param, int number, int round) {
     param.instances().place(path, instancer, indices);
     param.instances().setInstancer(instancer, "", data);
     if (number % 7 == round) param.instances().leave(path);
-    param.warn(path, "input", "is not what it should be");
+    param.warn(path, "input", messages::notFinite);
     param.widenShutter(-0.25 * number, 0.25 * round);
     EXPECT_LE(param.shutter()[0], param.shutter()[1]);
 }

@@ -132,7 +132,7 @@ TEST(View, ValuesThatAreNotFiniteDrawNothingAndStayEqual) {
     const CameraUtilFraming broken(whole, data, nan);
     const HdPatinaView view = viewFramed(broken);
     EXPECT_EQ(view.width, 0);
-    EXPECT_NE(view.problem, "");
+    EXPECT_FALSE(view.finite);
     EXPECT_TRUE(view == viewFramed(broken)) << "or each repaint starts over";
 
     GfFrustum frustum;

@@ -18,9 +18,6 @@ static_assert(int(LightFilterType::Barn) == shLights::FILTER_BARN &&
               int(LightFilterType::Ramp) == shLights::FILTER_RAMP &&
               int(LightFilterType::Rod) == shLights::FILTER_ROD);
 
-constexpr const char* noRoom =
-    "the rasterizer has no room for more filters of lights; the light is as without them";
-
 int addCurve(const LightFilters::Curve& curve, RasterLightTables& tables) {
     std::vector<vec4> knots;
     for (size_t i = 0; i < curve.knots.size(); ++i)
@@ -108,7 +105,7 @@ int RasterLightFilters::add(const Light& light, const RasterPlace& place, float 
     }
     if (rows.empty()) return -1;
     const int first = fits ? tables.add(rows) : -1;
-    if (first < 0) diagnostics.warn(light.path, "light:filters", noRoom);
+    if (first < 0) diagnostics.warn(light.path, "light:filters", messages::filtersWithoutRoom);
     return first;
 }
 
@@ -124,7 +121,7 @@ void RasterLightFilters::addMesh(const Light& light, const std::vector<RasterPla
     }
     of.table = tables.add(table);
     if (of.table < 0) {
-        diagnostics.warn(light.path, "light:filters", noRoom);
+        diagnostics.warn(light.path, "light:filters", messages::filtersWithoutRoom);
         of.places.clear();
     }
 }

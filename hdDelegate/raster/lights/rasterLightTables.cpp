@@ -10,9 +10,7 @@
 
 namespace patina {
 
-namespace {
-constexpr const char* noRoom = "the rasterizer has no room for the light's table; it is left out";
-}
+namespace {}
 
 float RectImage::sample(const vec2& u, vec2& q) const {
     ivec2 cell;
@@ -42,7 +40,7 @@ const RectImage* RasterLightTables::rect(const Light& light, LightImages& images
     r.width = std::min(r.image->width, largestImage);
     r.height = std::min(r.image->height, largestImage);
     if (!hasRoom(size_t(r.width) * size_t(r.height))) {
-        diagnostics.warn(light.path, "inputs:texture:file", noRoom);
+        diagnostics.warn(light.path, "inputs:texture:file", messages::tableWithoutRoom);
         return nullptr;
     }
     std::vector<float> weights;
@@ -92,7 +90,7 @@ ProfileTable RasterLightTables::profile(const Light& light, Diagnostics& diagnos
     if (!profile) return out;
     const ProfileGrid grid = profileGrid(light, *profile, 361, 73);
     if (!hasRoom(grid.values.size())) {
-        diagnostics.warn(light.path, "inputs:shaping:ies:file", noRoom);
+        diagnostics.warn(light.path, "inputs:shaping:ies:file", messages::tableWithoutRoom);
         return out;
     }
     out = {int(_values.size()), grid.thetas, grid.phis, 0.0f};

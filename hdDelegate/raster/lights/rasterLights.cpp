@@ -93,10 +93,7 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
             warnOfDomeMethods(light, diagnostics);
             if (double(_sources.size() + places.places(light.group).size()) >
                 double(limitOf(Limit::lights))) {
-                diagnostics.warn(light.path, "",
-                                 "with it the scene has more lights, each wherever it is placed, "
-                                 "than " +
-                                     limitText(Limit::lights) + "; the light is off");
+                diagnostics.warn(light.path, "", messages::lightsTooMany(limitText(Limit::lights)));
                 continue;
             }
             for (const RasterPlace& place : places.places(light.group))
@@ -113,9 +110,7 @@ void RasterLights::warnOfDomeMethods(const Light& light, Diagnostics& diagnostic
     if (light.type != LightType::Dome || light.filters.empty()) return;
     for (const char* method : {"prefiltered", "harmonics", "harmonicsUnwindowed"})
         if (_domeMethods.count(method) > 0)
-            diagnostics.warn(light.path, "light:filters",
-                             std::string("light filters do not change what the method ") + method +
-                                 " of domeLight makes of a dome");
+            diagnostics.warn(light.path, "light:filters", messages::domeMethodUnfiltered(method));
 }
 
 void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
@@ -153,9 +148,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
         s.domeToWorld = pose.domeToWorld;
         if (!addDome(s, light, images, domes)) {
             diagnostics.warn(light.path, "inputs:texture:file",
-                             "the rasterizer shows the images of " +
-                                 std::to_string(RasterDomes::maxImages) +
-                                 " domes at most; the light is off");
+                             messages::domesTooMany(RasterDomes::maxImages));
             return;
         }
         cameraVisible &= settings.domeLightCameraVisibility;

@@ -59,8 +59,8 @@ std::unique_ptr<RasterBsdf> RasterBsdf::make(std::shared_ptr<const MaterialProgr
         return nullptr;
     }
     const GlslMaterial glsl = makeGlslMaterial(program->ir());
-    for (const std::string& line : glsl.leftOut)
-        diagnostics.warn("", "", line);
+    for (const Message& what : glsl.leftOut)
+        diagnostics.warn("", "", what);
     gpu->text = shaderOf(*program, glsl);
     for (const RasterBsdf* other : like)
         if (other->_gpu->text == gpu->text) gpu->program = other->_gpu->program;

@@ -24,7 +24,7 @@ Camera rasterizedCamera(Camera camera, Diagnostics& diagnostics) {
     CameraLens& lens = camera.lens;
     const auto leaveOut = [&](const char* input, bool drawn, auto& value) {
         if (drawn) return;
-        diagnostics.warn(camera.path, input, "is not drawn by the rasterizer");
+        diagnostics.warn(camera.path, input, messages::notInRaster);
         value = {};
     };
     leaveOut("patina:projection", lens.standard(), lens.projection);

@@ -24,16 +24,14 @@ bool isDrawnInRaster(const Geometry& prim, const RenderSettings& settings) {
     return prim.visibility.camera && isDrawn(prim, settings);
 }
 
-const char* notShownInRaster(const Marked& prim) {
+std::optional<Message> notShownInRaster(const Marked& prim) {
     const Visibility& v = prim.visibility;
-    if (!v.camera)
-        return v.shadow ? "is hidden from the camera: the rasterizer draws no shadow of it either"
-                        : nullptr;
-    if (prim.catching.any()) return "mattes and catchers are shown as they are by the rasterizer";
+    if (!v.camera && !v.shadow) return {};
+    if (!v.camera) return messages::hiddenWithoutShadow;
+    if (prim.catching.any()) return messages::catchersShown;
     const unsigned seenBy = v.mask() & RayIndirect;
-    return seenBy == RayIndirect || seenBy == 0u
-               ? nullptr
-               : "rays that scattered are not told apart by the rasterizer";
+    if (seenBy != RayIndirect && seenBy != 0u) return messages::raysNotToldApart;
+    return {};
 }
 
 RasterInstances::RasterInstances(std::shared_ptr<const Placements> placements, float timeCode,

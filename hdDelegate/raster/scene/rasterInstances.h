@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/messages.h"
 #include "hdDelegate/compiled/placements.h"
 
 #include <map>
+#include <optional>
 
 namespace patina {
 
@@ -36,6 +38,6 @@ bool isDrawnInRaster(const Geometry& prim, const RenderSettings& settings);
 
 /// A warning that names the parts of visibility and catching which the rasterizer lacks; null for
 /// nothing.
-const char* notShownInRaster(const Marked& prim);
+std::optional<Message> notShownInRaster(const Marked& prim);
 
 } // namespace patina

@@ -80,9 +80,7 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
         _materials.clear();
         for (const std::string& name : _aovs.leftOut)
             _diagnostics.warn("", "",
-                              "the AOV primvars:" + name +
-                                  " is left empty: the rasterizer writes " +
-                                  std::to_string(RasterAovRequest::maxPrimvars) + " primvars");
+                              messages::primvarAovEmpty(name, RasterAovRequest::maxPrimvars));
     }
     _domeMethods.clear();
     _standIns = 0;
@@ -173,8 +171,8 @@ void RasterMaterials::ask(Cached& cached, const std::string& key, bool atOnce,
     cached.built = true;
     cached.taken = false;
     if (first)
-        for (const std::string& line : m.glsl.leftOut)
-            _diagnostics.warn(key, "", line);
+        for (const Message& what : m.glsl.leftOut)
+            _diagnostics.warn(key, "", what);
     std::vector<std::string> primvars;
     for (const MaterialPrimvar& p : m.program->primvars())
         primvars.push_back(p.name);
@@ -209,9 +207,7 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
         return standIn(cached, user, state, settings);
     if (take(cached)) return cached.material;
     if (key.empty()) throw DeviceError("the driver does not take the shader of displayColor");
-    _diagnostics.warn(key, "",
-                      "the driver does not take the material's shader; displayColor is shown: " +
-                          cached.pending->error);
+    _diagnostics.warn(key, "", messages::shaderRefused(cached.pending->error));
     copyDisplayColor(cached.material, user, state, settings);
     return cached.material;
 }

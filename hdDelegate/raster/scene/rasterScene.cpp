@@ -20,14 +20,14 @@ namespace patina {
 void RasterScene::prepareMaterials(const SceneState& state, RasterInstances& places) {
     for (const auto& item : state.instancers)
         for (const Marked& marks : item.second->marks)
-            if (const char* problem = notShownInRaster(marks)) {
-                _diagnostics.warn(item.first, "primvars", problem);
+            if (const auto problem = notShownInRaster(marks)) {
+                _diagnostics.warn(item.first, "primvars", *problem);
                 break;
             }
     for (const auto& item : state.geometry) {
         const Geometry& prim = *item.second;
-        const char* problem = isDrawn(prim, _settings) ? notShownInRaster(prim) : nullptr;
-        if (problem) _diagnostics.warn(prim.path, "primvars", problem);
+        const auto problem = notShownInRaster(prim);
+        if (problem && isDrawn(prim, _settings)) _diagnostics.warn(prim.path, "primvars", *problem);
         if (prim.kind == GeometryKind::Volume || !isDrawnInRaster(prim, _settings) ||
             places.places(prim.group).empty())
             continue;
@@ -118,9 +118,7 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
         const size_t here = places.places(item.second->group).size();
         if (listed + here > std::min<uint64_t>(limitOf(Limit::instances), INT32_MAX)) {
             _diagnostics.warn(item.second->path, "",
-                              "with it the rasterizer draws more prims, each wherever it is "
-                              "placed, than " +
-                                  limitText(Limit::instances) + "; it is left out");
+                              messages::rasterPrimsTooMany(limitText(Limit::instances)));
             continue;
         }
         listed += here;

@@ -75,10 +75,7 @@ RasterTextures::array(const std::vector<const GlslTexture*>& textures) {
     }
     if (std::max(width, height) < wanted)
         _diagnostics.warn(request.prim, request.input,
-                          "'" + request.file +
-                              "' and its UDIM tiles are larger than the memory kept for "
-                              "them; they are shown with " +
-                              std::to_string(width) + " x " + std::to_string(height));
+                          messages::udimTooLarge(request.file, width, height));
     const int count = std::min(int(layers.size()), int(maxLayers));
     auto texture =
         std::make_shared<GlTexture>(GL_TEXTURE_2D_ARRAY, _format, width, height, count, 0);
@@ -138,9 +135,7 @@ std::shared_ptr<const GlTexture> RasterTextures::plain(int handle) {
     };
     if (first > 0)
         _diagnostics.warn(request.prim, request.input,
-                          "'" + request.file + "' has " + size(0) +
-                              " pixels, but the driver takes at most " + std::to_string(largest) +
-                              " along a side; it is shown with " + size(first));
+                          messages::textureTooLarge(request.file, size(0), largest, size(first)));
     // One number per texel where all are grey. With a border of no alpha there is one more.
     const bool grey = image->layout() == TexelLayout::Grey && request.wrapS != TextureWrap::Black &&
                       request.wrapT != TextureWrap::Black;

@@ -71,8 +71,7 @@ void RasterVolumes::build(Cached& cached) {
     for (const mat4& toWorld : cached.places) {
         const mat4 inverse = glm::inverse(toWorld);
         if (!std::isfinite(inverse[0][0] + inverse[1][1] + inverse[2][2] + inverse[3][3])) {
-            _diagnostics.warn(cached.prim->path, "transform",
-                              "has no inverse; the volume is not drawn");
+            _diagnostics.warn(cached.prim->path, "transform", messages::volumeWithoutInverse);
             continue;
         }
         RasterVolume volume;
@@ -103,9 +102,7 @@ void RasterVolumes::add(const std::shared_ptr<const Volume>& prim, const SceneSt
     cached.used = true;
     for (const RasterVolume& volume : cached.volumes) {
         if (_placed.size() >= maxPlaced) {
-            _diagnostics.warn(prim->path, "",
-                              "the rasterizer draws the first " + std::to_string(maxPlaced) +
-                                  " volumes, each instance counted; others are left out");
+            _diagnostics.warn(prim->path, "", messages::volumesTooMany(maxPlaced));
             break;
         }
         _placed.push_back(&volume);

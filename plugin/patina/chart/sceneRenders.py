@@ -108,8 +108,8 @@ class StageRenders:
         return self.renderers[backend]
 
     def _lost(self, backend):
-        reasons = [w["message"] for w in self.scene.warnings() if "OpenGL" in w["message"] or "raster" in w["message"]]
-        reason = reasons[-1].partition("; the path tracer")[0] if reasons else "no reason is known"
+        reasons = [w["fields"]["why"] for w in self.scene.warnings() if w["id"] == "pathTracerInstead"]
+        reason = reasons[-1] if reasons else "no reason is known"
         self.missing[backend] = f"no {WORDS[backend]} here: {reason}"
         raise CommandError(self.missing[backend])
 

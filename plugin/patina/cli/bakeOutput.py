@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 
+from patina import messages
 from patina.chart.png import display_values
 from patina.cli import compiled, materials, outputs, tryStage
 from patina.cli.errors import CommandError
@@ -222,8 +223,7 @@ def _texture(arguments, textures, name, kind, image, warnings):
         pixels = np.repeat(pixels, 3, axis=2)
     png = arguments.format == "png"
     if png and (pixels.max() > 1.0 + 1e-4 or pixels.min() < -1e-4):
-        warnings.append({"prim": textures.stem, "input": name, "count": 1,
-                         "message": "numbers outside 0 to 1 are cut off in PNG (take --format exr)"})
+        warnings.append(messages.warning(textures.stem, name, "pngCutsOff"))
     if png and color:
         pixels = display_values(pixels)
     # sRGB is applied above, so that no display transform stands between a colour and its file.

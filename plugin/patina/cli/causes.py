@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Warnings by their causes, worst first.
 
-A cause is the kind of a message and its culprit: the file, prim, node or type that the message names, or where it names none
-the input that it is about. How often comes with the first prim that it was met at. The order is:
+A cause is a message of base/messages.def and its culprit: the file, prim, node or type that its fields name, or where they name
+none the input that it is about. How often comes with the first prim that it was met at. The order is:
 
   missing  something that was authored is missing from the result: a prim, a light, a texture, a material, a file; a fallback
            stands in its place
@@ -12,38 +12,25 @@ and within each what was met most often first. All of them are warnings: the com
 """
 import re
 
-from patina.cli.advice import advice
+from patina import messages
 
 MAX_CAUSES = 20  # causes on the terminal; all of them are in --json
-SEVERITIES = ("missing", "changed")
 
 _LOOKED_AT = 2000  # characters of a message: names in it may have a million, and patterns try each place
 _SHOWN = 2000      # characters of a line on the terminal; --json has all
 
-# Words of messages where something is missing.
-_MISSING = re.compile(
-    r"not drawn|nothing is drawn|not written|not read\b|not found|not readable|not shaped by|"
-    r"is left out|are left out|left out$|left out with|cannot be|cannot read|could not|"
-    r"does not exist|do not exist|there is no |there are none|is missing|holds no |"
-    r"no file is given|gives no light|is off$|the light is off|"
-    r"magenta,? is shown|black is shown|displayColor is shown|can be shown|emits the same everywhere|failed|Failed|"
-    r"path tracer renders instead", re.IGNORECASE)
+# Fields of messages that name what is wrong; all others say how.
+_CULPRITS = frozenset("aov file filter graph grid input light material method mode model name node output path portal prim "
+                      "purpose shader source space target type unit value".split())
+# Names in reasons that libraries give.
 _QUOTED = re.compile(r"'[^']*'|\"[^\"]*\"|@[^@]+@|<[^>]+>")
 _PATH = re.compile(r"(?<![\w'\"@<])[^\s'\",;()]*(?:/[^\s'\",;()]+|\.(?:[A-Za-z][A-Za-z0-9]{1,4}))(?![\w])")
-_TYPE = re.compile(r"\bND_\w+|\btype \w+")
 _NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.]*\w)", re.IGNORECASE)
 
 
-def severity(warning):
-    """:returns: `missing` or `changed`"""
-    return SEVERITIES[0] if _MISSING.search(warning["message"][:_LOOKED_AT]) else SEVERITIES[1]
-
-
 def cause(warning):
-    """:returns: (kind, culprit) of a warning; messages that differ in numbers alone are of one kind"""
-    message, found = warning["message"][:_LOOKED_AT], []
-    if len(warning["prim"]) > 1:
-        message = message.replace(warning["prim"], "it")
+    """:returns: (kind, culprit) of a warning; those that differ in numbers alone are of one kind"""
+    found = []
 
     def keep(match):
         text = match.group().strip("'\"@<>")
@@ -51,11 +38,16 @@ def cause(warning):
             found.append(text)
         return "..."
 
-    kind = message
-    for pattern in (_QUOTED, _PATH, _TYPE):
-        kind = pattern.sub(keep, kind)
-    kind = _NUMBER.sub("N", kind)
-    return kind, ", ".join(found) or _leaf(warning["input"])
+    kind = warning["id"]
+    for name, text in warning["fields"].items():
+        text = text[:_LOOKED_AT]
+        if len(warning["prim"]) > 1:
+            text = text.replace(warning["prim"], "it")
+        if name in _CULPRITS:
+            found += [text] if text != "it" else []
+        else:
+            kind += ": " + _NUMBER.sub("N", _PATH.sub(keep, _QUOTED.sub(keep, text)))
+    return kind, ", ".join(dict.fromkeys(found)) or _leaf(warning["input"])
 
 
 def _leaf(name):
@@ -64,7 +56,7 @@ def _leaf(name):
 
 
 class Causes:
-    """Groups of warnings. Warnings are dicts of prim, input, message and count, as the scene gives them."""
+    """Groups of warnings, which are dicts as Scene.warnings() and messages.warning() give them."""
 
     def __init__(self, warnings):
         groups = {}
@@ -72,15 +64,16 @@ class Causes:
             kind, culprit = cause(warning)
             group = groups.get((kind, culprit))
             if group is None:
+                row = messages.table()[warning["id"]]
                 group = groups[kind, culprit] = {
-                    "severity": severity(warning), "message": warning["message"], "culprit": culprit, "kind": kind,
-                    "advice": plain(advice(warning["message"][:_LOOKED_AT])),
+                    "severity": row.severity, "id": warning["id"], "message": warning["message"], "culprit": culprit,
+                    "kind": kind, "advice": plain(messages.advice(warning)),
                     "prim": warning["prim"], "input": warning["input"], "count": 0, "prims": 0, "_prims": set()}
             group["count"] += warning["count"]
             group["_prims"].add(warning["prim"])
         for group in groups.values():
             group["prims"] = len(group.pop("_prims"))
-        self.groups = sorted(groups.values(), key=lambda g: (SEVERITIES.index(g["severity"]), -g["count"]))
+        self.groups = sorted(groups.values(), key=lambda g: (messages.SEVERITIES.index(g["severity"]), -g["count"]))
 
     def __len__(self):
         return len(self.groups)
@@ -94,7 +87,7 @@ class Causes:
             kinds.setdefault((group["severity"], group["kind"]), []).append(group)
         merged = [dict(alike[0], count=sum(g["count"] for g in alike), prims=sum(g["prims"] for g in alike), alike=len(alike))
                   for alike in kinds.values()]
-        return sorted(merged, key=lambda g: (SEVERITIES.index(g["severity"]), -g["count"]))
+        return sorted(merged, key=lambda g: (messages.SEVERITIES.index(g["severity"]), -g["count"]))
 
     def lines(self, reported=None, last=True, json=True):
         """:param reported: dict that remembers what was shown before, which is not shown again ...
@@ -134,7 +127,7 @@ def _cut(text):
 
 def line(group, json=True):
     """:returns: a group as one line"""
-    where = group["prim"] + ("." + group["input"] if group["input"] else "")
+    where = messages.place(group)
     text = printable(_cut("warning: " + (where + ": " if where else "") + group["message"]))
     if group.get("alike", 1) > 1:
         return f"{text} (and {group['alike'] - 1} causes like it: {group['count']} times{', all in --json' if json else ''})"

@@ -38,16 +38,16 @@ def token(stage, settings, others, backend):
 def resume(film, path, expected):
     """Loads a checkpoint if there is one that fits.
 
-    :returns: None, or a sentence why the render starts anew
+    :returns: None, or id and field of a message why the render starts anew
     """
     if not os.path.exists(path):
         return None
     try:
         film.load_checkpoint(path)
     except RuntimeError as error:
-        return f"{error}; starting anew"
+        return "checkpointUnreadable", error
     if film.resume_token != expected:
-        return f"{path} is of another stage, camera, back end or settings; starting anew"
+        return "checkpointOfAnother", path
     return None
 
 

@@ -23,7 +23,7 @@ def shots_at(prim, arguments, time, decimals):
     if arguments.image:
         if len(products) > 1:
             first = products[0].GetPath()
-            prim.warn(prim.path, "products", f"has {len(products)} products; only {first} is rendered, to IMAGE")
+            prim.warn(prim.path, "products", "productsTooMany", len(products), first)
         products = products[:1] or [None]
     elif not products:
         raise CommandError(f"{prim.path} has no products: name an IMAGE")
@@ -47,11 +47,11 @@ def _products(prim):
     for target in relationship.GetForwardedTargets() if relationship else []:
         product = prim.stage.GetPrimAtPath(target)
         if not product or not product.IsA(UsdRender.Product):
-            prim.warn(prim.path, "products", f"{target} is no UsdRenderProduct; it is left out")
+            prim.warn(prim.path, "products", "noProduct", target)
             continue
         kind = product.GetAttribute("productType").Get()
         if kind not in (None, "raster"):
-            prim.warn(target, "productType", f"'{kind}' products cannot be written; only raster products can")
+            prim.warn(target, "productType", "productTypeUnknown", kind)
             continue
         found.append(product)
     return found
@@ -64,7 +64,7 @@ def _shot(prim, product, arguments, time, decimals):
         name = product.GetAttribute("productName")
         image = str(prim_value(name, time) or "")
         if not image:
-            prim.warn(product.GetPath(), "productName", "is empty; the product is not written")
+            prim.warn(product.GetPath(), "productName", "productNameEmpty")
             return None
     if time is None and frames.has_place(image):
         raise CommandError(f"{image} has a place for frames, but the default time is rendered")
@@ -98,7 +98,7 @@ def _size(prim, product, arguments):
     width, height = (int(n) for n in prim.numbers(product, "resolution", 2) or _SIZE)
     if width < 1 or height < 1:
         prim.warn(prim.where(product, "resolution"), "resolution",
-                  f"{width} x {height} is no size; {_SIZE[0]} x {_SIZE[1]} is used")
+                  "resolutionUnusable", width, height, f"{_SIZE[0]} x {_SIZE[1]}")
         width, height = _SIZE
     if arguments.imageWidth and arguments.imageHeight:
         return arguments.imageWidth, arguments.imageHeight
@@ -128,7 +128,7 @@ def _render_settings(prim, product, arguments, size):
                                   round(x1 * width) - 1, round((1.0 - y0) * height) - 1]
         if settings["dataWindow"][2] < settings["dataWindow"][0] or settings["dataWindow"][3] < settings["dataWindow"][1]:
             where = product.GetPath() if product else prim.path
-            prim.warn(where, "dataWindowNDC", "holds no pixel; the whole image is rendered")
+            prim.warn(where, "dataWindowNDC", "windowEmpty")
             del settings["dataWindow"]
     return settings
 
@@ -140,7 +140,7 @@ def _set_pixel_aspect_ratio(prim, product, settings):
         settings["pixelAspectRatio"] = found[0]
     elif found:
         prim.warn(prim.where(product, "pixelAspectRatio"), "pixelAspectRatio",
-                  f"{found[0]:g} is not allowed, it is not from {least:g} to {most:g}; square pixels are used")
+                  "pixelAspectNotAllowed", f"{found[0]:g}", f"{least:g}", f"{most:g}")
 
 
 def _aovs(prim, product):
@@ -150,16 +150,16 @@ def _aovs(prim, product):
     for target in relationship.GetForwardedTargets() if relationship else []:
         var = prim.stage.GetPrimAtPath(target)
         if not var:
-            prim.warn(product.GetPath(), "orderedVars", f"there is no prim {target}; it is left out")
+            prim.warn(product.GetPath(), "orderedVars", "varNotFound", target)
             continue
         source = str(prim_value(var.GetAttribute("sourceName"), None) or "")
         aov = film_aov(source, prim_value(var.GetAttribute("sourceType"), None), _name_of(var))
         if not aov:
-            prim.warn(target, "sourceName", f"'{source}' is no AOV; it is left out")
+            prim.warn(target, "sourceName", "aovUnknown", source)
             continue
         problem = _problem_of(aov)
         if problem:
-            prim.warn(target, "sourceName", f"the AOV is left out: {problem}")
+            prim.warn(target, "sourceName", "aovLeftOut", problem)
             continue
         half = half or (aov == "color" and str(prim_value(var.GetAttribute("dataType"), None)) in _HALF)
         if aov not in names:

@@ -125,7 +125,7 @@ class _Job:
             with self.statistics.phase("report"):
                 problem = reports.write(self, film, shot, settings, info)
             if problem:
-                self.statistics.warn(shot.image, "", problem)
+                self.statistics.warn(shot.image, "", "reportMissing", shot.page, problem)
                 self._check_warnings()
         self.statistics.end_frame()
         if self.arguments.verbose:
@@ -136,8 +136,7 @@ class _Job:
     def _denoise(self, film):
         with self.statistics.phase("denoise"):
             if denoiser.takes_away(film):
-                self.statistics.warn("", "denoise", "some pixels are below zero, which counts as black for the denoiser; "
-                                     "color.noisy has them")
+                self.statistics.warn("", "denoise", "pixelsBelowZero")
             denoiser.run(self.module, film, self.arguments.threads)
 
     @property
@@ -214,7 +213,7 @@ class _Job:
         if self.arguments.resume:
             problem = checkpoints.resume(film, checkpoints.path_of(shot.image), token)
             if problem:
-                self.statistics.warn(shot.image, "", problem)
+                self.statistics.warn(shot.image, "", *problem)
                 film = self.module.Film()
         film.resume_token = token
         return film
@@ -237,7 +236,7 @@ class _Job:
                 if state["samplesDone"]:
                     problem = self.snapshots.look(self.renderer, film)
                     if problem:
-                        self.statistics.warn(shot.image, "", snapshots.words(problem))
+                        self.statistics.warn(shot.image, "", *snapshots.message(problem))
                         self._check_warnings()
                 progress.show(state)
             self.renderer.stop()

@@ -35,11 +35,11 @@ class SettingsPrim:
                 reason = "is no UsdRenderSettings prim" if self.prim else "is not there"
                 raise CommandError(f"--settings: {path} {reason} (there are: {', '.join(there[:12]) or 'none'})")
         self.stage, self.path, self.given = stage, str(self.prim.GetPath()), frozenset(given)
-        self.warnings = []  # (prim path, input, message)
+        self.warnings = []  # (prim path, input, id of a message, its fields...)
         self.extra = {}  # render settings that have no flag
 
-    def warn(self, prim, name, message):
-        item = (str(prim), name, message)
+    def warn(self, prim, name, id_, *fields):
+        item = (str(prim), name, id_, *map(str, fields))
         if item not in self.warnings:
             self.warnings.append(item)
 
@@ -79,9 +79,9 @@ class SettingsPrim:
         if len(found) == count and all(map(math.isfinite, found)):
             return found
         if count == 1:
-            self.warn(self.where(product, name), name, "is no finite number; it is left out")
+            self.warn(self.where(product, name), name, "settingNotFinite")
         else:
-            self.warn(self.where(product, name), name, f"is not {count} finite numbers; it is left out")
+            self.warn(self.where(product, name), name, "settingNotNumbers", count)
         return None
 
     def purposes(self, name):
@@ -92,7 +92,7 @@ class SettingsPrim:
             return None
         found = None if isinstance(value, str) or not hasattr(value, "__iter__") else list(value)
         if found is None or not all(isinstance(purpose, str) for purpose in found):
-            self.warn(self.path, name, "is no list of purposes; it is left out")
+            self.warn(self.path, name, "noPurposeList")
             return None
         return found
 
@@ -134,7 +134,7 @@ def applied(arguments, prim):
     merged.materialPurpose = _material_purpose(prim)
     space = prim.prim.GetAttribute("renderingColorSpace")
     if space and space.HasAuthoredValue() and space.Get() not in ("", "lin_rec709", "lin_rec709_scene", "lin_srgb"):
-        prim.warn(prim.path, "renderingColorSpace", f"rendering in '{space.Get()}' is not supported; linear Rec.709 is used")
+        prim.warn(prim.path, "renderingColorSpace", "renderingSpaceUnknown", space.Get())
     merged.method = list(arguments.method)
     forced = {text.partition("=")[0] for text in arguments.method}
     for attribute in prim.prim.GetAuthoredAttributes():
@@ -156,7 +156,7 @@ def _method(merged, prim, name, point, value):
     """A `patina:method:` attribute."""
     problem = compiled.load().check_methods({point: str(value)})
     if problem:
-        prim.warn(prim.path, name, f"{problem}; the setting keeps its value")
+        prim.warn(prim.path, name, "methodKept", problem)
     else:
         merged.method.append(f"{point}={value}")
 
@@ -168,7 +168,7 @@ def _purposes(merged, prim):
     known = [purpose for purpose in included if purpose in ("default", "render", "proxy", "guide")]
     for purpose in included:
         if purpose not in known:
-            prim.warn(prim.path, "includedPurposes", f"there is no purpose '{purpose}'; it is left out")
+            prim.warn(prim.path, "includedPurposes", "includedPurposeUnknown", purpose)
     merged.purposes = ",".join(known) or "none"
 
 
@@ -177,7 +177,7 @@ def _material_purpose(prim):
     # "allPurpose" is how the schema's own default spells the purpose "".
     wanted = ["full"] if authored is None else [purpose for purpose in authored if purpose not in ("", "allPurpose")]
     if len(wanted) > 1:
-        prim.warn(prim.path, "materialBindingPurposes", f"only bindings for '{wanted[0]}' and for all purposes are used")
+        prim.warn(prim.path, "materialBindingPurposes", "onePurposeUsed", wanted[0])
     return wanted[0] if wanted else ""
 
 
@@ -185,7 +185,7 @@ def _setting(merged, prim, name, key, value):
     """A `patina:` attribute."""
     if key == "backend":
         if value not in (*_BACKENDS, "auto", "interactive"):
-            prim.warn(prim.path, name, f"there is no back end '{value}'; the setting keeps its value")
+            prim.warn(prim.path, name, "backendUnknown", value)
         merged.backend = value if value in _BACKENDS else merged.backend
         return
     if key == "denoise":
@@ -193,18 +193,18 @@ def _setting(merged, prim, name, key, value):
         return
     if key == "outliers":
         if value not in recordFlags.OUTLIERS:
-            prim.warn(prim.path, name, f"{value} is not allowed; the setting keeps its value")
+            prim.warn(prim.path, name, "settingNotAllowed", value)
         else:
             merged.outliers = value
         return
     row = settingFlags.table().get(key)
     if row is None or "label" not in row.words:
-        prim.warn(prim.path, name, "there is no such setting; it is left out")
+        prim.warn(prim.path, name, "settingMissing")
         return
     try:
         checked = settingFlags.value_of(row, value)
     except (TypeError, ValueError):
-        prim.warn(prim.path, name, f"{value} is not allowed; the setting keeps its value")
+        prim.warn(prim.path, name, "settingNotAllowed", value)
         return
     if key in settingFlags.names():
         setattr(merged, key, checked)

@@ -43,5 +43,5 @@ def write(job, film, shot, settings, info):
     try:
         outputs.write_text(shot.page, page.document(job, film, shot, settings, info))
     except Exception as error:
-        return f"no report {shot.page}: {error or type(error).__name__}"
+        return str(error) or type(error).__name__
     return None

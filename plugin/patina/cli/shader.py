@@ -81,10 +81,11 @@ def _own(network, arguments, warnings):
     from patina.shader import own
 
     text, material = own.shader(network, arguments.target, methods.parse(arguments.method), arguments.largest_texture)
-    warnings += [{"prim": prim, "input": key, "message": message, "count": 1} for prim, key, message in material["warnings"]]
+    warnings += material["warnings"]
     if arguments.albedo_table:
         _write_table(arguments.albedo_table)
-    return {"text": text, "leftOut": material["leftOut"], "primvars": [list(pair) for pair in material["primvars"]],
+    return {"text": text, "leftOut": [said for _, said in material["leftOut"]],
+            "primvars": [list(pair) for pair in material["primvars"]],
             "textures": [{"file": texture["file"], "wrap": list(texture["wrap"]), "nearest": texture["nearest"],
                           "size": list(reversed(texture["texels"].shape[:2]))} for texture in material["textures"]],
             "parameterTable": list(material["parameters"])}

@@ -55,7 +55,7 @@ def place(settings, size, camera, warn):
 
     :param settings: dict of render settings, changed
     :param size: of the frame, pixels
-    :param warn: takes an input's name and a message"""
+    :param warn: takes an input's name, the id of a message and its fields"""
     width, height = settings["width"], settings["height"] = size
     window = settings.get("dataWindow")
     if not window or window[0] >= 0 and window[1] >= 0 and window[2] < width and window[3] < height:
@@ -66,7 +66,7 @@ def place(settings, size, camera, warn):
         settings.update(width=film[0], height=film[1], frameWindow=[-x, -y, width - 1 - x, height - 1 - y])
         del settings["dataWindow"]
         return
-    warn("dataWindowNDC", "reaches beyond the image, and the camera has no such film; no pixels are rendered outside of it")
+    warn("dataWindowNDC", "windowBeyondImage")
     window = [max(window[0], 0), max(window[1], 0), min(window[2], width - 1), min(window[3], height - 1)]
     settings["dataWindow"] = window
     if window[2] < window[0] or window[3] < window[1]:

@@ -112,6 +112,6 @@ class Snapshots:
         return None
 
 
-def words(error):
-    """:returns: why there is no snapshot, as a warning"""
-    return f"no snapshot: {error}" + ("; the next one is tried again" if is_temporary(error) else "")
+def message(error):
+    """:returns: id and field of a message why there is no snapshot"""
+    return "snapshotLater" if is_temporary(error) else "snapshotMissing", error

@@ -4,7 +4,7 @@ import contextlib
 import math
 import time
 
-from patina import __version__
+from patina import __version__, messages
 from patina.cli import colours, memory, outputs, planText
 from patina.cli.causes import Causes
 
@@ -17,11 +17,6 @@ PHASES = ("open", "translate", "build", "render", "write", "total")
 def lines(warnings):
     """:returns: the causes of warnings, worst first, as lines that begin with how bad they are"""
     return Causes(warnings).lines()
-
-
-def warning(message, prim="", name=""):
-    """:returns: a warning as those of a scene are"""
-    return {"prim": prim, "input": name, "message": message, "count": 1}
 
 
 def report(warnings, stream, json=True):
@@ -115,8 +110,8 @@ class Statistics:
         """Of the frame that is being rendered, by phase."""
         return self._frame["seconds"]
 
-    def warn(self, prim, name, message):
-        self._own.append(warning(message, prim, name))
+    def warn(self, prim, name, id_, *fields):
+        self._own.append(messages.warning(prim, name, id_, *fields))
 
     def note(self, texts):
         """Keeps what was decided for the user. :returns: those that are new"""

@@ -3,6 +3,7 @@
 import argparse
 import json
 
+from patina import messages
 from patina.cli import denoiser, planText, statistics
 from patina.cli.errors import CommandError
 from patina.farm import partial
@@ -68,12 +69,14 @@ def _report(text):
     :returns: the report of a part
     :raises Exception: one of partial.FOREIGN, where it is none"""
     report = json.loads(text)
-    warnings = [(one["prim"], one["input"], one["message"], one["count"]) for one in report["warnings"]]
-    texts = [report["backend"], *(text for *words, _ in warnings for text in words)]
+    warnings = report["warnings"]
+    made = [messages.warning(one["prim"], one["input"], one["id"], *one["fields"].values()) for one in warnings]
     numbers = [report["seconds"]["render"], *report["seconds"].values(), *report["statistics"].values(),
-               *(count for *_, count in warnings)]
-    if not (all(isinstance(text, str) for text in texts) and all(isinstance(number, (int, float)) for number in numbers)):
+               *(one["count"] for one in warnings)]
+    if not isinstance(report["backend"], str) or not all(isinstance(number, (int, float)) for number in numbers):
         raise TypeError
+    if any({**one, "count": own["count"]} != own for own, one in zip(made, warnings)):
+        raise ValueError
     planText.of_scene(report["plans"], report["sceneChoices"])
     return report
 

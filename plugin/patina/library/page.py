@@ -28,7 +28,7 @@ def document(width, samples, chosen=None):
     for done, entry in enumerate(chosen):
         progress.step(done, len(chosen), entry.name)
         shown, told = pictures.render(entry, width, samples)
-        warnings += [statistics.warning(text["message"], entry.name) for text in told]
+        warnings += [{**warning, "prim": entry.name, "input": ""} for warning in told]
         cards.setdefault(entry.group, []).append(_card(entry, shown, width))
     progress.clear()
     script = _text(os.path.join(_WEB, "library.js"))

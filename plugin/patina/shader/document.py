@@ -3,6 +3,7 @@
 import re
 import xml.etree.ElementTree as tree
 
+from patina import messages
 from patina.cli import compiled
 from patina.shader import standardNames
 
@@ -36,8 +37,7 @@ def document(network, name="", warnings=None):
     for node in nodes:
         writer.add(node)
         if warnings is not None and node["id"] in standardNames.SIMPLER:
-            warnings.append({"prim": network.path, "input": "", "count": 1,
-                             "message": standardNames.SIMPLER[node["id"]]})
+            warnings.append(messages.warning(network.path, "", standardNames.SIMPLER[node["id"]]))
     volume = [terminals["volume"]] if "volume" in terminals else []
     surfaces = [key for key in ("surface", "displacement") if key in terminals]
     if surfaces:

@@ -4,6 +4,8 @@ import importlib
 import importlib.util
 import re
 
+from patina import messages
+
 LANGUAGES = {"osl": ("PyMaterialXGenOsl", "OslShaderGenerator"), "mdl": ("PyMaterialXGenMdl", "MdlShaderGenerator"),
              "msl": ("PyMaterialXGenMsl", "MslShaderGenerator")}
 UNSAFE = re.compile(r"[\x00-\x1f\x7f\"\\]")  # ends a string literal of some language
@@ -82,26 +84,26 @@ def harmless(text, warnings):
     parents = {child: parent for parent in root.iter() for child in parent}
     for element in root.iter():
         for key, value in list(element.items()):
-            safe, message = _harmless(element, key, value)
+            safe, id_ = _harmless(element, key, value)
             if safe is None:
                 del element.attrib[key]
             else:
                 element.set(key, safe)
-            if message:
+            if id_:
                 node = parents.get(element, root)
-                warnings.append({"prim": UNSAFE.sub("_", node.get("name", "")), "count": 1, "message": message,
-                                 "input": UNSAFE.sub("_", element.get("name", ""))})
+                names = (UNSAFE.sub("_", named.get("name", "")) for named in (node, element))
+                warnings.append(messages.warning(*names, id_))
     return '<?xml version="1.0"?>\n' + tree.tostring(root, encoding="unicode") + "\n"
 
 
 def _harmless(element, key, value):
-    """:returns: what an attribute is written as, None to leave it out, and the message about it ('' for none)"""
+    """:returns: what an attribute is written as, None to leave it out, and the id of the message about it ('' for none)"""
     if key == "colorspace" and not COLOR_SPACE.fullmatch(value):
-        return None, "the colour space has characters that no such name has; it is left out"
+        return None, "spaceNameUnsafe"
     if key == "value" and element.get("name") == "geomprop" and NOT_OF_A_WORD.search(value):
-        return NOT_OF_A_WORD.sub("_", value), "the primvar's name has more than letters, digits, _ and :; it is written with _"
+        return NOT_OF_A_WORD.sub("_", value), "primvarNameUnsafe"
     if UNSAFE.search(value):
-        return UNSAFE.sub("_", value), "a text has quotes, backslashes or control characters; they are written as _"
+        return UNSAFE.sub("_", value), "textUnsafe"
     return value, ""
 
 

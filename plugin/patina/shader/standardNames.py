@@ -17,9 +17,7 @@ RENAMED = {  # id of a node -> category and nodedef
         ("float", "float"), ("float2", "vector2"), ("float3", "vector3"), ("float4", "vector4"), ("int", "integer"),
         ("string", "string"), ("normal", "vector3"), ("point", "vector3"), ("vector", "vector3"))},
 }
-SIMPLER = {"PatinaCoat": "the coat is written as a plain layer, which MaterialX has: light that it sends back down is counted "
-                         "by the reader's own rule",
-           "ND_patina_dispersed_ior": "MaterialX has no ior by wavelength: the glass is written without its dispersion"}
+SIMPLER = {"PatinaCoat": "coatWrittenAsLayer", "ND_patina_dispersed_ior": "dispersionNotWritten"}  # ids of messages
 RENAMED_INPUTS = {"dot": {"ior": "in"}, "geompropvalue": {"varname": "geomprop", "fallback": "default"}}  # of a category
 UNKNOWN_INPUTS = {  # nodedef -> inputs that it does not have
     "ND_gltf_normalmap_vector3_1_0": {"normal", "tangent", "bitangent"},

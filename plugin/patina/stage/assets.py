@@ -33,7 +33,7 @@ def _file_of(context, attribute):
     if not path:
         return ""
     if not isinstance(path, str):
-        context.warn(attribute.GetPrim().GetPath(), attribute.GetName(), "names no file")
+        context.warn(attribute.GetPrim().GetPath(), attribute.GetName(), "namesNoFile")
         return ""
     resolved = getattr(value, "resolvedPath", "")
     if _UDIM in path:

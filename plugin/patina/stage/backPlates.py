@@ -42,10 +42,10 @@ def _emit(context, found, prefix, path, module):
         size *= distance / (number(context, prim, "focalLength", 50.0) * _APERTURE_UNIT)
     size *= np.array(vector(context, prim, prefix + "scale:tweak", (1.0, 1.0)))
     if not (np.isfinite(size).all() and (size != 0.0).all()):
-        context.warn(prim.GetPath(), "focusDistance", f"gives the back plate {prefix[10:-1]} no size; it is left out")
+        context.warn(prim.GetPath(), "focusDistance", "backPlateSizeless", prefix[10:-1])
         return
     if get(prim, prefix + "depth:image", context.time):
-        context.warn(prim.GetPath(), prefix + "depth:image", "is not read; the back plate is flat")
+        context.warn(prim.GetPath(), prefix + "depth:image", "backPlateFlat")
     turns = vector(context, prim, prefix + "rotateXYZ:tweak", (0.0, 0.0, 0.0))
     rotation = Gf.Rotation(Gf.Vec3d(0, 0, 1), turns[2]) * Gf.Rotation(Gf.Vec3d(0, 1, 0), turns[1]) * Gf.Rotation(
         Gf.Vec3d(1, 0, 0), turns[0])
@@ -86,7 +86,7 @@ def _material(context, prim, prefix, path, module):
                 opacity = path + "/channel"
             network.connect(surface, "opacity", opacity)
         else:
-            context.warn(prim.GetPath(), prefix + "alpha:image", f"has {channels} channels, not 1, 2 or 4; the plate is opaque")
+            context.warn(prim.GetPath(), prefix + "alpha:image", "backPlateChannels", channels)
     network.set_terminal("surface", surface)
     context.edit.set_material(path, network)
     return path
@@ -97,7 +97,7 @@ def _picture(context, prim, name):
     attribute = prim.GetAttribute(name)
     file = assets.resolve(context, attribute) if attribute and attribute.HasAuthoredValue() else ""
     if file and not os.path.exists(file):
-        context.warn(prim.GetPath(), name, f"there is no file {file}; the back plate is plain")
+        context.warn(prim.GetPath(), name, "backPlateFileMissing", file)
         return ""
     return file
 
@@ -117,7 +117,7 @@ def _graded(context, prim, prefix, network, color):
     gain, lift, gamma = (np.array(vector(context, prim, prefix + name, fallback)) for name, fallback in
                          (("gain", (1.0, 1.0, 1.0)), ("lift", (0.0, 0.0, 0.0)), ("gamma", (1.0, 1.0, 1.0))))
     if not (gamma > 0.0).all():
-        context.warn(prim.GetPath(), prefix + "gamma", "is not finite and above 0; 1 is used")
+        context.warn(prim.GetPath(), prefix + "gamma", "backPlateGamma")
         gamma = np.ones(3)
     for operation, value, idle in (("multiply", gain - lift, 1.0), ("add", lift, 0.0), ("power", 1.0 / gamma, 1.0)):
         if (value != idle).any():

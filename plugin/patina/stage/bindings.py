@@ -68,7 +68,7 @@ class Bindings:
                     material = prim.GetStage().GetPrimAtPath(target)
                     if not material or not material.IsA(UsdShade.Material):
                         problem = "is no material" if material else "does not exist"
-                        self.context.warn(prim.GetPath(), name, f"names {target}, which {problem}; the binding is left out")
+                        self.context.warn(prim.GetPath(), name, "bindingLeftOut", target, problem)
             prim = prim.GetParent()
 
     def _show(self, bound, group):
@@ -85,8 +85,7 @@ class Bindings:
         for subset in UsdShade.MaterialBindingAPI(prim).GetMaterialBindSubsets():
             elements = subset.GetElementTypeAttr().Get()
             if elements != UsdGeom.Tokens.face:
-                self.context.warn(subset.GetPath(), "elementType", f"is {shown(elements)}, and materials are bound to subsets "
-                                  "of faces alone; the subset is left out")
+                self.context.warn(subset.GetPath(), "elementType", "subsetOfOthers", shown(elements))
             elif subset.GetPrim().IsActive():
                 found.append(subset)
         return found

@@ -106,7 +106,7 @@ def shutter_of(context, found):
         return (0.0, 0.0)
     opens, closes = (number(context, found.prim, "shutter:" + n, 0.0) for n in ("open", "close"))
     if closes < opens:
-        context.warn(found.path, "shutter:close", "is before shutter:open; nothing is blurred")
+        context.warn(found.path, "shutter:close", "shutterCloses")
         return (0.0, 0.0)
     return (opens, closes)
 
@@ -140,7 +140,7 @@ def inputs_of(context, prim):
         if single is not None:
             found[name] = single
         elif value is not None:
-            context.warn(prim.GetPath(), attribute_name, "is neither a number nor a text; it is left out")
+            context.warn(prim.GetPath(), attribute_name, "noNumberOrText")
     return found
 
 
@@ -161,18 +161,18 @@ def emit(context, found):
     try:
         near, far = map(float, get(prim, "clippingRange", time, (1.0, 1e6)))
     except (TypeError, ValueError):
-        context.warn(prim.GetPath(), "clippingRange", "is not two numbers; 1 to 1000000 is used")
+        context.warn(prim.GetPath(), "clippingRange", "clippingRangeUnusable")
         near, far = 1.0, 1e6
     planes = array(context, prim, "clippingPlanes", get(prim, "clippingPlanes", time), 4)
     opens, closes = context.shutter
     transform = transform_of(context, prim, None)
     matrices = transform[1] if isinstance(transform, tuple) else [transform]
     if any(abs(np.linalg.det(m[:3, :3].astype(np.float64))) < 1e-30 for m in matrices):
-        context.warn(prim.GetPath(), "xformOpOrder", "makes the camera flat; no transform is used")
+        context.warn(prim.GetPath(), "xformOpOrder", "cameraFlat")
         transform = np.eye(4)
     projection = get(prim, "projection", time, "perspective")
     if projection not in ("perspective", "orthographic"):
-        context.warn(prim.GetPath(), "projection", f"'{shown(projection)}' is not known; perspective is used")
+        context.warn(prim.GetPath(), "projection", "projectionUnknown", shown(projection))
     placed = Placed(found.path, transform, projection == "orthographic", near, far)
     context.edit.set_camera(
         found.path, transform=transform, orthographic=placed.orthographic,
@@ -227,7 +227,7 @@ def _unite(context, box, prim, range_in):
     try:
         own = range_in(matrix_at(context, prim, None, 0.0))
     except (Tf.ErrorException, TypeError, ValueError) as error:
-        context.warn(prim.GetPath(), "extent", f"cannot be read; the framing camera looks past it: {one_line(error)[:300]}")
+        context.warn(prim.GetPath(), "extent", "extentUnreadable", one_line(error)[:300])
         return
     if _is_usable(own):
         box.UnionWith(own)
@@ -263,7 +263,7 @@ def _framing(context, gprims):
     :returns: a _Framing"""
     box = _bounds(context, gprims)
     if not _is_usable(box):
-        context.warn("/", "", "the stage has no extents to frame; the camera looks at the origin")
+        context.warn("/", "", "noExtents")
         box = Gf.Range3d(Gf.Vec3d(-1), Gf.Vec3d(1))
     matrix = _orientation(box.GetSize(), UsdGeom.GetStageUpAxis(context.stage) == UsdGeom.Tokens.z)
     centre, inverse = box.GetMidpoint(), matrix.GetInverse()

@@ -25,7 +25,7 @@ def faces_of(context, prim, geometry):
         attribute = prim.GetAttribute("model:cardTexture" + face)
         file = assets.resolve(context, attribute) if attribute and attribute.HasAuthoredValue() else ""
         if file and not os.path.exists(file):
-            context.warn(prim.GetPath(), "model:cardTexture" + face, f"there is no file {file}; the card is plain")
+            context.warn(prim.GetPath(), "model:cardTexture" + face, "cardFileMissing", file)
             file = ""
         textures[face] = file
     if geometry == "fromTexture":
@@ -79,7 +79,7 @@ def emit(context, found, low, high, common, color, module):
     geometry = get(prim, "model:cardGeometry", context.time, "cross")
     if geometry not in ("cross", "box", "fromTexture"):
         context.warn(prim.GetPath(), "model:cardGeometry",
-                     f"'{shown(geometry)}' is not drawn; a cross is shown instead")
+                     "cardGeometryUnknown", shown(geometry))
     for face, file in faces_of(context, prim, geometry).items():
         path = f"{found.path}/card{face}"
         points = quad(face, low, high, geometry != "box")
@@ -87,7 +87,7 @@ def emit(context, found, low, high, common, color, module):
             try:
                 points = quad_of_picture(module.read_image(file).metadata)
             except RuntimeError as error:
-                context.warn(prim.GetPath(), "model:cardTexture" + face, f"{error}; the card is left out")
+                context.warn(prim.GetPath(), "model:cardTexture" + face, "cardLeftOut", error)
                 continue
         context.edit.set_mesh(
             path, points=points, face_vertex_counts=np.array([4], np.int32),

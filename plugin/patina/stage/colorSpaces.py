@@ -60,7 +60,7 @@ class ColorSpaces:
         value = _value(prim, input_)
         if value is None or isinstance(value, str):
             return fallback if value is None else value
-        self._edit.warn(str(prim.GetPath()), input_, "is not the name of a colour space; it is left out")
+        self._edit.warn(str(prim.GetPath()), input_, "noColorSpaceName")
         return fallback
 
     def _numbers(self, prim, input_, fallback):
@@ -74,7 +74,7 @@ class ColorSpaces:
             numbers = np.zeros(0)
         if isinstance(value, str) or len(numbers) != len(fallback) or not np.isfinite(numbers).all():
             self._edit.warn(str(prim.GetPath()), input_,
-                            f"is not as many finite numbers as the schema has; {fallback} is used")
+                            "colorSpaceNumbers", fallback)
             return fallback
         return tuple(map(float, numbers))
 

@@ -9,7 +9,7 @@ from .errors import StageError, one_line
 from .fallbacks import Fallbacks
 
 MAX_MOTION_SAMPLES = 16
-LONGEST_MESSAGE = 500  # characters; values of a stage may be of any length
+LONGEST_FIELD = 500  # characters; values of a stage may be of any length
 _MOST_SHOWN = 16  # elements of a value: those of a matrix
 
 
@@ -34,10 +34,15 @@ class Context:
         self.portals = None  # paths of the portals that domes name, once they are asked for
         self._xforms = {}
 
-    def warn(self, prim, input_, message):
-        if len(message) > LONGEST_MESSAGE:
-            message = message[:LONGEST_MESSAGE] + "..."
-        self.edit.warn(str(prim), input_, message)
+    def warn(self, prim, input_, id_, *fields):
+        """:param id_: of a message, fields: see patina.messages.warning"""
+        texts = [text if len(text) <= LONGEST_FIELD else text[:LONGEST_FIELD] + "..." for text in map(str, fields)]
+        self.edit.warn(str(prim), input_, id_, *texts)
+
+    def repeat(self, warnings):
+        """Warns again of what a reader of C++ gathered."""
+        for warning in warnings:
+            self.warn(warning["prim"], warning["input"], warning["id"], *warning["fields"].values())
 
     def count(self, kind, number=1):
         self.counts[kind] = self.counts.get(kind, 0) + number
@@ -144,7 +149,7 @@ def number(context, prim, name, fallback, value=None):
     if value is None:
         return fallback
     if not isinstance(value, (int, float)) or not np.isfinite(value):
-        context.warn(prim.GetPath(), name, f"is no finite number; {'the default' if fallback is None else fallback} is used")
+        context.warn(prim.GetPath(), name, "numberNotFinite", "the default" if fallback is None else fallback)
         return fallback
     return float(value)
 
@@ -162,7 +167,10 @@ def vector(context, prim, name, fallback, value=None):
     count = 3 if fallback is None else len(fallback)
     if numbers.shape != (count,) or not np.isfinite(numbers).all():
         used = "the default" if fallback is None else fallback
-        context.warn(prim.GetPath(), name, f"is not {'three' if count == 3 else count} finite numbers; {used} is used")
+        if count == 3:
+            context.warn(prim.GetPath(), name, "noThreeNumbers", used)
+        else:
+            context.warn(prim.GetPath(), name, "numbersUnfit", count, used)
         return fallback
     return tuple(map(float, numbers))
 
@@ -185,7 +193,7 @@ def array(context, prim, name, value, components, dtype=np.float32):
     if not fits:
         if found is None or found.size:
             kind = "integers" if dtype == np.int32 else "numbers"
-            context.warn(prim.GetPath(), name, f"is no array with {components} {kind} per element; it is treated as empty")
+            context.warn(prim.GetPath(), name, "arrayUnusable", components, kind)
         return np.zeros(shape, dtype)
     return found.astype(dtype, copy=False)
 
@@ -206,5 +214,5 @@ class Guard:
         text = "there is not enough memory for it" if issubclass(kind, MemoryError) else one_line(error)[:300]
         if self.needed:
             raise StageError(f"{self.prim.GetPath()} cannot be read: {text}") from error
-        self.context.warn(self.prim.GetPath(), "", f"cannot be read and is not drawn: {text}")
+        self.context.warn(self.prim.GetPath(), "", "primUnreadable", text)
         return True

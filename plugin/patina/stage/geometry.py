@@ -105,10 +105,10 @@ def _curves(context, found, common, skin):
     basis = "linear" if linear else get(prim, "basis", context.time, "bezier")
     wrap = get(prim, "wrap", context.time, "nonperiodic")
     if basis not in ("linear", "bezier", "bspline", "catmullRom"):
-        context.warn(prim.GetPath(), "basis", f"'{shown(basis)}' is unknown; bezier is drawn")
+        context.warn(prim.GetPath(), "basis", "basisUnknown", shown(basis))
         basis = "bezier"
     if wrap not in ("nonperiodic", "periodic", "pinned"):
-        context.warn(prim.GetPath(), "wrap", f"'{shown(wrap)}' is unknown; nonperiodic is drawn")
+        context.warn(prim.GetPath(), "wrap", "wrapUnknown", shown(wrap))
         wrap = "nonperiodic"
     counts = array(context, prim, "curveVertexCounts", get(prim, "curveVertexCounts", context.time), 1, np.int32)
     context.edit.set_curves(found.path, points=points_of(context, prim, skin), basis=basis, wrap=wrap,

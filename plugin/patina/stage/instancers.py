@@ -18,8 +18,7 @@ def emit_instancer(context, found, names, linking):
     schema, _stage = _usable(context, UsdGeom.PointInstancer(prim), len(indices))
     offsets, samples = _matrices(context, schema, prim, len(indices))
     if samples is None:
-        context.warn(path, "positions", "or another array has another length than protoIndices; nothing is drawn of the "
-                     "instancer")
+        context.warn(path, "positions", "instancerArraysDiffer")
         return
     with np.errstate(invalid="ignore", over="ignore"):  # told below
         samples = [local @ np.array(matrix_at(context, prim, group.anchor, t)) for t, local in zip(offsets, samples)]
@@ -27,10 +26,10 @@ def emit_instancer(context, found, names, linking):
     keep = keep & ((indices >= 0) & (indices < len(names)))
     broken = int(np.count_nonzero((indices < 0) | (indices >= len(names))))
     if broken:
-        context.warn(path, "protoIndices", f"has {broken} indices that no prototype has; these are not drawn")
+        context.warn(path, "protoIndices", "prototypesMissing", broken)
     finite = np.all([is_finite(s) for s in samples], axis=0)
     if not finite.all():
-        context.warn(path, "positions", f"gives {int((~finite).sum())} instances that are not finite; these are not drawn")
+        context.warn(path, "positions", "instancesNotFinite", int((~finite).sum()))
     keep = keep & finite
     ids = get(prim, "ids", context.time)
     ids = np.asarray(ids) if ids is not None and len(ids) == len(indices) else np.arange(len(indices))
@@ -61,10 +60,9 @@ def _usable(context, schema, count):
     if not long and not turns:
         return schema, None
     if long:
-        context.warn(prim.GetPath(), long[0], f"has {len(values[long[0]])} values for {count} instances; the rest is "
-                     "not used")
+        context.warn(prim.GetPath(), long[0], "instanceValuesMany", len(values[long[0]]), count)
     if turns:
-        context.warn(prim.GetPath(), turns[0], "has quaternions that are not of length 1; they are normalised")
+        context.warn(prim.GetPath(), turns[0], "quaternionsNotUnit")
     stage = Usd.Stage.CreateInMemory()
     stage.SetTimeCodesPerSecond(context.time_codes_per_second)
     own = UsdGeom.PointInstancer.Define(stage, "/own")
@@ -131,7 +129,7 @@ def _primvars(context, prim, keep):
             continue
         if len(values) != len(keep):
             context.warn(prim.GetPath(), primvar.GetName(),
-                         f"has {len(values)} values for {len(keep)} instances; it is left out")
+                         "instanceValuesLeftOut", len(values), len(keep))
             continue
         values = in_rendering_space(context, prim, primvar.GetAttr(), values)
         found.append((primvar.GetPrimvarName(), "vertex", values[keep], None))
@@ -169,8 +167,7 @@ def emit_instances(context, outer, prototype, founds, linking, values):
                 sample[i] = np.array(matrix_at(context, founds[i].prim, founds[i].state.group.anchor, t))
     finite = np.all([is_finite(sample) for sample in samples], axis=0)
     if not finite.all():
-        context.warn(founds[0].prim.GetPath(), "xformOpOrder", "gives a transform that is not finite, here or at another "
-                     "instance of the prototype; none is used")
+        context.warn(founds[0].prim.GetPath(), "xformOpOrder", "instanceTransformNotFinite")
         for sample in samples:
             sample[~finite] = np.eye(4)
     categories = [linking.categories(found) for found in founds]

@@ -116,7 +116,7 @@ class Levels:
         """:returns: of the child that is drawn; -1: none is; None: all are"""
         default = max(int(number(self.context, root, "lod:default:index", 0.0)), 0)
         if UsdLod is None:
-            self._tell(root, "", "levels of detail need OpenUSD 26.08 or later; lod:default:index says what is drawn")
+            self._tell(root, "", "levelsNeedNewer")
             return default
         mode, index = UsdLod.OverrideAPI(root).ComputeLODOverride(self.context.time)
         if mode in ("noLOD", "allLOD"):
@@ -130,20 +130,19 @@ class Levels:
         for path in UsdLod.RootAPI(root).GetLodHeuristicsRel().GetForwardedTargets():
             prim = self.context.stage.GetPrimAtPath(path)
             if not prim or not prim.IsA(UsdLod.Heuristic):
-                self._tell(root, "lod:heuristics", f"names {path}, which is no heuristic; it is passed over")
+                self._tell(root, "lod:heuristics", "levelUnchosen", path)
             elif get(prim, "lod:domain", self.context.time) == _DOMAIN:
                 for type_, view in ((UsdLod.DistanceHeuristic, lambda: self._frustum().GetPosition()),
                                     (UsdLod.ScreenSizeHeuristic, self._frustum)):
                     if prim.IsA(type_):
                         return type_(prim).ComputeLOD(view(), matrix, self.context.time)
-                self._tell(root, "lod:heuristics",
-                           f"names {path}, whose type {prim.GetTypeName()} is not known; it is passed over")
+                self._tell(root, "lod:heuristics", "levelTypeUnknown", path, prim.GetTypeName())
         return None
 
-    def _tell(self, root, name, message):
+    def _tell(self, root, name, id_, *fields):
         if root.GetPath() not in self._told:
             self._told.add(root.GetPath())
-            self.context.warn(root.GetPath(), name, message)
+            self.context.warn(root.GetPath(), name, id_, *fields)
 
     def _frustum(self):
         if self._view is None:

@@ -42,13 +42,13 @@ def of(context, light, group):
     for path in light.GetRelationship("light:filters").GetForwardedTargets():
         prim = context.stage.GetPrimAtPath(path)
         if not prim:
-            context.warn(light.GetPath(), "light:filters", f"{path} does not exist; the filter is left out")
+            context.warn(light.GetPath(), "light:filters", "filterMissing", path)
             continue
         name = _type_name(prim)
         if name not in _types():
             known = ", ".join(sorted(_types()))
             context.warn(light.GetPath(), "light:filters",
-                         f"{path} is a light filter of unknown type '{name}' (known: {known}); it is left out")
+                         "filterTypeUnknown", path, name, known)
             continue
         filters.append({"path": str(path), "type": _types()[name], "transform": _transform(context, prim, group),
                         **_read(context, prim, name)})
@@ -104,7 +104,7 @@ def _tell_of_others(context, prim):
             continue
         value = attribute.Get(context.time)
         if not _is_idle(value, _ignored().get(name, ())):
-            context.warn(prim.GetPath(), attribute.GetName(), f"is {shown(value)}, which is not evaluated")
+            context.warn(prim.GetPath(), attribute.GetName(), "inputIgnored", shown(value))
 
 
 def _is_idle(value, words):
@@ -134,6 +134,6 @@ def _value(context, prim, attribute, type_, value):
         values = None
     shape = 1 if type_ == "floats" else 2
     if values is None or values.ndim != shape or not np.isfinite(values).all() or shape == 2 and values.shape[1] != 3:
-        context.warn(prim.GetPath(), name, "is no array of finite numbers; the fallback is used")
+        context.warn(prim.GetPath(), name, "arrayNotFinite")
         return None
     return values

@@ -56,7 +56,7 @@ def _report_network(context, prim, is_mesh):
         value = attribute.Get() if attribute and attribute.HasAuthoredValue() and not is_mesh else None
         own = prim.GetPrimDefinition().GetAttributeFallbackValue(name)  # "DomeLight" of a DomeLight_1
         if value is not None and value not in (*kinds.schemas_of(prim), own):
-            context.warn(prim.GetPath(), name, f"is {shown(value)}, which is not evaluated; the light is drawn by its type")
+            context.warn(prim.GetPath(), name, "lightShaderIgnored", shown(value))
     for attribute in prim.GetAuthoredAttributes():
         name = attribute.GetName()
         if name.startswith("inputs:"):
@@ -65,8 +65,8 @@ def _report_network(context, prim, is_mesh):
             target = next(iter(attribute.GetConnections()), None)
         if target is None or not name.startswith(("inputs:", "outputs:light", "outputs:mtlx:light")):
             continue
-        context.warn(prim.GetPath(), name, f"is connected to {target}, which is not evaluated for lights; "
-                     + ("its own value is used" if name.startswith("inputs:") else "the light is drawn by its type"))
+        id_ = "lightInputConnected" if name.startswith("inputs:") else "lightOutputConnected"
+        context.warn(prim.GetPath(), name, id_, target)
 
 
 def _light_group(context, found):
@@ -115,7 +115,7 @@ def _color(context, prim, name):
 
     converted = _patina.color_to_rendering(list(color), space)
     if converted is None:
-        context.warn(prim.GetPath(), "inputs:" + name, f"unknown colour space '{space}'; the value is used as it is")
+        context.warn(prim.GetPath(), "inputs:" + name, "valueSpaceUnknown", space)
         return color
     return tuple(max(x, 0.0) for x in converted)  # of what Rec.709 does not reach
 
@@ -190,6 +190,6 @@ def _geometry_of(context, prim, group):
     targets = prim.GetRelationship("geometry").GetForwardedTargets() if prim.HasRelationship("geometry") else []
     target = context.stage.GetPrimAtPath(targets[0]) if targets else None
     if not target or not target.IsA(UsdGeom.Mesh):
-        context.warn(prim.GetPath(), "geometry", "names no mesh; the light is left out")
+        context.warn(prim.GetPath(), "geometry", "lightNamesNoMesh")
         return ""
     return group.path(target)

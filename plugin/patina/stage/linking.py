@@ -24,8 +24,8 @@ class Linking:
         try:
             self._queries[name] = collection.ComputeMembershipQuery()
         except Exception as error:  # pxr raises many types for cyclic collections
-            self.context.warn(light.GetPath(), "collection:" + collection.GetName(), f"cannot be used; the light "
-                              f"lights everything: {' '.join(str(error).split())[:200]}")
+            self.context.warn(light.GetPath(), "collection:" + collection.GetName(), "linksUnusable",
+                              " ".join(str(error).split())[:200])
             return ""
         return name
 

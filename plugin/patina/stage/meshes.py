@@ -34,7 +34,7 @@ def emit(context, found, common, points, skin):
         if value is None:
             value = fallback
         elif value not in allowed:
-            context.warn(prim.GetPath(), name, f"'{shown(value)}' is unknown; {fallback} is used")
+            context.warn(prim.GetPath(), name, "tokenUnknown", shown(value), fallback)
             value = fallback
         fields[key] = value
     if skin and skin.deforms:

@@ -66,7 +66,7 @@ def _supply_prim(context, prim, module):
                         prim.GetReferences().AddReference(layer.identifier, target)
                         _KEEP.append(layer)
                     else:
-                        context.warn(prim.GetPath(), "references", f"{file} has no {target}")
+                        context.warn(prim.GetPath(), "references", "referenceWithout", file, target)
 
 
 _KEEP = []  # anonymous layers live as long as someone holds them
@@ -75,7 +75,7 @@ _layers = {}
 
 def _layer_of(context, prim, file, module):
     if not os.path.exists(file):
-        context.warn(prim.GetPath(), "references", f"there is no file {file}")
+        context.warn(prim.GetPath(), "references", "fileMissing", file)
         return None
     inputs.check_regular(file)
     inputs.note_document(file)
@@ -84,8 +84,7 @@ def _layer_of(context, prim, file, module):
         return _layers[stamp]
     warnings = []
     networks = module.read_mtlx(file, warnings, context.meters_per_unit)
-    for warning in warnings:
-        context.warn(warning["prim"], warning["input"], warning["message"])
+    context.repeat(warnings)
     layer = Sdf.Layer.CreateAnonymous(os.path.basename(file) + ".usda")
     for network in networks:
         name = network.path[len(file) + 1:]  # may hold colons, of namespaces

@@ -57,16 +57,14 @@ class _Translation:
         while self._todo:
             self._inputs(*self._todo.pop())
         if _is_before_139(self.material):
-            for warning in self.network.upgrade():
-                self.context.warn(warning["prim"], warning["input"], warning["message"])
+            self.context.repeat(self.network.upgrade())
         for output in self.material.GetOutputs():
             if output.GetBaseName() in ("light", "mtlx:light") and output.HasConnectedSource():
-                self._warn(self.material.GetPrim(), output.GetFullName(), "light shaders of materials are not drawn; "
-                           "it is ignored")
+                self._warn(self.material.GetPrim(), output.GetFullName(), "materialLightIgnored")
         if self.network.empty:
             others = sorted(o.GetFullName() for o in self.material.GetOutputs() if o.HasConnectedSource())
-            self._warn(self.material.GetPrim(), "", "has no surface, displacement or volume that can be shown"
-                       + (f" (it has {', '.join(others)})" if others else "") + "; displayColor is shown")
+            told = ("materialHasOthers", ", ".join(others)) if others else ("materialNotShown",)
+            self._warn(self.material.GetPrim(), "", *told)
         return self.network
 
     def _known_output(self, shader, terminal, output):
@@ -76,8 +74,8 @@ class _Translation:
         names = [name for name, _ in definition["outputs"]] if definition else []
         return output if output in names or not names else terminal if terminal in names else names[0]
 
-    def _warn(self, prim, input_, message):
-        self.context.warn(prim.GetPath(), input_, message)
+    def _warn(self, prim, input_, id_, *fields):
+        self.context.warn(prim.GetPath(), input_, id_, *fields)
 
     def _node(self, shader):
         """:returns: path of the shader's node in the network, None when it has no id"""
@@ -93,9 +91,9 @@ class _Translation:
         if not identifier:
             source = shader.GetImplementationSource()
             if source == UsdShade.Tokens.id:
-                self._warn(prim, "info:id", "is not authored; the shader is left out")
+                self._warn(prim, "info:id", "shaderWithoutId")
             else:
-                self._warn(prim, "info:implementationSource", f"shaders given as {source} cannot be used")
+                self._warn(prim, "info:implementationSource", "shaderSourceUnusable", source)
             self._names[path] = None
             return None
         self.network.add_node(name, identifier)
@@ -129,23 +127,23 @@ class _Translation:
 
     def _check(self, input_):
         """Tells of connections that lead nowhere: pxr passes over them without a word."""
-        def tell(message):
-            self._warn(input_.GetPrim(), input_.GetBaseName(), message)
+        def tell(id_, *fields):
+            self._warn(input_.GetPrim(), input_.GetBaseName(), id_, *fields)
 
         port, met = input_, set()
         while port:
             path = port.GetAttr().GetPath()
             if path in met:
                 self.context.reported.add("Found cycle with attribute")  # pxr says it without the input
-                tell(f"is connected in a cycle through {path}; its own value is used")
+                tell("inputCycle", path)
                 return
             met.add(path)
             sources, broken = port.GetConnectedSources()
             if len(sources) > 1:
-                tell("has several connections; the first is used")
+                tell("inputConnections")
             if not sources:
                 if broken:
-                    tell(f"is connected to {broken[0]}, which does not exist; its own value is used")
+                    tell("inputSourceMissing", broken[0])
                 return
             api, is_output = sources[0].source, sources[0].sourceType == UsdShade.AttributeType.Output
             if is_output and not api.IsContainer():
@@ -153,7 +151,7 @@ class _Translation:
             name = sources[0].sourceName
             port = api.GetOutput(name) if is_output else api.GetInput(name)
             if not port:
-                tell(f"is connected to {api.GetPath()}.{name}, which does not exist; its own value is used")
+                tell("inputSourceMissing", f"{api.GetPath()}.{name}")
 
     def _value(self, node, name, attribute, prim):
         type_ = attribute.GetTypeName()
@@ -162,7 +160,7 @@ class _Translation:
         if value is None:
             return
         if type_.isArray or isinstance(value, Sdf.UnregisteredValue):  # of a type that USD does not know
-            self._warn(prim, name, f"values of type {attribute.GetMetadata('typeName')} cannot be used; the default is")
+            self._warn(prim, name, "valueTypeUnusable", attribute.GetMetadata("typeName"))
             return
         if type_ == Sdf.ValueTypeNames.Asset:
             value = assets.resolve(self.context, attribute)
@@ -171,8 +169,7 @@ class _Translation:
         try:
             self.network.set_input(node, name, str(type_), value, space)
         except (ValueError, TypeError) as error:
-            self._warn(prim, name, f"{error}; the default is used")
-
+            self._warn(prim, name, "defaultUsed", error)
 
     def _in_scene_units(self, value, name, attribute, prim):
         """:returns: the value of an input of a MaterialX node, whose unit importers keep as metadata"""
@@ -182,7 +179,7 @@ class _Translation:
             return value
         factor = self._factor_of(unit, identifier, name, self.context.meters_per_unit)
         if factor is None:
-            self._warn(prim, name, f"there is no unit '{unit}' of a distance or an angle; the number is used as it is")
+            self._warn(prim, name, "unitUnknown", unit)
         return value if factor is None else value * factor
 
 

@@ -19,7 +19,7 @@ def emit_patch(context, found, common, points):
         fields[f"{side}_knots"] = _doubles(context, prim, f"{side}Knots")
         fields[f"{side}_range"] = _range(context, prim, f"{side}Range")
     if len(array(context, prim, "trimCurve:counts", get(prim, "trimCurve:counts", time), 1, np.int32)):
-        context.warn(prim.GetPath(), "trimCurve:counts", "is not supported: nothing is cut out of the patch")
+        context.warn(prim.GetPath(), "trimCurve:counts", "trimCurvesIgnored")
     context.edit.set_nurbs_patch(found.path, points=points, weights=_doubles(context, prim, "pointWeights"),
                                  refine_level=context.options.refine_level, **fields, **common)
 
@@ -31,7 +31,7 @@ def emit_tets(context, found, common, points):
     tets = array(context, prim, "tetVertexIndices", get(prim, "tetVertexIndices", time), 4, np.int32)
     surface = array(context, prim, "surfaceFaceVertexIndices", get(prim, "surfaceFaceVertexIndices", time), 3, np.int32)
     if not len(tets) and not len(surface):
-        context.warn(prim.GetPath(), "tetVertexIndices", "has no tetrahedra; nothing is drawn")
+        context.warn(prim.GetPath(), "tetVertexIndices", "noTetrahedra")
         return
     context.edit.set_tet_mesh(found.path, points=points, tets=tets.ravel(), surface=surface.ravel(), **common)
 
@@ -82,5 +82,5 @@ def _range(context, prim, name):
         found = np.zeros(0)
     if found.shape == (2,) and np.isfinite(found).all() and found[0] < found[1]:
         return found
-    context.warn(prim.GetPath(), name, "is not two ascending numbers; the whole range of the knots is drawn")
+    context.warn(prim.GetPath(), name, "knotRangeUnusable")
     return None

@@ -13,7 +13,7 @@ def of(context, dome, group):
     for path in _targets(dome):
         prim = context.stage.GetPrimAtPath(path)
         if not prim or "PortalLight" not in kinds.schemas_of(prim):
-            context.warn(dome.GetPath(), "portals", f"{path} is no PortalLight; it is left out")
+            context.warn(dome.GetPath(), "portals", "noPortalLight", path)
             continue
         portal = {"path": str(path), "transform": transform_of(context, prim, group.anchor)}
         for name in ("width", "height"):

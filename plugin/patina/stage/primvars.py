@@ -39,13 +39,13 @@ def read_primvar(context, primvar, prim):
     if size > 1 and not _fits_only_singly(context, prim, values, size, indices, interpolation):
         if len(values) % size:
             context.warn(prim.GetPath(), "primvars:" + name,
-                         f"has {len(values)} values, no multiple of its elementSize {size}; it is left out")
+                         "elementSizeUnfit", len(values), size)
             return None
         values = values.reshape(len(values) // size, -1)
     if values[0:1].size > 16:
         return None
     if interpolation not in INTERPOLATIONS:
-        context.warn(prim.GetPath(), "primvars:" + name, f"has no interpolation '{interpolation}'; it is left out")
+        context.warn(prim.GetPath(), "primvars:" + name, "interpolationUnknown", interpolation)
         return None
     return (name, interpolation, values, indices)
 
@@ -73,7 +73,7 @@ def text(context, prim, inherited, name):
         return value
     if _is_array(value) and len(value) == 1 and isinstance(value[0], str):
         return value[0]
-    context.warn(prim.GetPath(), "primvars:" + name, "is not of type string; it is left out")
+    context.warn(prim.GetPath(), "primvars:" + name, "notString")
     return ""
 
 
@@ -88,7 +88,7 @@ def in_rendering_space(context, prim, attribute, values):
 
     converted = _patina.colors_to_rendering(values, space)
     if converted is None:
-        context.warn(prim.GetPath(), attribute.GetName(), f"unknown colour space '{space}'; the values are used as they are")
+        context.warn(prim.GetPath(), attribute.GetName(), "valuesSpaceUnknown", space)
         return values
     return converted
 
@@ -127,6 +127,6 @@ def add_builtin(context, prim, name, interpolation, into):
         return
     values = numbers(get(prim, name, context.time))
     if values is not None and interpolation not in INTERPOLATIONS:
-        context.warn(prim.GetPath(), name, f"has no interpolation '{interpolation}'; it is left out")
+        context.warn(prim.GetPath(), name, "interpolationUnknown", interpolation)
     elif values is not None:
         into.append((name, interpolation, values, None))

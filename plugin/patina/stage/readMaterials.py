@@ -25,7 +25,7 @@ def read_materials(stage, warnings=None, frame=None):
                     with Guard(context, prim):
                         networks.append((path, network_of(context, UsdShade.Material(prim), path, _patina)))
         for text in quiet.texts:
-            context.warn("/", "", text)
+            context.warn("/", "", "stageProblem", text)
     if warnings is not None:
         warnings.extend(scene.warnings())
     return networks

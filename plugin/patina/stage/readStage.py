@@ -26,7 +26,7 @@ def read_stage(stage, edit, options=None):
             context.xform_cache().Clear()
     for text in quiet.texts:
         if not any(known in text for known in context.reported):
-            context.warn("/", "", text)
+            context.warn("/", "", "stageProblem", text)
     return info
 
 
@@ -37,7 +37,7 @@ def _read(context):
     errors = compat.composition_errors(stage)
     context.reported = {text for _, text in errors}
     for path, text in mtlxFiles.supply(context, stage, errors, _patina):
-        context.warn(path, "", text)
+        context.warn(path, "", "compositionError", text)
     edit.set_meters_per_unit(UsdGeom.GetStageMetersPerUnit(stage))
 
     bindings = Bindings(context)

@@ -22,7 +22,7 @@ def skinning_of(context, root):
         for target in binding.GetSkinningTargets():
             prim = target.GetPrim()
             if not query or not (target.HasJointInfluences() or target.HasBlendShapes()):
-                context.warn(prim.GetPath(), "skel", "has no usable skeleton or joint influences; it is drawn unskinned")
+                context.warn(prim.GetPath(), "skel", "noSkeleton")
                 continue
             skins[prim.GetPath()] = Skin(skeleton.GetPrim(), query, target)
     return skins or None
@@ -82,7 +82,7 @@ class Skin:
             pose = self.query.ComputeSkinningTransforms(time)
             skinned = Vt.Vec3fArray(points)  # pxr changes it in place
             if not pose or not self.target.ComputeSkinnedPoints(pose, skinned, time):
-                context.warn(prim.GetPath(), "skel", "cannot be skinned; it is drawn in its rest pose")
+                context.warn(prim.GetPath(), "skel", "notSkinned")
                 bind = np.array(self.target.GetGeomBindTransform(time), dtype=np.float32)
                 skinned = np.asarray(points) @ bind[:3, :3] + bind[3, :3]
             points = skinned
@@ -105,7 +105,7 @@ class Skin:
         moved = Vt.Vec3fArray(points)  # pxr changes it in place
         if not shapes.ComputeDeformedPoints(*parts, shapes.ComputeBlendShapePointIndices(),
                                             shapes.ComputeSubShapePointOffsets(), moved):
-            context.warn(self.target.GetPrim().GetPath(), "skel:blendShapes", "cannot be applied; it is drawn without them")
+            context.warn(self.target.GetPrim().GetPath(), "skel:blendShapes", "blendShapesLeftOut")
             return points
         return moved
 

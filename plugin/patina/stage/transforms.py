@@ -30,7 +30,7 @@ def matrix_at(context, prim, anchor, offset):
             return cache.GetLocalToWorldTransform(prim)
         return cache.ComputeRelativeTransform(prim, anchor)[0]
     except Tf.ErrorException as error:
-        context.warn(prim.GetPath(), "xformOpOrder", f"{one_line(error)[:200]} The transform of its parent is used.")
+        context.warn(prim.GetPath(), "xformOpOrder", "parentTransformUsed", one_line(error)[:200])
     parent = prim.GetParent()
     if not parent or parent.IsPseudoRoot() or parent == anchor:
         return Gf.Matrix4d(1.0)
@@ -59,7 +59,7 @@ def as_transform(context, prim, times, matrices):
     """:returns: what `_patina` takes as transform; the identity for what is not finite"""
     arrays = [np.array(m, dtype=np.float64) for m in matrices]
     if not all(is_finite(a) for a in arrays):
-        context.warn(prim.GetPath(), "xformOpOrder", "gives a transform that is not finite; none is used")
+        context.warn(prim.GetPath(), "xformOpOrder", "ownTransformNotFinite")
         return np.eye(4)
     if all(np.array_equal(arrays[0], a) for a in arrays[1:]):
         return arrays[0]

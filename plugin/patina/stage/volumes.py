@@ -10,19 +10,18 @@ from .context import get
 def emit(context, found, common):
     volume = UsdVol.Volume(found.prim)
     if "VolumeLightAPI" in found.prim.GetAppliedSchemas():
-        context.warn(found.prim.GetPath(), "",
-                     "VolumeLightAPI is not read; it is left out, and the volume emits what its material says")
+        context.warn(found.prim.GetPath(), "", "volumeLightIgnored")
     names, files, grids = [], [], []
     for name, path in sorted(volume.GetFieldPaths().items()):
         prim = context.stage.GetPrimAtPath(path)
         if not prim:
-            context.warn(found.prim.GetPath(), f"field:{name}", f"there is no prim {path}; the field is left out")
+            context.warn(found.prim.GetPath(), f"field:{name}", "fieldNotFound", path)
             continue
         if "OpenVDBAsset" not in kinds.schemas_of(prim):
-            context.warn(path, "", f"fields of type {prim.GetTypeName() or 'none'} are not read")
+            context.warn(path, "", "fieldTypeNotRead", prim.GetTypeName() or "none")
             continue
         if _moved(context, prim, found.prim):
-            context.warn(path, "xformOpOrder", "its own transform is not used; a field moves with its volume")
+            context.warn(path, "xformOpOrder", "fieldTransformIgnored")
         names.append(name)
         files.append(resolve(context, prim.GetAttribute("filePath")))
         grids.append(get(prim, "fieldName", context.time) or name)

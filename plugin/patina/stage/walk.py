@@ -114,7 +114,7 @@ class Walk:
         elif kind == "light":
             self._add(prim, state, names, self.walked.lights)
         elif kind == "unsupported" and not portals.is_used(self.context, prim):
-            self.context.warn(prim.GetPath(), "", f"prims of type {prim.GetTypeName()} are not drawn")
+            self.context.warn(prim.GetPath(), "", "typeNotDrawn", prim.GetTypeName())
         elif kind in GPRIM_KINDS:
             if self._drawn(state):
                 self._add(prim, state, names, self.walked.gprims)
@@ -134,7 +134,7 @@ class Walk:
             purpose = get(prim, "purpose", self.context.time) or state.purpose
             if purpose not in _PURPOSES and purpose not in self.context.purposes:
                 self.context.warn(prim.GetPath(), "purpose",
-                                  f"there is no purpose '{purpose}'; nothing is drawn of the prim")
+                                  "purposeUnknown", purpose)
             state = state.with_(purpose=purpose)
         if any(name.startswith("primvars:") for name in names):
             api = UsdGeom.PrimvarsAPI(prim)
@@ -171,8 +171,7 @@ class Walk:
         if len(found) < most:
             return True
         if limit not in self._full:
-            self.context.warn(state.group.path(prim), "", f"there are more {_COUNTED[limit]} than {most} (--limit {limit}); "
-                              "the prim is left out, and others after it")
+            self.context.warn(state.group.path(prim), "", "primsTooMany", _COUNTED[limit], f"{most} (--limit {limit})")
         self._full.add(limit)
         return False
 
@@ -227,21 +226,19 @@ class Walk:
         :returns: the name of the group of one prototype of a point instancer"""
         root = self.context.stage.GetPrimAtPath(target)
         if not root or not root.IsActive():
-            self.context.warn(instancer.GetPath(), "prototypes", f"there is no prim {target}; it is not drawn")
+            self.context.warn(instancer.GetPath(), "prototypes", "prototypeNotFound", target)
             return name
         root, home = not root.IsInPrototype() and self._around(root, outer.outer) or (root, outer)
         target = root.GetPath()
         if instancer.GetPath().HasPrefix(target) or str(target) in outer.chain:
-            self.context.warn(instancer.GetPath(), "prototypes", f"{target} holds itself; it is not drawn")
+            self.context.warn(instancer.GetPath(), "prototypes", "prototypeHoldsItself", target)
             return name
         key = (str(target), outer.name)
         if key in self._pointed:
             return self._pointed[key]
         if len(outer.chain) >= MAX_NESTED or outer.chain and self._nested >= limits.value("groups"):
             if not self._told:
-                self.context.warn(instancer.GetPath(), "prototypes", f"instancers are nested more than {MAX_NESTED} deep, or "
-                                  f"more of their prototypes are in others than {limits.value('groups')} (--limit groups); "
-                                  "this one's prototypes are not drawn, nor those of others like it")
+                self.context.warn(instancer.GetPath(), "prototypes", "prototypesTooDeep", MAX_NESTED, limits.value("groups"))
             self._told = True
             return name
         self._nested += bool(outer.chain)

@@ -4,8 +4,9 @@ import json
 
 import numpy as np
 
+from patina import messages
 from patina.cli import materials as reader
-from patina.cli import methods, outputs, statistics
+from patina.cli import methods, outputs
 from patina.cli.errors import CommandError
 from patina.view import blobs, compareImages, controls, layers, materials, page, shapes, stageScene, surroundings
 
@@ -34,11 +35,12 @@ class Builder:
 
     def _add(self, file, name, network, wanted):
         short = name.rpartition("/")[2] or name
-        material, used, texts = materials.build(short, network, self.methods, self.textures)
+        material, used, told = materials.build(short, network, self.methods, self.textures)
         entries, unknown = controls.merged(material["controls"], wanted, self.arguments.controls)
         if unknown and len(self.arguments.material) == 1:
-            self.warnings.append(statistics.warning(f"--controls: {name} has no input {unknown[0]}"
-                                 + (f", nor {len(unknown) - 1} others" if len(unknown) > 1 else "")))
+            others = len(unknown) - 1
+            self.warnings.append(messages.warning("", "", "pageInputsMissing", name, unknown[0], others) if others
+                                 else messages.warning("", "", "pageInputMissing", name, unknown[0]))
         material["presets"] = controls.presets(wanted, material, self.arguments.controls)
         material["controls"] = entries
         material["sentence"] = wanted.get("sentences", {}).get(short, "")
@@ -47,7 +49,7 @@ class Builder:
         self.lobes += used
         self.networks.append(network)
         self.paths.append(name)
-        self.warnings += [statistics.warning(text, name) for text in texts]
+        self.warnings += told
 
     def surround(self):
         """Lights, shapes, environments and the camera."""
@@ -68,8 +70,9 @@ class Builder:
         self.shapes += [(name, mesh, False, columns) for name, mesh, columns in own]
         self.lights = scene.lights if scene else []
         self.light_table = scene.light_table if scene else np.zeros((0, 4))
-        self.notes = scene.light_notes if scene else []
-        self.warnings += [statistics.warning(text) for text in self.notes]
+        told = scene.warnings if scene else []
+        self.notes = [": ".join(filter(None, (messages.place(warning), warning["message"]))) for warning in told]
+        self.warnings += told
 
     def data(self):
         names = [m["name"] for m in self.materials]

@@ -80,7 +80,8 @@ def _without_warnings(network, found):
 
     def told(changed):
         made = compile_one(changed, {}, 1)
-        return set(made["warnings"]) | {text for text in made["leftOut"] if "dispersion" in text}
+        return ({(w["prim"], w["input"], w["message"]) for w in made["warnings"]}
+                | {item for item in made["leftOut"] if item[0] == "dispersionLeftOut"})
 
     reported = told(network)
     kept = _fitting(list(range(len(found))), lambda chosen: reported.issuperset(told(with_live(network, found, chosen))))

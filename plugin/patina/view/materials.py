@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A material as the page has it: two texts, its inputs, their controls."""
+from patina import messages
 from patina.cli import compiled
 from patina.cli.errors import CommandError
 from patina.view import choices, controls, glslText, images, live, plan
@@ -123,7 +124,7 @@ def build(name, network, methods, textures):
                             for c in found],
                 "controls": entries,
                 "presets": [], "sentence": "", "plan": planned}
-    notes = [text for key, text in _NOTES if lean[key]] + list(dict.fromkeys(lean["leftOut"]))
+    notes = [text for key, text in _NOTES if lean[key]] + list(dict.fromkeys(text for _, text in lean["leftOut"]))
     if lean["volumeOnly"]:
         notes.append("a volume without a surface is not shown")
     for image in lean["textures"]:
@@ -132,7 +133,8 @@ def build(name, network, methods, textures):
     if beyond:
         notes.append(f"{beyond} more inputs have no slider")
     material["notes"] = notes
-    warnings = [text for text in lean["leftOut"] if "not a number" in text or "dispersion" in text]
-    warnings += [": ".join(part for part in warning if part) for warning in lean["warnings"]]
+    warnings = [messages.warning(network.path, "", id_) for id_, _ in lean["leftOut"]
+                if id_ in ("notANumberIsZero", "dispersionLeftOut")]
+    warnings += lean["warnings"]
     material["layer"] = (network, inputs, found)
     return material, lobes, warnings

@@ -2,6 +2,7 @@
 """The parts of a stage that a page shows: its lights, its domes, and the prims that show a material."""
 import numpy as np
 
+from patina import messages
 from patina.cli import compiled, openStage, overrides
 from patina.cli.errors import CommandError
 
@@ -25,12 +26,12 @@ class StageScene:
         self.lights = [{"name": path.removesuffix("/light_of_mesh").rpartition("/")[2], "row": [float(x) for x in row]}
                        for path, row in found["lights"][:MAX_LIGHTS]]
         self.domes, self.light_table = found["domes"][:MAX_ENVIRONMENTS], found["table"]
-        self.light_notes = list(found["notes"])
+        self.warnings = found["warnings"]
         lights, domes = len(found["lights"]) - MAX_LIGHTS, len(found["domes"]) - MAX_ENVIRONMENTS
         if lights > 0:
-            self.light_notes.append(f"{lights} more lights are left out: a page shows at most {MAX_LIGHTS}")
+            self.warnings.append(messages.warning("", "", "pageLightsTooMany", lights, MAX_LIGHTS))
         if domes > 0:
-            self.light_notes.append(f"{domes} more domes are left out: a page shows at most {MAX_ENVIRONMENTS}")
+            self.warnings.append(messages.warning("", "", "pageDomesTooMany", domes, MAX_ENVIRONMENTS))
 
     def shapes(self, wanted, material_paths):
         """

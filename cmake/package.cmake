@@ -124,7 +124,7 @@ if(TARGET _patina)
 endif()
 
 set(CPACK_GENERATOR DEB TGZ)
-if(TARGET hdPatina AND NOT pxr_DIR MATCHES "^/usr/(lib|share)/") # other machines do not have that OpenUSD
+if(TARGET hdPatina AND (NOT PATINA_PXR_CONFIG MATCHES "^/usr/" OR PATINA_PXR_CONFIG MATCHES "^/usr/local/")) # of this machine alone
     set(CPACK_INSTALL_CMAKE_PROJECTS "${CMAKE_BINARY_DIR};${PROJECT_NAME};Unspecified;/;${CMAKE_BINARY_DIR};${PROJECT_NAME};library;/")
 endif()
 set(CPACK_PACKAGE_NAME hdpatina)

@@ -124,11 +124,11 @@ def test_packages_hold_hydras_plugin_only_for_an_openusd_of_the_system():
     if not os.path.exists(config):
         pytest.skip("there is no build that could be packed")
     with open(os.path.join(BUILD, "CMakeCache.txt"), encoding="utf-8") as file:
-        found = next((line.split("=", 1)[1].strip() for line in file if line.startswith("pxr_DIR:")), "")
+        found = next((line.split("=", 1)[1].strip() for line in file if line.startswith("PATINA_PXR_CONFIG:")), "")
     with open(config, encoding="utf-8") as file:
         projects = next(line for line in file if line.startswith("set(CPACK_INSTALL_CMAKE_PROJECTS ")).split('"')[1]
     components = projects.split(";")[2::4]
-    if not found or found.endswith("NOTFOUND") or found.startswith(("/usr/lib/", "/usr/share/")):
+    if not os.path.exists(os.path.join(BUILD, "hydra.json")) or found.startswith("/usr/") and "/local/" not in found:
         assert components == ["ALL"]
     else:
         assert components == ["Unspecified", "library"]

@@ -150,8 +150,7 @@ def glow(mark, backend="embree", samples=4):
 
 @pytest.mark.parametrize("backend", ["embree", "raster"])
 def test_glow_that_scattered_rays_do_not_see_lights_nothing(backend):
-    if backend == "raster" and without_opengl():
-        pytest.skip(without_opengl())
+    needs_opengl(backend)
     assert glow("", backend).mean() > 0.1
     assert (glow("bool primvars:patina:visibility:indirect = 0", backend) == 0.0).all()
 

@@ -11,21 +11,25 @@ from patina.regression.golden import RenderError, checked_color
 # Flags of `patina record` that usdrecord has too; all take a value.
 _SHARED = {"--imageWidth": "--imageWidth", "-w": "--imageWidth", "--camera": "--camera", "-cam": "--camera",
            "--complexity": "--complexity", "-c": "--complexity", "--purposes": "--purposes",
-           "--settings": "--renderSettingsPrimPath", "--renderSettingsPrimPath": "--renderSettingsPrimPath", "-rs":
-           "--renderSettingsPrimPath", "--mask": "--mask", "--sessionLayer": "--sessionLayer"}
+           "--settings": "--renderSettingsPrimPath", "--renderSettingsPrimPath": "--renderSettingsPrimPath",
+           "-rs": "--renderSettingsPrimPath", "--mask": "--mask", "--sessionLayer": "--sessionLayer"}
 
 
 def _seen(file):
     """Where usdrecord has other habits than `patina record`: it frames a stage whose cameras have unusual names, and lights it
     from the camera beside its own lights.
 
-    :returns: path of the camera that `patina record` takes, or None; whether the stage has lights"""
+    :returns: path of the camera that `patina record` takes, or None; whether the stage has lights
+    :raises RenderError: where the stage cannot be opened"""
     from pxr import UsdLux
 
-    from patina.stage import StageOptions, cameras, open_stage
+    from patina.stage import StageError, StageOptions, cameras, open_stage
     from patina.stage.context import Context
 
-    stage = open_stage(file)
+    try:
+        stage = open_stage(file)
+    except StageError as error:
+        raise RenderError(str(error)) from None
     found = cameras.chosen_before(Context(stage, None, StageOptions()))
     return found and found.path, any(prim.HasAPI(UsdLux.LightAPI) for prim in stage.Traverse())
 
@@ -66,10 +70,10 @@ class UsdRecord:
         words, left = [], list(arguments)
         while left:
             name, equals, value = left.pop(0).partition("=")
-            if name in _SHARED:
+            if name in _SHARED and (equals or left):
                 words += [_SHARED[name], value if equals else left.pop(0)]
         camera, lit = _seen(stage)
-        if camera and "--camera" not in words:
+        if camera and not {"--camera", "--renderSettingsPrimPath"} & set(words):
             words += ["--camera", camera]
         if lit and self._has_headlight_flag:
             words.append("--disableCameraLight")

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Levels of detail, of the UsdLod of OpenUSD 26.08: which children of a prim with the LODRootAPI are drawn.
 
-An override comes first, then the first heuristic for imaging, then `lod:default:index`. Between two levels the nearer one is
-drawn. Each native instance has levels of its own; all instances of a point instancer have those of the one nearest to the
-camera.
+An override comes first, then the first heuristic for imaging, then `lod:default:index`. A value between two levels is rounded.
+Each native instance has levels of its own. All instances of a point instancer have those of the one nearest to the camera.
 """
 import math
 

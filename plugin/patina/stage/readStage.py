@@ -73,7 +73,7 @@ def _emit_lights(context, walked, linking):
     for found in founds:
         with Guard(context, found.prim):
             lights.emit(context, found, linking)
-    return bool(founds) or walked.left_out > 0
+    return bool(founds) or walked.dark > 0
 
 
 def _emit_geometry(context, walked, bindings, linking, module):

@@ -67,5 +67,5 @@ class Walked:
     inner_cameras: set = field(default_factory=set)  # names of those inside of prototypes
     instancers: list = field(default_factory=list)  # (Found, group names of the prototypes)
     instances: dict = field(default_factory=dict)  # (group, prototype group, signature of values) -> list of Found
-    left_out: int = 0  # prims that a render pass has not
+    dark: int = 0  # lights that a render pass has not
     boxes: list = field(default_factory=list)  # what stands for its subtree by its state's draw mode

@@ -162,7 +162,7 @@ class Walk:
         state = self._pass.state_of(path, state) if self._pass else state
         if state and self._has_room(prim, state, found):
             found.append(Found(prim, state, path, names))
-        self.walked.left_out += state is None
+        self.walked.dark += state is None and found is self.walked.lights
 
     def _has_room(self, prim, state, found, limit="prims"):
         """:param found: what there is of a kind

@@ -84,6 +84,8 @@ def test_instances_are_in_a_collection_each_for_itself(read):
 def test_a_pass_without_its_lights_gets_no_headlight(read):
     reading = read(SCENE % "rel collection:prune:includes = </set/lamp>", render_pass="/pass", headlight=True)
     assert not reading.info.headlight
+    unlit = SCENE.replace('def SphereLight "lamp" { }', "") % "rel collection:prune:includes = </c>"
+    assert read(unlit, render_pass="/pass", headlight=True).info.headlight, "it never had lights"
 
 
 def test_what_is_no_pass_is_told(read):

@@ -35,19 +35,12 @@ extern const float* const patinaAlbedoTable;
 
 namespace sh {
 #include "shaders/compat/cpp.h"
+inline float albedoTableFetch(int index) {
+    return float(patinaAlbedoTable[index]);
+}
 #include "shaders/lobes.glsl"
 } // namespace sh
 
-#undef PATINA_FN
-#undef PATINA_FN_RARE
-#undef PATINA_OUT
-#undef PATINA_INOUT
-#undef PATINA_UNUSED
-#undef PATINA_ENERGY_KNOWN
-#undef PATINA_COMPENSATE
-#undef PATINA_ALBEDO_METHOD
-#undef PATINA_FRESNEL
-#undef PATINA_FILM
-#undef PATINA_FILM_METHOD
+#include "shaders/compat/cppEnd.h"
 
 } // namespace patina

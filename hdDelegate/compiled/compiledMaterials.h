@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/compiled/madeOnce.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
 #include "materialNetwork/material.h"
-
-#include <future>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <string>
-#include <vector>
 
 namespace patina {
 
@@ -39,27 +33,29 @@ public:
         return compileMaterial(network, _textures, _diagnostics);
     }
 
-    size_t programsBuilt() const; ///< by program(), since this was made
+    size_t programsBuilt() const { return _programs.count(); } ///< since this was made
 
 private:
-    using Program = std::shared_ptr<const MaterialProgram>;
-    struct Entry {
+    struct Request {
         std::shared_ptr<const MaterialPrim> prim;
+        const MethodChoices& methods;
+        double tolerance;
+    };
+    struct Key {
+        Reference<const MaterialPrim> prim;
         MethodChoices methods;
         double tolerance;
-        std::shared_future<Program> program;
+        Key(const Request& request)
+            : prim(request.prim), methods(request.methods), tolerance(request.tolerance) {}
+        bool isOf(const Request& request) const {
+            return prim.is(request.prim) && methods == request.methods &&
+                   tolerance == request.tolerance;
+        }
     };
-
-    /// Looks at a few entries, each time at the next ones: with many materials, looking at all for
-    /// each one that is added would take longer than to compile them.
-    void forgetUnused();
 
     TextureSource& _textures;
     Diagnostics& _diagnostics;
-    mutable std::mutex _mutex;
-    std::multimap<const MaterialPrim*, Entry> _entries;
-    const MaterialPrim* _hand = nullptr; ///< where forgetUnused() goes on
-    size_t _built = 0;
+    MadeOnce<Request, Key, MaterialProgram> _programs;
 };
 
 } // namespace patina

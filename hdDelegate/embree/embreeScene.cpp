@@ -286,7 +286,7 @@ std::shared_ptr<const Surface> EmbreeScene::surfaceOf(const std::string& path) c
 ScenePlan EmbreeScene::plan() const {
     ScenePlan plan;
     for (const auto& item : _programs)
-        plan.add(item.first, item.second.program->planned());
+        plan.add(item.first, item.second->planned());
     plan.add(_subdivision.method);
     return plan;
 }
@@ -294,7 +294,7 @@ ScenePlan EmbreeScene::plan() const {
 std::map<const MaterialProgram*, std::string> EmbreeScene::materialNames() const {
     std::map<const MaterialProgram*, std::string> names;
     for (const auto& item : _programs)
-        names[item.second.program.get()] = item.first;
+        names[item.second.get()] = item.first;
     return names;
 }
 

@@ -194,13 +194,6 @@ private:
     bool accepts(const RTCRay& ray) const;
     bool finishHit(const RTCRayHit& rayHit, const TraceContext& context, Hit& hit) const;
 
-    struct CachedProgram {
-        std::shared_ptr<const MaterialPrim> prim;
-        std::map<std::string, std::string> methods;
-        double tolerance = -1.0;
-        std::shared_ptr<const MaterialProgram> program;
-    };
-
     CompiledScene& _compiled;
     Diagnostics& _diagnostics;
     RTCDevice _device = nullptr;
@@ -212,8 +205,8 @@ private:
     RenderSettings _settings; ///< as asked for
     SharedShapes _shapes;
     std::map<std::string, CachedSurface> _surfaces;
-    std::map<std::string, CachedProgram> _programs;
-    Subdivision _subdivision;                                    ///< of the last update
+    std::map<std::string, std::shared_ptr<const MaterialProgram>> _programs; ///< in use, by path
+    Subdivision _subdivision;                                                ///< of the last update
     std::map<std::string, std::unique_ptr<EmbreeGroup>> _groups; ///< by name; "" is the world
     Members _surfacesOf;
     std::map<std::string, const CachedSurface*> _emitting; ///< by path

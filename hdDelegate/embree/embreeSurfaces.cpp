@@ -159,19 +159,11 @@ void EmbreeScene::updateSurface(const Work& work, bool keepRest) {
 std::shared_ptr<const MaterialProgram>
 EmbreeScene::program(const std::string& path, const std::string& user, const View& view) {
     const RenderSettings& settings = view.settings;
-    CompiledMaterials& materials = _compiled.materials();
-    const auto prim = materials.find(path, user, view.state, settings);
-    const std::string key = prim ? path : std::string();
-    CachedProgram& cached = _programs[key];
-    if (!cached.program || cached.prim != prim || cached.methods != settings.methods ||
-        cached.tolerance != settings.tolerance) {
-        cached.prim = prim;
-        cached.tolerance = settings.tolerance;
-        cached.methods = settings.methods;
-        ++_counts.programs;
-        cached.program = materials.program(prim, settings.methods, settings.tolerance);
-    }
-    return cached.program;
+    const auto prim = _compiled.materials().find(path, user, view.state, settings);
+    auto program = _compiled.materials().program(prim, settings.methods, settings.tolerance);
+    auto& known = _programs[prim ? path : std::string()];
+    if (known != program) ++_counts.programs;
+    return known = std::move(program);
 }
 
 EmbreeScene::Programs EmbreeScene::displacers(const Geometry& prim, const View& view) {

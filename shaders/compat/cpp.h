@@ -151,8 +151,3 @@ inline float powSchlick(float x, float e) {
     if (e == float(5)) return (x * x) * (x * x) * x;
     return x > float(0) ? std::pow(x, e) : float(e == float(0) ? 1 : 0);
 }
-
-// One entry of the baked directional albedo tables.
-inline float albedoTableFetch(int index) {
-    return float(patinaAlbedoTable[index]);
-}

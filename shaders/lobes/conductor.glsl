@@ -103,23 +103,13 @@ PATINA_FN LobeEval conductorEval(ConductorLobe l, vec3 wo, vec3 wi) {
                     albedoWhite(i, l.alpha, l.ndf, l.albedo));
 }
 
-// Draws from both lobes where a second one holds the energy: the choice is u.z's.
+// Draws from both lobes where a second one holds the energy.
 PATINA_FN LobeSample conductorSampleBoth(ConductorLobe l, vec3 wo, vec3 u) {
     float ess = albedoWhite(wo, l.alpha, l.ndf, l.albedo);
-    bool second = u.z < multiLobe(l.favg, ess, l.alpha, l.ndf).chance;
     int sampling = microfacetSampling(l.sampling, l.ndf, SCATTER_R);
-    vec3 m = microfacetSample(wo, l.alpha, vec2(u.x, u.y), l.ndf, sampling);
-    vec3 wi = m * (2.0f * max(dot(wo, m), 0.0f)) - wo;
-    wi = select(sampleCosineHemisphere(vec2(u.x, u.y)), wi, second);
-    LobeSample s;
-    s.wi = vec3(wi.x * l.retro, wi.y * l.retro, wi.z);
-    LobeEval e = conductorEval(l, wo, s.wi);
-    if (e.pdf <= 0.0f) return lobeSampleNone();
-    s.weight = e.value / e.pdf;
-    s.pdf = e.pdf;
-    s.event = LOBE_REFLECT;
-    s.eta = 1.0f;
-    return s;
+    vec3 wi = multiSample(multiLobe(l.favg, ess, l.alpha, l.ndf), wo, l.alpha, u, l.ndf, sampling);
+    wi = vec3(wi.x * l.retro, wi.y * l.retro, wi.z);
+    return multiSampled(wi, conductorEval(l, wo, wi));
 }
 
 PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {

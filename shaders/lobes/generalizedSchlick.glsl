@@ -282,25 +282,15 @@ PATINA_FN LobeEval schlickEval(SchlickLobe l, vec3 wo, vec3 wi) {
     return multiAdd(second, e, i.z, albedoWhite(i, l.alpha, l.ndf, l.albedo));
 }
 
-// Draws from both lobes where a second one holds the energy: the choice is u.z's.
+// Draws from both lobes where a second one holds the energy.
 PATINA_FN LobeSample schlickSampleBoth(SchlickLobe l, vec3 wo, vec3 u) {
     float side = select(1.0f, -1.0f, wo.z >= 0.0f);
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
     float ess = albedoWhite(o, l.alpha, l.ndf, l.albedo);
-    bool second = u.z < multiLobe(l.favg, ess, l.alpha, l.ndf).chance;
     int sampling = microfacetSampling(l.sampling, l.ndf, l.mode);
-    vec3 m = microfacetSample(o, l.alpha, vec2(u.x, u.y), l.ndf, sampling);
-    vec3 wi = m * (2.0f * max(dot(o, m), 0.0f)) - o;
-    wi = select(sampleCosineHemisphere(vec2(u.x, u.y)), wi, second);
-    LobeSample s;
-    s.wi = vec3(wi.x * l.retro, wi.y * l.retro, wi.z * side);
-    LobeEval e = schlickEval(l, wo, s.wi);
-    if (e.pdf <= 0.0f) return lobeSampleNone();
-    s.weight = e.value / e.pdf;
-    s.pdf = e.pdf;
-    s.event = LOBE_REFLECT;
-    s.eta = 1.0f;
-    return s;
+    vec3 wi = multiSample(multiLobe(l.favg, ess, l.alpha, l.ndf), o, l.alpha, u, l.ndf, sampling);
+    wi = vec3(wi.x * l.retro, wi.y * l.retro, wi.z * side);
+    return multiSampled(wi, schlickEval(l, wo, wi));
 }
 
 PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {

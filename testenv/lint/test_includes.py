@@ -9,7 +9,8 @@ import pytest
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 FOLDERS = ("base", "shaders", "materialNetwork", "hdDelegate", "plugin", "testenv")
-TEXTUAL = ("shaders/compat/cpp.h", "shaders/compat/cppPatterns.h")  # included inside a namespace, and say so
+# included inside a namespace, or after it, and say so
+TEXTUAL = ("shaders/compat/cpp.h", "shaders/compat/cppEnd.h", "shaders/compat/cppPatterns.h")
 INCLUDE = re.compile(r'^\s*#\s*include\s+["<]([^">]+)[">]', re.MULTILINE)
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 # header -> what tells that a file uses it

@@ -42,3 +42,22 @@ PATINA_FN LobeEval multiAdd(MultiLobe l, LobeEval e, float iz, float essIn) {
     e.pdf = mix(e.pdf, INV_PI * iz, l.chance);
     return e;
 }
+
+// A direction of one of both lobes: the choice is u.z's.
+PATINA_FN vec3 multiSample(MultiLobe l, vec3 wo, vec2 alpha, vec3 u, int ndf, int sampling) {
+    vec3 m = microfacetSample(wo, alpha, vec2(u.x, u.y), ndf, sampling);
+    vec3 wi = m * (2.0f * max(dot(wo, m), 0.0f)) - wo;
+    return select(sampleCosineHemisphere(vec2(u.x, u.y)), wi, u.z < l.chance);
+}
+
+// e: value and density of both lobes at wi.
+PATINA_FN LobeSample multiSampled(vec3 wi, LobeEval e) {
+    if (e.pdf <= 0.0f) return lobeSampleNone();
+    LobeSample s;
+    s.wi = wi;
+    s.weight = e.value / e.pdf;
+    s.pdf = e.pdf;
+    s.event = LOBE_REFLECT;
+    s.eta = 1.0f;
+    return s;
+}

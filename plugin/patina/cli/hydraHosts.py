@@ -175,6 +175,7 @@ class Built(NamedTuple):
     programs: str  # the folder of those that it starts
     libraries: str  # the folder of its OpenUSD's
     version: tuple  # of its OpenUSD: minor and patch
+    name: str  # of its OpenUSD: of an installed one its folder, of a program its namespace
 
 
 def build_all(hosts, headers, build, command, portable=False):
@@ -201,5 +202,5 @@ def build_all(hosts, headers, build, command, portable=False):
         with open(os.path.join(prefix, "pxrConfig.cmake"), encoding="utf-8") as file:
             number = int(re.search(r'set\(PXR_VERSION "?(\d+)', file.read()).group(1))
         made.append(Built(os.path.join(own, "usdPlugin"), os.path.join(own, "python"), os.path.join(prefix, "lib"),
-                          divmod(number, 100)))
+                          divmod(number, 100), name))
     return made

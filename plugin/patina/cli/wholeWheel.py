@@ -2,8 +2,6 @@
 """Takes into a wheel the libraries that it needs, so that pip alone installs Patina, on any Linux whose
 glibc is not older than this machine's.
 
-    ./patina python -m patina.cli.wholeWheel hdPatina-*.whl FOLDER
-
 auditwheel leaves out libraries of the X Window System, which its policy takes for given; a machine without a desktop has none.
 """
 import glob
@@ -62,16 +60,3 @@ def _run(*words):
     if done.returncode:
         raise CommandError(f"python -m wheel {words[0]}: {(done.stderr or done.stdout).strip()} (pip install wheel)")
     return done.stdout
-
-
-def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    try:
-        print(make(*sys.argv[1:]))
-    except CommandError as error:
-        sys.exit(f"wholeWheel: {error}")
-
-
-if __name__ == "__main__":
-    main()

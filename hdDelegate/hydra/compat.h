@@ -27,11 +27,14 @@
 #define PATINA_HAS_COMPUTED_INTERVAL (HD_API_VERSION >= 73)
 /// Hydra's own scene indices that came later.
 #define PATINA_HAS_LIGHT_LINKING __has_include(<pxr/imaging/hdsi/lightLinkingSceneIndex.h>)
+#define PATINA_HAS_BACK_PLATES __has_include(<pxr/imaging/hdsi/backPlateSceneIndex.h>)
 #define PATINA_HAS_TET_MESHES __has_include(<pxr/imaging/hdsi/tetMeshConversionSceneIndex.h>)
 /// HdsiVelocityMotionResolvingSceneIndex knows the stage's time codes per second.
 #define PATINA_HAS_VELOCITY_MOTION (PXR_VERSION >= 2508)
 /// Scene indices tell a mesh that its subsets changed.
 #define PATINA_HAS_SUBSET_NOTICES (PXR_VERSION >= 2411)
+/// Scene indices tell the active render pass and the collections of prims.
+#define PATINA_HAS_RENDER_PASSES (PXR_VERSION >= 2411)
 /// Ndr was merged into Sdr.
 #define PATINA_HAS_SDR_ONLY (PXR_VERSION >= 2508)
 /// HdsiLegacyDisplayStyleOverrideSceneIndex::SetRefineLevelFallback replaces SetRefineLevel.

@@ -173,6 +173,9 @@ void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
     light.filters = readLightFilters(delegate, param, id);
     if (light.type == LightType::Dome) light.portals = readLightPortals(delegate, param, id);
 
+    bool seen = true; // by a render pass (plugin/hydra/renderPassSceneIndex.h)
+    p.flag("patina:visibility:camera", seen);
+    light.cameraVisible &= seen;
     // Hosts' own camera light carries what a rasterizer needs to know of it.
     if (light.type == LightType::Distant && p.has("params")) {
         light.diffuse = light.specular = pi;

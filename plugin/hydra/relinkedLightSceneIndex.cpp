@@ -16,24 +16,6 @@ bool hasLinks(const TfToken& primType) {
 
 } // namespace
 
-HdSceneIndexPrim HdPatinaRelinkedLightSceneIndex::GetPrim(const SdfPath& path) const {
-    return _GetInputSceneIndex()->GetPrim(path);
-}
-
-SdfPathVector HdPatinaRelinkedLightSceneIndex::GetChildPrimPaths(const SdfPath& path) const {
-    return _GetInputSceneIndex()->GetChildPrimPaths(path);
-}
-
-void HdPatinaRelinkedLightSceneIndex::_PrimsAdded(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::AddedPrimEntries& entries) {
-    _SendPrimsAdded(entries);
-}
-
-void HdPatinaRelinkedLightSceneIndex::_PrimsRemoved(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::RemovedPrimEntries& entries) {
-    _SendPrimsRemoved(entries);
-}
-
 void HdPatinaRelinkedLightSceneIndex::_PrimsDirtied(
     const HdSceneIndexBase&, const HdSceneIndexObserver::DirtiedPrimEntries& entries) {
     // A prim that loses its type keeps its children, while removal would take them along.

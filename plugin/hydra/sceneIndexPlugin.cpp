@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Changes to a scene before the delegate sees it.
 
+#include "plugin/hydra/backPlateLookSceneIndex.h"
 #include "plugin/hydra/meshLightSceneIndex.h"
 #include "plugin/hydra/relinkedLightSceneIndex.h"
+#include "plugin/hydra/renderPassSceneIndex.h"
 #include "plugin/hydra/sourceFormsSceneIndex.h"
 
 #include <pxr/imaging/hd/retainedDataSource.h>
@@ -11,6 +13,9 @@
 #include <pxr/imaging/hdsi/materialPrimvarTransferSceneIndex.h>
 #include <pxr/imaging/hdsi/nurbsApproximatingSceneIndex.h>
 #include <pxr/imaging/hdsi/renderSettingsFilteringSceneIndex.h>
+#if PATINA_HAS_BACK_PLATES
+#include <pxr/imaging/hdsi/backPlateSceneIndex.h>
+#endif
 #if PATINA_HAS_LIGHT_LINKING
 #include <pxr/imaging/hdsi/lightLinkingSceneIndex.h>
 #endif
@@ -56,16 +61,37 @@ protected:
     }
 };
 
+/// What asks for the scene's globals, which are laid over the scene after the first phase.
+class HdPatinaGlobalsSceneIndexPlugin final : public HdSceneIndexPlugin {
+public:
+    HdPatinaGlobalsSceneIndexPlugin() = default;
+
+protected:
+    HdSceneIndexBaseRefPtr _AppendSceneIndex(const HdSceneIndexBaseRefPtr& input,
+                                             const HdContainerDataSourceHandle&) override {
+        HdSceneIndexBaseRefPtr scene = input;
+#if PATINA_HAS_BACK_PLATES
+        scene = HdPatinaBackPlateLookSceneIndex::New(HdsiBackPlateSceneIndex::New(scene));
+#endif
+#if PATINA_HAS_RENDER_PASSES
+        scene = HdPatinaRenderPassSceneIndex::New(scene);
+#endif
+        return scene;
+    }
+};
+
 TF_REGISTRY_FUNCTION(TfType) {
     HdSceneIndexPluginRegistry::Define<HdPatinaSceneIndexPlugin>();
+    HdSceneIndexPluginRegistry::Define<HdPatinaGlobalsSceneIndexPlugin>();
 }
 
 TF_REGISTRY_FUNCTION(HdSceneIndexPlugin) {
-    constexpr HdSceneIndexPluginRegistry::InsertionPhase phase = 0;
+    const char* const plugins[] = {"HdPatinaSceneIndexPlugin", "HdPatinaGlobalsSceneIndexPlugin"};
     for (const char* renderer : {"Patina", "Patina GL"})
-        HdSceneIndexPluginRegistry::GetInstance().RegisterSceneIndexForRenderer(
-            renderer, TfToken("HdPatinaSceneIndexPlugin"), nullptr, phase,
-            HdSceneIndexPluginRegistry::InsertionOrderAtStart);
+        for (HdSceneIndexPluginRegistry::InsertionPhase phase : {0, 1})
+            HdSceneIndexPluginRegistry::GetInstance().RegisterSceneIndexForRenderer(
+                renderer, TfToken(plugins[phase]), nullptr, phase,
+                HdSceneIndexPluginRegistry::InsertionOrderAtStart);
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

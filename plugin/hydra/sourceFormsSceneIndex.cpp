@@ -2,11 +2,7 @@
 #include "plugin/hydra/sourceFormsSceneIndex.h"
 
 #include "hdDelegate/hydra/sourceForms.h"
-
-#include <pxr/imaging/hd/overlayContainerDataSource.h>
-#include <pxr/imaging/hd/primvarSchema.h>
-#include <pxr/imaging/hd/primvarsSchema.h>
-#include <pxr/imaging/hd/retainedDataSource.h>
+#include "plugin/hydra/overlays.h"
 
 #include <map>
 #include <string>
@@ -55,36 +51,13 @@ HdSceneIndexPrim HdPatinaSourceFormsSceneIndex::GetPrim(const SdfPath& path) con
     HdSceneIndexPrim prim = _GetInputSceneIndex()->GetPrim(path);
     const auto found = attributes().find(prim.primType);
     if (found == attributes().end() || !prim.dataSource) return prim;
-    std::vector<TfToken> names;
-    std::vector<HdDataSourceBaseHandle> primvars;
-    for (const Attribute& attribute : found->second) {
-        const HdSampledDataSourceHandle value = HdSampledDataSource::Cast(
-            HdContainerDataSource::Get(prim.dataSource, attribute.locator));
-        if (!value) continue;
-        names.push_back(attribute.primvar);
-        primvars.push_back(HdPrimvarSchema::Builder()
-                               .SetPrimvarValue(value)
-                               .SetInterpolation(HdPrimvarSchema::BuildInterpolationDataSource(
-                                   HdPrimvarSchemaTokens->constant))
-                               .Build());
-    }
-    if (names.empty()) return prim;
-    prim.dataSource = HdOverlayContainerDataSource::New(
-        HdRetainedContainerDataSource::New(
-            HdPrimvarsSchemaTokens->primvars,
-            HdRetainedContainerDataSource::New(names.size(), names.data(), primvars.data())),
-        prim.dataSource);
+    std::vector<std::pair<TfToken, HdSampledDataSourceHandle>> values;
+    for (const Attribute& attribute : found->second)
+        if (const auto value = HdSampledDataSource::Cast(
+                HdContainerDataSource::Get(prim.dataSource, attribute.locator)))
+            values.emplace_back(attribute.primvar, value);
+    HdPatinaOverlayPrimvars(prim, values);
     return prim;
-}
-
-void HdPatinaSourceFormsSceneIndex::_PrimsAdded(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::AddedPrimEntries& entries) {
-    _SendPrimsAdded(entries);
-}
-
-void HdPatinaSourceFormsSceneIndex::_PrimsRemoved(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::RemovedPrimEntries& entries) {
-    _SendPrimsRemoved(entries);
 }
 
 void HdPatinaSourceFormsSceneIndex::_PrimsDirtied(

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Render passes and back plates in usdrecord: the picture is that of the command line."""
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import hydraBuild
+from rendering import pixels
+
+pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_usdrecord(),
+                                reason="this OpenUSD has no usdrecord")
+WIDTH = 40
+COLORS = {"a": (1, 0, 0), "b": (0, 1, 0), "c": (0, 0, 1), "d": (1, 1, 0)}
+# Four squares that glow, of 4 x 4 units, from left to right: two plain ones, one of a native and one of a point instance.
+TILE = """def Mesh "tile"
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)]
+    uniform token subdivisionScheme = "none"
+    rel material:binding = </World/look%s>
+}
+"""
+STAGE = """#usda 1.0
+def Camera "camera"
+{
+    token projection = "orthographic"
+    float horizontalAperture = 200
+    float verticalAperture = 50
+    float2 clippingRange = (1, 100)
+    double3 xformOp:translate = (0, 0, 20)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Xform "World"
+{
+    def Xform "a" { double3 xformOp:translate = (-7.5, 0, 0) uniform token[] xformOpOrder = ["xformOp:translate"]
+        @tileA@ }
+    def Xform "b" { double3 xformOp:translate = (-2.5, 0, 0) uniform token[] xformOpOrder = ["xformOp:translate"]
+        @tileB@ }
+    def "c" (inherits = </asset> instanceable = true)
+        { double3 xformOp:translate = (2.5, 0, 0) uniform token[] xformOpOrder = ["xformOp:translate"] }
+    def PointInstancer "d"
+    {
+        rel prototypes = </World/d/tile>
+        int[] protoIndices = [0]
+        point3f[] positions = [(7.5, 0, 0)]
+        @tileD@
+    }
+    @looks@
+}
+class Xform "asset"
+{
+    @tileC@
+}
+def Scope "Render"
+{
+    def RenderSettings "main"
+    {
+        int patina:samples = 4
+        bool patina:enableDomeLightVisibility = 0
+    }
+    def RenderPass "pass" (prepend apiSchemas = ["CollectionAPI:prune", "CollectionAPI:matte"])
+    {
+        rel renderSource = </Render/main>
+        @pass@
+    }
+}
+"""
+LOOK = """def Material "look%s"
+{
+    token outputs:surface.connect = </World/look%s/surface.outputs:surface>
+    def Shader "surface"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor = (0, 0, 0)
+        color3f inputs:emissiveColor = (%g, %g, %g)
+        int inputs:useSpecularWorkflow = 1
+        color3f inputs:specularColor = (0, 0, 0)
+        token outputs:surface
+    }
+}
+"""
+
+
+def write(path, lines):
+    text = STAGE.replace("@pass@", lines)
+    for name, rgb in COLORS.items():
+        text = text.replace(f"@tile{name.upper()}@", TILE % name)
+    path.write_text(text.replace("@looks@", "\n".join(LOOK % (n, n, *rgb) for n, rgb in COLORS.items())), encoding="utf-8")
+    return path
+
+
+def pictures(stage, tmp_path, *flags):
+    """:returns: (that of usdrecord, that of the command line), each (height, width, 4)"""
+    words = ["--imageWidth", str(WIDTH), "--disableCameraLight", "--colorCorrectionMode", "disabled", *flags]
+    found, wanted = tmp_path / "hydra.exr", tmp_path / "record.exr"
+    hydraBuild.run_usdrecord(stage, found, *words, scene_index=True)
+    subprocess.run([sys.executable, "-m", "patina", "record", str(stage), str(wanted), "--samples", "4", "--quiet", *words],
+                   check=True)
+    return [pixels(path)[..., :4] for path in (found, wanted)]
+
+
+def shown(picture):
+    """:returns: names of the squares in whose middle their colour is"""
+    row = picture[picture.shape[0] // 2]
+    return "".join(name for i, (name, rgb) in enumerate(COLORS.items())
+                   if np.allclose(row[WIDTH * (2 * i + 1) // 8][:3], rgb, atol=0.02))
+
+
+@pytest.mark.parametrize("lines, squares", [
+    ("", "abcd"),
+    ("rel collection:prune:includes = </World/a>", "bcd"),
+    ("rel collection:renderVisibility:excludes = [</World/b>, </World/c>]", "ad"),
+    ("rel collection:renderVisibility:excludes = </World/d>", "abc"),
+    ("rel collection:cameraVisibility:excludes = </World/a>", "bcd"),
+    ("rel collection:matte:includes = </World/b>", "acd")])
+def test_a_pass_draws_what_its_collections_say(tmp_path, lines, squares):
+    hydraBuild.skip_before(2411, "scene indices do not tell the active pass")
+    stage = write(tmp_path / "pass.usda", lines)
+    hydra, record = pictures(stage, tmp_path, "--renderPassPrimPath", "/Render/pass")
+    assert shown(record) == squares
+    assert shown(hydra) == squares
+    assert np.allclose(hydra, record, atol=0.02), "alpha of mattes too"
+
+
+PLATE = """#usda 1.0
+def Camera "@name@" (prepend apiSchemas = ["BackPlateAPI:sky"])
+{
+    float focusDistance = 30
+    float focalLength = 50
+    float horizontalAperture = 20
+    float verticalAperture = 10
+    float2 clippingRange = (1, 100)
+    asset backPlate:sky:image = @sky.exr@
+    token backPlate:sky:plateVisibility = "@seen@"
+}
+def Camera "other"
+{
+    float focalLength = 50
+    float horizontalAperture = 20
+    float verticalAperture = 10
+    float2 clippingRange = (1, 100)
+}
+def Sphere "mirror"
+{
+    double radius = 2
+    double3 xformOp:translate = (0, 0, -20)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+
+
+@pytest.mark.parametrize("seen, camera, there", [("solo", "main", True), ("solo", "other", False), ("all", "other", True),
+                                                 ("mute", "main", False)])
+def test_back_plates_are_pictures_behind_the_scene(tmp_path, seen, camera, there):
+    hydraBuild.skip_before(2608, "Hydra knows no back plates")
+    import _patina
+
+    sky = np.zeros((4, 8, 3), np.float32)
+    sky[:, :4], sky[:, 4:] = (0.8, 0.1, 0.1), (0.1, 0.1, 0.8)
+    _patina.write_image(str(tmp_path / "sky.exr"), sky)
+    stage = tmp_path / "plate.usda"
+    stage.write_text(PLATE.replace("@name@", "main").replace("@seen@", seen), encoding="utf-8")
+    hydra, record = pictures(stage, tmp_path, "--camera", camera)
+    for picture in (hydra, record):
+        left, right = picture[2, 2, :3], picture[2, -3, :3]
+        assert np.allclose(left, (0.8, 0.1, 0.1) if there else 0.0, atol=0.01)
+        assert np.allclose(right, (0.1, 0.1, 0.8) if there else 0.0, atol=0.01)
+        # The ball is lit by nothing: plates are no lights.
+        assert np.allclose(picture[picture.shape[0] // 2, WIDTH // 2, :3], 0.0, atol=1e-4)

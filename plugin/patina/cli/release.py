@@ -75,7 +75,8 @@ def _commit(uncommitted):
     :raises CommandError: where files are not as they were committed"""
     changed = _git("status", "--porcelain").splitlines()
     if changed and not uncommitted:
-        raise CommandError(f"the checkout is not clean ({changed[0].strip()}, {len(changed)} in all): commit, or use --uncommitted")
+        raise CommandError(f"the checkout is not clean ({changed[0].strip()}, {len(changed)} in all): commit, or use "
+                           "--uncommitted")
     commit, time = _git("log", "-1", "--format=%H %ct").split()
     return commit + ("-dirty" if changed else ""), int(time)
 
@@ -109,7 +110,8 @@ def _packages(folder, work, environment, log):
                 print("".join(file.readlines()[-30:]), file=sys.stderr)
             raise CommandError(f"{says} failed; the log is {log.name}")
 
-    step("wheel", sys.executable, "-m", "pip", "wheel", "--no-deps", f"--config-settings=build-dir={work}/wheel", "-w", folder, ROOT)
+    step("wheel", sys.executable, "-m", "pip", "wheel", "--no-deps", f"--config-settings=build-dir={work}/wheel", "-w",
+         folder, ROOT)
     (wheel,) = glob.glob(os.path.join(glob.escape(folder), "*.whl"))
     print("wheel with all libraries", flush=True)
     wholeWheel.make(wheel, folder)

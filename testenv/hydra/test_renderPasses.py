@@ -14,7 +14,9 @@ pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_
 WIDTH = 40
 COLORS = {"a": (1, 0, 0), "b": (0, 1, 0), "c": (0, 0, 1), "d": (1, 1, 0)}
 # Four squares that glow, of 4 x 4 units, from left to right: two plain ones, one of a native and one of a point instance.
-TILE = """def Mesh "tile"
+TILE = """def Mesh "tile" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
 {
     int[] faceVertexCounts = [4]
     int[] faceVertexIndices = [0, 1, 2, 3]
@@ -35,12 +37,26 @@ def Camera "camera"
 }
 def Xform "World"
 {
-    def Xform "a" { double3 xformOp:translate = (-7.5, 0, 0) uniform token[] xformOpOrder = ["xformOp:translate"]
-        @tileA@ }
-    def Xform "b" { double3 xformOp:translate = (-2.5, 0, 0) uniform token[] xformOpOrder = ["xformOp:translate"]
-        @tileB@ }
-    def "c" (inherits = </asset> instanceable = true)
-        { double3 xformOp:translate = (2.5, 0, 0) uniform token[] xformOpOrder = ["xformOp:translate"] }
+    def Xform "a"
+    {
+        double3 xformOp:translate = (-7.5, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        @tileA@
+    }
+    def Xform "b"
+    {
+        double3 xformOp:translate = (-2.5, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        @tileB@
+    }
+    def "c" (
+        inherits = </asset>
+        instanceable = true
+    )
+    {
+        double3 xformOp:translate = (2.5, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
     def PointInstancer "d"
     {
         rel prototypes = </World/d/tile>
@@ -58,8 +74,8 @@ def Scope "Render"
 {
     def RenderSettings "main"
     {
+        uniform int2 resolution = (40, 10)
         int patina:samples = 4
-        bool patina:enableDomeLightVisibility = 0
     }
     def RenderPass "pass" (prepend apiSchemas = ["CollectionAPI:prune", "CollectionAPI:matte"])
     {
@@ -119,7 +135,7 @@ def shown(picture):
 def test_a_pass_draws_what_its_collections_say(tmp_path, lines, squares):
     hydraBuild.skip_before(2411, "scene indices do not tell the active pass")
     stage = write(tmp_path / "pass.usda", lines)
-    hydra, record = pictures(stage, tmp_path, "--renderPassPrimPath", "/Render/pass")
+    hydra, record = pictures(stage, tmp_path, "--camera", "camera", "--renderPassPrimPath", "/Render/pass")
     assert shown(record) == squares
     assert shown(hydra) == squares
     assert np.allclose(hydra, record, atol=0.02), "alpha of mattes too"

@@ -53,7 +53,7 @@ void Integrator::addShadow(const Path& path, const vec3& value, const LightSampl
     // Light samples alone, which find all light of a surface that is no mirror.
     path.lightPaths->shadow +=
         path.throughput * value * radiance * image *
-        (glm::max(vec3(0.0f), 1.0f - seen) / (path.lightSamples * light.pdf));
+        (glm::max(vec3(0.0f), 1.0f - seen) / (float(path.lightSamples) * light.pdf));
 }
 
 void Integrator::announceScatter(const Path& path, const BsdfSample& next,

@@ -27,6 +27,12 @@ double areaOf(const Surface& surface, const mat4& place) {
 
 } // namespace
 
+SceneLights::MeshLight::Glow SceneLights::MeshLight::glowOf(const Light& light) {
+    return light.materialSyncMode == "noMaterialResponse"       ? Glow::Hidden
+           : light.materialSyncMode == "materialGlowTintsLight" ? Glow::TintsLight
+                                                                : Glow::AddsToLight;
+}
+
 bool SceneLights::haveRoom(double more, const LightSetInput& input) {
     const double sum = double(input.lights.size()) + double(input.triangleCount) + more;
     return sum <= double(limitOf(Limit::lights));
@@ -98,7 +104,9 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
             diagnostics.warn(light->path, "geometry", messages::meshLightWithoutMesh);
             continue;
         }
-        MeshLight meshLight{light, lightBaseRadiance(*light), int(_infos.size()), {}};
+        MeshLight meshLight{
+            light, lightBaseRadiance(*light), int(_infos.size()), MeshLight::glowOf(*light), {}};
+        _hidesMaterials |= meshLight.glow == MeshLight::Glow::Hidden;
         const double places = scene.placeCount(surface->prim->group);
         if (!haveRoom(places * double(surface->topology().triangles.size()), input)) {
             warnOfMany(light->path, diagnostics);
@@ -167,10 +175,9 @@ vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
         light *= mesh.filters[place].factor(*lit, -s.viewDirection, glm::length(s.position - *lit),
                                             point.hit->time);
     }
-    if (mesh.light->materialSyncMode == "noMaterialResponse") return light;
-    if (mesh.light->materialSyncMode == "materialGlowTintsLight" && program.hasEmission())
-        return light * glow;
-    return light + glow;
+    if (mesh.glow == MeshLight::Glow::Hidden) return light;
+    return mesh.glow == MeshLight::Glow::TintsLight && program.hasEmission() ? light * glow
+                                                                             : light + glow;
 }
 
 vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from, float time) const {
@@ -186,12 +193,6 @@ vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from, 
     float presence = 1.0f;
     if (!point.slot->opaque) point.slot->program->opacity(point.shading, nullptr, &presence);
     return emission(point, &from) * presence;
-}
-
-bool SceneLights::hidesMaterial(const Surface* surface) const {
-    const auto found = _meshLights.find(surface);
-    return found != _meshLights.end() &&
-           found->second.light->materialSyncMode == "noMaterialResponse";
 }
 
 } // namespace patina

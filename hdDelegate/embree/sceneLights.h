@@ -57,13 +57,21 @@ public:
     /// @param lit the point that it lights, which filters of mesh lights ask for; null: unfiltered
     vec3 emission(const SurfacePoint& point, const vec3* lit = nullptr) const;
     /// A mesh light that is nothing but a light (materialSyncMode noMaterialResponse).
-    bool hidesMaterial(const Surface* surface) const;
+    bool hidesMaterial(const Surface* surface) const {
+        if (!_hidesMaterials) return false;
+        const auto found = _meshLights.find(surface);
+        return found != _meshLights.end() && found->second.glow == MeshLight::Glow::Hidden;
+    }
 
 private:
     struct MeshLight {
+        enum class Glow { TintsLight, AddsToLight, Hidden }; ///< of the surface's material
+        static Glow glowOf(const Light& light);
+
         std::shared_ptr<const Light> light;
         vec3 radiance{0.0f};
         int info = 0;
+        Glow glow = Glow::TintsLight;
         std::vector<LightFilters> filters; ///< per place of the surface; none: nothing is filtered
     };
     /// A surface wherever it is placed.
@@ -113,7 +121,7 @@ private:
     std::map<const Surface*, EmittingSurface> _emitting;
     std::map<const Surface*, MeshLight> _meshLights;
     int _glowInfo = 0;
-    bool _splitsLobes = false, _hasOwnShadows = false;
+    bool _splitsLobes = false, _hasOwnShadows = false, _hidesMaterials = false;
 };
 
 } // namespace patina

@@ -30,9 +30,7 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
     const vec3 radiance =
         _lights.emission(point, path.fromCamera() ? &path.origin : &path.vertex) * presence;
     if (radiance == vec3(0.0f)) return;
-    const int light = path.fromCamera()
-                          ? -1
-                          : _lights.triangleLight(hit.surface, hit.primitive, hit.groupToWorld);
+    const int light = path.fromCamera() ? -1 : _lights.triangleLight(hit);
     if (light < 0) {
         if (path.lightPaths) announceEmission(path, hit);
         addRadiance(path, radiance);

@@ -24,7 +24,7 @@ LightEvent Integrator::glowOf(const Surface& surface) const {
 }
 
 void Integrator::announceEmission(const Path& path, const Hit& hit) const {
-    const int light = _lights.triangleLight(hit.surface, hit.primitive, hit.groupToWorld);
+    const int light = _lights.triangleLight(hit);
     path.lightPaths->straight(light < 0 ? glowOf(*hit.surface) : emitterOf(light));
 }
 

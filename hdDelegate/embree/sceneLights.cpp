@@ -147,15 +147,12 @@ int SceneLights::worthwhileSamples() const {
     return _set->infiniteLights().empty() ? 1 : 2;
 }
 
-int SceneLights::triangleLight(const Surface* surface, unsigned primitive,
-                               const mat4& groupToWorld) const {
-    const auto found = _emitting.find(surface);
+int SceneLights::triangleLight(const Hit& hit) const {
+    const auto found = _emitting.find(hit.surface);
     if (found == _emitting.end()) return -1;
-    const int slot = found->second.slots[primitive];
+    const int slot = found->second.slots[hit.primitive];
     if (slot < 0) return -1;
-    const EmittingSurface& emitting = found->second;
-    const int place = emitting.firstPlace + emitting.nearestPlace(groupToWorld);
-    return _set->lightCount() + _set->glowing(place).first + slot;
+    return _set->lightCount() + _set->glowing(placeOf(found->second, hit)).first + slot;
 }
 
 vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
@@ -170,8 +167,8 @@ vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
     const bool front = glm::dot(s.geometricNormal, s.viewDirection) > 0.0f;
     vec3 light = front ? mesh.radiance : vec3(0.0f);
     if (lit && !mesh.filters.empty()) {
-        const size_t place =
-            size_t(_emitting.at(point.hit->surface).nearestPlace(point.hit->groupToWorld));
+        const EmittingSurface& emitting = _emitting.at(point.hit->surface);
+        const size_t place = size_t(placeOf(emitting, *point.hit) - emitting.firstPlace);
         light *= mesh.filters[place].factor(*lit, -s.viewDirection, glm::length(s.position - *lit),
                                             point.hit->time);
     }

@@ -79,8 +79,12 @@ public:
 private:
     /// Light samples of a vertex that are begun; the others begin when they are taken.
     struct LightDraws {
+        LightDraws() {} // NOLINT: most vertices begin one
+
         static constexpr int most = 4;
-        LightDraw begun[most];
+        union {
+            LightDraw begun[most];
+        };
         int count = 0;
         bool twoSided = false;
     };

@@ -30,9 +30,7 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
     const vec3 radiance =
         _lights.emission(point, path.fromCamera() ? &path.origin : &path.vertex) * presence;
     if (radiance == vec3(0.0f)) return;
-    const int light = path.fromCamera()
-                          ? -1
-                          : _lights.triangleLight(hit.surface, hit.primitive, hit.groupToWorld);
+    const int light = path.fromCamera() ? -1 : _lights.triangleLight(hit);
     if (light < 0) {
         if (path.lightPaths) announceEmission(path, hit);
         addRadiance(path, radiance);
@@ -53,7 +51,21 @@ LightDraw Integrator::beginLight(const Path& path, const SurfacePoint& point, bo
     return _lights.set().begin(s.position, facingNormal(s), twoSided, u, path.time);
 }
 
-vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const VertexBsdf& bsdf,
+/// Begun before the lobes of a vertex are set up, so that what they have to wait for comes from
+/// memory meanwhile.
+Integrator::LightDraws Integrator::beginLights(const Path& path, const SurfacePoint& point) const {
+    LightDraws draws;
+    draws.twoSided = point.slot->program->hasTransmission();
+    if (path.depth >= _settings.maxDepth || _lights.set().empty()) return draws;
+    Sampler ahead = path.sampler;
+    const Sampler::Set u = ahead.nextSet(uint32_t(path.lightSamples));
+    for (; draws.count < std::min(path.lightSamples, LightDraws::most); ++draws.count)
+        draws.begun[draws.count] =
+            beginLight(path, point, draws.twoSided, vec3(u.point4(uint32_t(draws.count))));
+    return draws;
+}
+
+vec3 Integrator::directLight(Path& path, const SurfacePoint& point, const VertexBsdf& bsdf,
                              const Hit& hit, const LightDraw& draw, TraceCounters& counters) const {
     const ShadingPoint& s = point.shading;
     const bool twoSided = bsdf.transmits();
@@ -71,7 +83,7 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
         radiance = _lights.triangleRadiance(light, s.position, path.time);
         if (radiance == vec3(0.0f)) return vec3(0.0f);
     }
-    const float lightPdf = path.lightSamples * light.pdf;
+    const float lightPdf = float(path.lightSamples) * light.pdf;
     const bool sampledAlone = light.delta || (info.triangles && info.ownShadows);
     const float weight = sampledAlone ? 1.0f : misWeight(lightPdf, f.pdf, info.dome);
     const float away = glm::dot(light.direction, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
@@ -130,152 +142,142 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit,
     path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f * next.roughness);
 }
 
-constexpr int drawsAtOnce = 4; // light samples
+/// Traces the path's ray, and adds the lights that it meets on its way.
+Integrator::Step Integrator::find(Path& path, Hit& hit, TraceCounters& counters) const {
+    if (std::exchange(path.departs, false) && _lights.hasOwnShadows())
+        addOwnShadows(path, counters);
+    ++counters.rays;
+    const bool found = _scene.intersect(path.origin, path.direction, path.near, path.far, path.time,
+                                        path.rays, hit);
+    const float distance = found ? hit.distance : path.far;
+    const float end = _finiteLights ? addLightsAlong(path, distance) : distance;
+    if (!path.media.empty() || !_scene.volumes().empty()) {
+        const Step step = fly(path, end, counters);
+        if (step != Step::Arrives) return step;
+    }
+    if (end < distance) return Step::Ends;
+    if (found) return Step::Arrives;
+    if (!(path.caught > 0.0f)) addEscaped(path);
+    return Step::Ends;
+}
 
-void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& counters) const {
-    bool aovsWritten = _aovs.empty();
-    const bool guided = _denoisingAlbedo >= 0 || _denoisingNormal >= 0;
-    int passThroughs = 0;
-    float travelled = 0.0f; // since the last vertex, over surfaces that were passed through
-    const bool hasFiniteLights = _lights.set().hasIntersectable();
-    while (true) {
-        if (std::exchange(path.departs, false) && _lights.hasOwnShadows())
-            addOwnShadows(path, counters);
-        Hit hit;
-        ++counters.rays;
-        const bool found = _scene.intersect(path.origin, path.direction, path.near, path.far,
-                                            path.time, path.rays, hit);
-        const float distance = found ? hit.distance : path.far;
-        float end = distance;
-        if (hasFiniteLights && _settings.enableSceneLights) end = addLightsAlong(path, distance);
-        if (!path.media.empty() || !_scene.volumes().empty()) {
-            const Flight flight = fly(path, end, counters);
-            if (flight == Flight::Ends) break;
-            if (flight == Flight::Scatters) {
-                aovsWritten = true; // what lies behind is no longer seen straight
-                if (!path.featured) path.featureAlbedo = glm::min(path.throughput, vec3(1.0f));
-                path.featured = true;
-                travelled = 0.0f;
-                continue;
-            }
-        }
-        if (end < distance) break;
-        if (!found) {
-            if (!(path.caught > 0.0f)) addEscaped(path);
-            break;
-        }
-        travelled += hit.distance;
-        SurfacePoint point;
-        const float width = path.coneWidth + path.coneSpread * travelled;
-        computeSurfacePoint(hit, path.origin, path.direction, width, point);
-        const MaterialProgram& program = *point.slot->program;
-        counters.clock.enter(&program);
-        if (program.jitters()) point.shading.seed = path.sampler.randomBits();
-        const ShadingPoint& s = point.shading;
-
-        const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
-        const bool culled = path.fromCamera() &&
-                            (back ? cullsBack(*hit.surface->prim) : cullsFront(*hit.surface->prim));
-        vec3 transmittance(1.0f);
-        float presence = 1.0f;
+/// Adds what a surface gives off, and decides by the chance of its presence whether the path meets
+/// it or passes straight through.
+Integrator::Step Integrator::meet(Path& path, SurfacePoint& point, const Hit& hit,
+                                  bool caught) const {
+    const MaterialProgram& program = *point.slot->program;
+    const ShadingPoint& s = point.shading;
+    const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
+    const bool culled = path.fromCamera() &&
+                        (back ? cullsBack(*hit.surface->prim) : cullsFront(*hit.surface->prim));
+    vec3 transmittance(1.0f);
+    float presence = 1.0f, opacity = culled ? 0.0f : 1.0f;
+    if (!culled && !point.slot->opaque) {
         // Shadow rays have no width. A scattered ray must pass the same surfaces as they do: where
         // a cutout blurs away, the two ways to find a light would see different surfaces.
         const float footprint = s.uvFootprint;
         if (!path.fromCamera()) point.shading.uvFootprint = 0.0f;
-        const float opacity = culled               ? 0.0f
-                              : point.slot->opaque ? 1.0f
-                                                   : program.opacity(s, &transmittance, &presence);
+        opacity = program.opacity(s, &transmittance, &presence);
         point.shading.uvFootprint = footprint;
-        const bool caught = path.fromCamera() && catchingOf(hit).any();
-        // The present share emits, whether or not light also passes.
-        if (!culled && !caught && presence > 0.0f) addEmission(path, point, hit, presence);
-        if (opacity < 1.0f && !(path.sampler.random() < opacity)) {
-            path.throughput *= transmittance;
-            if (++passThroughs > maxPassThroughs || path.throughput == vec3(0.0f)) break;
-            if (program.passThroughEnters() && !culled) path.media.cross(program, s);
-            path.origin = s.position + path.direction * std::max(point.offset, 1e-7f);
-            path.near = 0.0f;
-            continue;
-        }
-        if (path.fromCamera() && !caught) path.alpha = 1.0f;
-        path.alpha += std::exchange(path.caught, 0.0f);
+    }
+    // The present share emits, whether or not light also passes.
+    if (!culled && !caught && presence > 0.0f) addEmission(path, point, hit, presence);
+    if (!(opacity < 1.0f) || path.sampler.random() < opacity) return Step::Arrives;
+    path.throughput *= transmittance;
+    if (++path.passThroughs > maxPassThroughs || path.throughput == vec3(0.0f)) return Step::Ends;
+    if (program.passThroughEnters() && !culled) path.media.cross(program, s);
+    path.origin = s.position + path.direction * std::max(point.offset, 1e-7f);
+    path.near = 0.0f;
+    return Step::GoesOn;
+}
 
-        // The camera's first hit counts most, and its vertex is paid for.
-        const int lightSamples = path.fromCamera() ? _lightSamples : 1;
-        path.lightSamples = float(lightSamples);
-        // Light samples are begun here, so that what they have to wait for comes from memory while
-        // the lobes are set up. Those of another side, or of other numbers, are begun anew below.
-        LightDraw draws[drawsAtOnce];
-        const bool draws2Sided = program.hasTransmission();
-        int drawn = 0;
-        if (path.depth < _settings.maxDepth && !_lights.set().empty()) {
-            Sampler ahead = path.sampler;
-            const Sampler::Set u = ahead.nextSet(uint32_t(lightSamples));
-            for (; drawn < std::min(lightSamples, drawsAtOnce); ++drawn)
-                draws[drawn] =
-                    beginLight(path, point, draws2Sided, vec3(u.point4(uint32_t(drawn))));
+/// AOVs and the denoiser's guides get what they show of a vertex.
+void Integrator::show(Path& path, const SurfacePoint& point, const Bsdf& bsdf,
+                      const AovTarget& target) const {
+    if (!std::exchange(path.shown, true)) writeAovs(_aovs, target, _camera, point, bsdf);
+    if (path.featured || !_guided || !bsdf.hasNonDelta()) return;
+    path.featured = true;
+    path.featureAlbedo = path.throughput * bsdf.albedo();
+    path.featureNormal = point.shading.normal;
+}
+
+/// Takes the path through a vertex of one wavelength, or of three channels.
+bool Integrator::scatter(Path& path, const SurfacePoint& point, const Hit& hit, float width,
+                         const AovTarget& target, TraceCounters& counters) const {
+    LightDraws draws = beginLights(path, point);
+    Bsdf bsdf;
+    setUpLobes(point, bsdf);
+    if (bsdf.stochastic()) bsdf.seed(path.sampler.randomBits());
+    show(path, point, bsdf, target);
+    if (endsAt(path, hit)) return false;
+    if (_photons) meetCaustics(path, point, bsdf, width);
+    if (bsdf.stochastic() || bsdf.transmits() != draws.twoSided) draws.count = 0;
+    return goOn(path, point, hit, bsdf, nullptr, draws, counters);
+}
+
+/// Takes light samples at a vertex, and the path on from it.
+bool Integrator::goOn(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+                      const DispersedBsdf* dispersed, const LightDraws& draws,
+                      TraceCounters& counters) const {
+    const VertexBsdf vertex(bsdf, dispersed);
+    const Sampler::Set uLight = path.sampler.nextSet(uint32_t(path.lightSamples));
+    if (vertex.hasNonDelta() && !path.throughCasters && !_lights.set().empty())
+        for (int i = 0; i < path.lightSamples; ++i) {
+            const LightDraw draw = i < draws.count ? draws.begun[i]
+                                                   : beginLight(path, point, vertex.transmits(),
+                                                                vec3(uLight.point4(uint32_t(i))));
+            addRadiance(path, directLight(path, point, vertex, hit, draw, counters));
         }
 
-        if (program.disperses() && !caught) {
-            if (!path.waves.alone) {
-                const bool goesOn =
-                    disperse(path, point, hit, aovsWritten ? nullptr : &target, counters);
-                aovsWritten = true;
-                if (!goesOn || !survivesRoulette(path)) break;
-                path.coneWidth = width;
-                travelled = 0.0f;
-                continue;
-            }
-            point.shading.wavelength = path.waves.nm[0];
-        }
-        Bsdf bsdf;
-        program.evaluate(s, bsdf);
-        if (program.hasSubsurface()) bsdf.walkSubsurface();
-        if (bsdf.stochastic()) bsdf.seed(path.sampler.randomBits());
-        if (!aovsWritten) {
-            writeAovs(_aovs, target, _camera, point, bsdf);
-            aovsWritten = true;
-        }
-        if (!path.featured && guided && bsdf.hasNonDelta()) {
-            path.featured = true;
-            path.featureAlbedo = path.throughput * bsdf.albedo();
-            path.featureNormal = s.normal;
-        }
-        if (caught) {
-            if (!catchLight(path, point, hit, bsdf, counters)) break;
-            path.coneWidth = width;
-            travelled = 0.0f;
-            continue;
-        }
-        if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface)) break;
+    const vec4 u = path.sampler.next4();
+    const BsdfSample next =
+        dispersed ? dispersed->sample(vec3(u), u.w, path.waves) : bsdf.sample(vec3(u), u.w);
+    if (next.event == 0) return false;
+    path.throughput *= next.weight;
+    if (!(luminance(path.throughput) > 0.0f)) return false;
+    if ((next.event & LOBE_SUBSURFACE) != 0) {
+        path.onPhotons = false;
+        if (!passBeneath(path, point, hit, bsdf.subsurface(next), counters)) return false;
+    } else {
+        if ((next.event & sh::LOBE_TRANSMIT) != 0)
+            path.media.cross(*point.slot->program, point.shading);
+        depart(path, point, hit, vertex, next);
+    }
+    ++path.depth;
+    return survivesRoulette(path);
+}
 
-        if (_photons) meetCaustics(path, point, bsdf, width);
-        if (bsdf.stochastic() || bsdf.transmits() != draws2Sided) drawn = 0;
-        const Sampler::Set uLight = path.sampler.nextSet(uint32_t(lightSamples));
-        if (bsdf.hasNonDelta() && !path.throughCasters && !_lights.set().empty())
-            for (int i = 0; i < lightSamples; ++i) {
-                const LightDraw draw = i < drawn ? draws[i]
-                                                 : beginLight(path, point, bsdf.transmits(),
-                                                              vec3(uLight.point4(uint32_t(i))));
-                addRadiance(path, directLight(path, point, bsdf, hit, draw, counters));
-            }
+/// Takes the path to the next surface that its ray meets, and on from there.
+bool Integrator::advance(Path& path, const AovTarget& target, TraceCounters& counters) const {
+    Hit hit;
+    Step step = find(path, hit, counters);
+    if (step != Step::Arrives) return step == Step::GoesOn;
+    path.travelled += hit.distance;
+    SurfacePoint point;
+    const float width = path.coneWidth + path.coneSpread * path.travelled;
+    computeSurfacePoint(hit, path.origin, path.direction, width, point);
+    const MaterialProgram& program = *point.slot->program;
+    counters.clock.enter(&program);
+    if (program.jitters()) point.shading.seed = path.sampler.randomBits();
 
-        const vec4 uBsdf = path.sampler.next4();
-        const BsdfSample next = bsdf.sample(vec3(uBsdf), uBsdf.w);
-        if (next.event == 0) break;
-        path.throughput *= next.weight;
-        if (!(luminance(path.throughput) > 0.0f)) break;
-        if ((next.event & LOBE_SUBSURFACE) != 0) {
-            path.onPhotons = false;
-            if (!passBeneath(path, point, hit, bsdf.subsurface(next), counters)) break;
-        } else {
-            if ((next.event & sh::LOBE_TRANSMIT) != 0) path.media.cross(program, s);
-            depart(path, point, hit, bsdf, next);
-        }
-        ++path.depth;
-        if (!survivesRoulette(path)) break;
-        path.coneWidth = width;
-        travelled = 0.0f;
+    const bool caught = path.fromCamera() && catchingOf(hit).any();
+    step = meet(path, point, hit, caught);
+    if (step != Step::Arrives) return step == Step::GoesOn;
+    if (path.fromCamera() && !caught) path.alpha = 1.0f;
+    path.alpha += std::exchange(path.caught, 0.0f);
+    // The camera's first hit counts most, and its vertex is paid for.
+    path.lightSamples = path.fromCamera() ? _lightSamples : 1;
+
+    const bool goesOn = caught                ? catchLight(path, point, hit, target, counters)
+                        : program.disperses() ? disperse(path, point, hit, width, target, counters)
+                                              : scatter(path, point, hit, width, target, counters);
+    path.coneWidth = width;
+    path.travelled = 0.0f;
+    return goesOn;
+}
+
+void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& counters) const {
+    while (advance(path, target, counters)) {
     }
 }
 

@@ -32,6 +32,13 @@ inline vec3 facingNormal(const ShadingPoint& s) {
     return glm::dot(s.viewDirection, s.geometricNormal) < 0.0f ? -s.normal : s.normal;
 }
 
+/// The lobes of a vertex of a path.
+inline void setUpLobes(const SurfacePoint& point, Bsdf& bsdf) {
+    const MaterialProgram& program = *point.slot->program;
+    program.evaluate(point.shading, bsdf);
+    if (program.hasSubsurface()) bsdf.walkSubsurface();
+}
+
 inline float powerHeuristic(float a, float b) {
     if (!std::isfinite(a)) return 1.0f;
     if (std::max(a, b) > 1e18f) { // squares would overflow
@@ -70,8 +77,37 @@ public:
     void sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const;
 
 private:
+    /// Light samples of a vertex that are begun; the others begin when they are taken.
+    struct LightDraws {
+        LightDraws() {} // NOLINT: most vertices begin one
+
+        static constexpr int most = 4;
+        union {
+            LightDraw begun[most];
+        };
+        int count = 0;
+        bool twoSided = false;
+    };
+    enum class Step { Arrives, GoesOn, Ends };
+
     void addFeatures(const Path& path, const AovTarget& target) const;
+    // The stages of a path, in their order. Those that are a bool tell whether it goes on.
     void trace(Path& path, const AovTarget& target, TraceCounters& counters) const;
+    bool advance(Path& path, const AovTarget& target, TraceCounters& counters) const;
+    Step find(Path& path, Hit& hit, TraceCounters& counters) const;
+    Step meet(Path& path, SurfacePoint& point, const Hit& hit, bool caught) const;
+    bool scatter(Path& path, const SurfacePoint& point, const Hit& hit, float width,
+                 const AovTarget& target, TraceCounters& counters) const;
+    void show(Path& path, const SurfacePoint& point, const Bsdf& bsdf,
+              const AovTarget& target) const;
+    bool endsAt(const Path& path, const Hit& hit) const {
+        return path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface);
+    }
+    /// @param dispersed the lobes of several wavelengths, or null
+    bool goOn(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+              const DispersedBsdf* dispersed, const LightDraws& draws,
+              TraceCounters& counters) const;
+
     float addLightsAlong(Path& path, float distance) const;
     void addOwnShadows(Path& path, TraceCounters& counters) const;
     void addInfinite(Path& path, int light, const vec3& seen) const;
@@ -85,24 +121,23 @@ private:
     /// Begins a light sample for directLight(), before the lobes are known.
     LightDraw beginLight(const Path& path, const SurfacePoint& point, bool twoSided,
                          const vec3& u) const;
-    vec3 directLight(const Path& path, const SurfacePoint& point, const VertexBsdf& bsdf,
-                     const Hit& hit, const LightDraw& draw, TraceCounters& counters) const;
+    LightDraws beginLights(const Path& path, const SurfacePoint& point) const;
+    vec3 directLight(Path& path, const SurfacePoint& point, const VertexBsdf& bsdf, const Hit& hit,
+                     const LightDraw& draw, TraceCounters& counters) const;
     /// Light that a medium scatters towards the path, from one light sample.
-    vec3 mediumLight(const Path& path, const vec3& position, const sh::PhaseMixture& phase,
-                     const vec3& u, TraceCounters& counters) const;
-    enum class Flight { Arrives, Scatters, Ends };
+    vec3 mediumLight(Path& path, const vec3& position, const sh::PhaseMixture& phase, const vec3& u,
+                     TraceCounters& counters) const;
     /// Takes the path through the medium that it is in, up to `distance` or to where it scatters.
-    Flight fly(Path& path, float distance, TraceCounters& counters) const;
+    Step fly(Path& path, float distance, TraceCounters& counters) const;
     /// Transmittance along the path's ray up to a distance.
-    vec3 transmittanceTo(const Path& path, float distance) const;
-    Flight scatter(Path& path, const Medium& medium, float distance, TraceCounters& counters) const;
+    vec3 transmittanceTo(Path& path, float distance) const;
+    Step scatterInside(Path& path, const Medium& medium, float distance,
+                       TraceCounters& counters) const;
     bool survivesRoulette(Path& path) const;
     void chooseWavelengths(Path& path, const MaterialProgram& program, ShadingPoint& s) const;
-    /// Takes the path through a vertex of several wavelengths, light samples included.
-    /// @param aovs if given: gets what AOVs show of the point
-    /// @returns false when the path ends
-    bool disperse(Path& path, SurfacePoint& point, const Hit& hit, const AovTarget* aovs,
-                  TraceCounters& counters) const;
+    /// Takes the path through a vertex whose lobes differ between wavelengths.
+    bool disperse(Path& path, SurfacePoint& point, const Hit& hit, float width,
+                  const AovTarget& target, TraceCounters& counters) const;
     /// Takes a photon over a surface of glass. @param first its flux is not over a cosine yet
     bool bendPhoton(Path& path, const SurfacePoint& point, bool first) const;
     vec3 photonLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf,
@@ -115,19 +150,17 @@ private:
                 const BsdfSample& next) const;
     /// Light that the camera sees of a prim that is a matte or a catcher; the path may go on by
     /// reflection.
-    /// @returns false when it ends
-    bool catchLight(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+    bool catchLight(Path& path, const SurfacePoint& point, const Hit& hit, const AovTarget& target,
                     TraceCounters& counters) const;
     /// The share of the direct light at a point that does not reach it.
-    float shadowed(const Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+    float shadowed(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
                    TraceCounters& counters) const;
     /// Takes the path through subsurface scattering, light at its exit included.
     /// @returns false when the path ends beneath the surface
     bool passBeneath(Path& path, const SurfacePoint& point, const Hit& hit,
                      const SubsurfaceEntry& entry, TraceCounters& counters) const;
-    vec3 visibility(const Path& path, const MediumStack& media, const vec3& origin,
-                    const vec3& direction, float distance, const LightInfo& light,
-                    TraceCounters& counters) const;
+    vec3 visibility(Path& path, const MediumStack& media, const vec3& origin, const vec3& direction,
+                    float distance, const LightInfo& light, TraceCounters& counters) const;
     // For AOVs of light paths: who gives light, and what happens to the path.
     LightEvent emitterOf(int light) const;
     LightEvent glowOf(const Surface& surface) const;
@@ -153,6 +186,8 @@ private:
     std::vector<AovSpec> _aovs;
     LightPathAovs _lightPaths;
     int _denoisingAlbedo = -1, _denoisingNormal = -1; ///< places in the film, or -1
+    bool _guided = false;                             ///< there is one of them
+    bool _finiteLights;                               ///< there are some that a ray may meet
     PixelFilter _filter;
     const PhotonPass* _photons = nullptr; ///< of the samples that are taken now
     MediumStack _cameraMedia;             ///< that the camera stands in

@@ -14,8 +14,8 @@ namespace patina {
 /// the rays see is the light with shadows over that without (resampled importance sampling, Talbot
 /// et al. 2005; the bias falls as one over the number of samples, and is none for one light of
 /// small size).
-float Integrator::shadowed(const Path& path, const SurfacePoint& point, const Hit& hit,
-                           const Bsdf& bsdf, TraceCounters& counters) const {
+float Integrator::shadowed(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+                           TraceCounters& counters) const {
     constexpr uint32_t candidates = 16;
     const ShadingPoint& s = point.shading;
     const bool twoSided = bsdf.transmits();
@@ -49,8 +49,12 @@ float Integrator::shadowed(const Path& path, const SurfacePoint& point, const Hi
     return std::clamp(1.0f - luminance(seen), 0.0f, 1.0f);
 }
 
-bool Integrator::catchLight(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
-                            TraceCounters& counters) const {
+bool Integrator::catchLight(Path& path, const SurfacePoint& point, const Hit& hit,
+                            const AovTarget& target, TraceCounters& counters) const {
+    Bsdf bsdf;
+    setUpLobes(point, bsdf);
+    if (bsdf.stochastic()) bsdf.seed(path.sampler.randomBits());
+    show(path, point, bsdf, target);
     const Catching catching = catchingOf(hit);
     if (catching.matte) return false;
     float left = 1.0f; // of the picture behind

@@ -76,8 +76,8 @@ bool Integrator::bendPhoton(Path& path, const SurfacePoint& point, bool first) c
 Photon Integrator::photon(const CausticCasters& casters, uint32_t block, uint32_t index,
                           uint32_t count, TraceCounters& counters) const {
     Photon result;
-    Sampler sampler(block, 0x9406f0d5u, _settings.seed, index);
-    Path path(sampler);
+    Path path(Sampler(block, 0x9406f0d5u, _settings.seed, index));
+    Sampler& sampler = path.sampler;
     const vec4 where = sampler.next4();
     path.time = 0.0f;
     CausticCasters::Point start = casters.sample(vec2(where), vec2(where.z, where.w), path.time);
@@ -114,7 +114,7 @@ Photon Integrator::photon(const CausticCasters& casters, uint32_t block, uint32_
                               path.rays, hit))
             break;
         if (!path.media.empty() || !_scene.volumes().empty())
-            if (fly(path, hit.distance, counters) != Flight::Arrives) break;
+            if (fly(path, hit.distance, counters) != Step::Arrives) break;
         computeSurfacePoint(hit, path.origin, path.direction, 0.0f, point);
         const MaterialProgram& program = *point.slot->program;
         if (program.jitters()) point.shading.seed = sampler.randomBits();

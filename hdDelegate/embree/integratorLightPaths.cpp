@@ -24,7 +24,7 @@ LightEvent Integrator::glowOf(const Surface& surface) const {
 }
 
 void Integrator::announceEmission(const Path& path, const Hit& hit) const {
-    const int light = _lights.triangleLight(hit.surface, hit.primitive, hit.groupToWorld);
+    const int light = _lights.triangleLight(hit);
     path.lightPaths->straight(light < 0 ? glowOf(*hit.surface) : emitterOf(light));
 }
 
@@ -53,7 +53,7 @@ void Integrator::addShadow(const Path& path, const vec3& value, const LightSampl
     // Light samples alone, which find all light of a surface that is no mirror.
     path.lightPaths->shadow +=
         path.throughput * value * radiance * image *
-        (glm::max(vec3(0.0f), 1.0f - seen) / (path.lightSamples * light.pdf));
+        (glm::max(vec3(0.0f), 1.0f - seen) / (float(path.lightSamples) * light.pdf));
 }
 
 void Integrator::announceScatter(const Path& path, const BsdfSample& next,

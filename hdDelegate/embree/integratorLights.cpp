@@ -93,7 +93,7 @@ void Integrator::addLight(Path& path, int light, const vec3& radiance, float lig
     const LightInfo& info = _lights.info(light);
     if (!linked(info.lightCategory, path.vertexSurface, path.vertexInstanceCategories)) return;
     const float weight =
-        path.specular ? 1.0f : misWeight(path.pdf, path.lightSamples * lightPdf, info.dome);
+        path.specular ? 1.0f : misWeight(path.pdf, float(path.lightSamples) * lightPdf, info.dome);
     const vec3 share = path.diffuseShare * info.diffuse + path.specularShare * info.specular;
     if (path.lightPaths)
         path.lightPaths->found(emitterOf(light), radiance * weight, info.diffuse, info.specular);

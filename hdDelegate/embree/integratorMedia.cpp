@@ -13,7 +13,7 @@
 
 namespace patina {
 
-vec3 Integrator::mediumLight(const Path& path, const vec3& position, const sh::PhaseMixture& phase,
+vec3 Integrator::mediumLight(Path& path, const vec3& position, const sh::PhaseMixture& phase,
                              const vec3& u, TraceCounters& counters) const {
     LightSample light;
     if (!_lights.set().sample(position, vec3(0.0f), true, u, path.time, light) ||
@@ -35,7 +35,7 @@ vec3 Integrator::mediumLight(const Path& path, const vec3& position, const sh::P
     return value;
 }
 
-vec3 Integrator::transmittanceTo(const Path& path, float distance) const {
+vec3 Integrator::transmittanceTo(Path& path, float distance) const {
     vec3 left(1.0f);
     if (!path.media.empty()) left = transmittance(path.media.extinction(), distance);
     if (!_scene.volumes().empty())
@@ -44,7 +44,7 @@ vec3 Integrator::transmittanceTo(const Path& path, float distance) const {
     return left;
 }
 
-Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& counters) const {
+Integrator::Step Integrator::fly(Path& path, float distance, TraceCounters& counters) const {
     const bool fills = !path.media.empty();
     const vec3 extinction = fills ? path.media.extinction() : vec3(0.0f);
     const vec3 scattering = fills ? path.media.scattering() : vec3(0.0f);
@@ -71,7 +71,7 @@ Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& co
             addRadiance(path, collision.emitted);
             path.throughput = before;
         }
-        if (collision.absorbed) return Flight::Ends;
+        if (collision.absorbed) return Step::Ends;
     }
     // A volume that scatters before the medium does cuts the flight through the medium short.
     const bool inMedium = flight.scattered && !collision.scattered;
@@ -81,20 +81,20 @@ Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& co
               : vec3(1.0f);
     if (!_scene.volumes().empty()) path.throughput = through;
     path.throughput *= weight;
-    if (!(luminance(path.throughput) > 0.0f)) return Flight::Ends;
-    if (collision.scattered) return scatter(path, collision.medium, way, counters);
-    if (!inMedium) return Flight::Arrives;
-    return scatter(path, Medium(path.media.medium()), way, counters);
+    if (!(luminance(path.throughput) > 0.0f)) return Step::Ends;
+    if (collision.scattered) return scatterInside(path, collision.medium, way, counters);
+    if (!inMedium) return Step::Arrives;
+    return scatterInside(path, Medium(path.media.medium()), way, counters);
 }
 
-Integrator::Flight Integrator::scatter(Path& path, const Medium& medium, float distance,
-                                       TraceCounters& counters) const {
+Integrator::Step Integrator::scatterInside(Path& path, const Medium& medium, float distance,
+                                           TraceCounters& counters) const {
     if (path.fromCamera()) path.alpha = 1.0f;
     if (path.depth >= _settings.maxDepth || path.scatterings >= _settings.maxScatterings)
-        return Flight::Ends;
+        return Step::Ends;
     ++path.scatterings;
     path.onPhotons = path.throughCasters = false;
-    path.lightSamples = 1.0f;
+    path.lightSamples = 1;
     const vec3 position = path.origin + path.direction * distance;
     const sh::PhaseMixture phase = sh::phaseMixture(medium, path.throughput);
     const vec4 u = path.sampler.next4();
@@ -104,7 +104,7 @@ Integrator::Flight Integrator::scatter(Path& path, const Medium& medium, float d
     const sh::LobeSample next =
         sh::phaseMixtureSample(phase, -path.direction, vec3(uDirection, 0.0f), u.w);
     path.throughput *= next.weight;
-    if (!(luminance(path.throughput) > 0.0f) || !survivesRoulette(path)) return Flight::Ends;
+    if (!(luminance(path.throughput) > 0.0f) || !survivesRoulette(path)) return Step::Ends;
 
     if (path.lightPaths) path.lightPaths->scatter(EventType::Volume, false, vec3(1.0f));
     path.rays = RayVolume;
@@ -124,7 +124,11 @@ Integrator::Flight Integrator::scatter(Path& path, const Medium& medium, float d
     path.departs = true;
     path.near = 0.0f;
     path.far = INFINITY;
-    return Flight::Scatters;
+    path.travelled = 0.0f;
+    path.shown = true; // what lies behind is no longer seen straight
+    if (!path.featured) path.featureAlbedo = glm::min(path.throughput, vec3(1.0f));
+    path.featured = true;
+    return Step::GoesOn;
 }
 
 bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& hit,
@@ -167,7 +171,7 @@ bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& h
     bsdf.makeDiffuse(back ? -there.normal : there.normal, up);
     const Hit& exitHit = exit.found ? exit.hit : hit;
     const vec4 uLight = path.sampler.next4();
-    path.lightSamples = 1.0f;
+    path.lightSamples = 1;
     if (path.lightPaths) path.lightPaths->beneath = true;
     if (!_lights.set().empty())
         addRadiance(path, directLight(path, leaving, bsdf, exitHit,

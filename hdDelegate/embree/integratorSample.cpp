@@ -28,6 +28,8 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
         if (aovs[i].id == AovId::denoisingAlbedo) _denoisingAlbedo = int(i);
         if (aovs[i].id == AovId::denoisingNormal) _denoisingNormal = int(i);
     }
+    _guided = _denoisingAlbedo >= 0 || _denoisingNormal >= 0;
+    _finiteLights = settings.enableSceneLights && lights.set().hasIntersectable();
     const vec3 eye = vec3(glm::inverse(camera.worldToCamera())[3]);
     if (std::isfinite(eye.x + eye.y + eye.z)) _cameraMedia = mediaAround(scene, eye, 0.5f);
 }
@@ -57,6 +59,7 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     }
 
     Path path(sampler);
+    path.shown = _aovs.empty();
     path.origin = ray.origin;
     path.direction = ray.direction;
     path.near = ray.near;
@@ -79,7 +82,7 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
 
 /// The denoiser's guides, of every sample, so that means fade at outlines as the colour does.
 void Integrator::addFeatures(const Path& path, const AovTarget& target) const {
-    if (_denoisingAlbedo < 0 && _denoisingNormal < 0) return;
+    if (!_guided) return;
     // Surfaces that only mirror, lamps and skies are their own texture.
     const vec3 albedo =
         path.featured ? path.featureAlbedo : glm::clamp(path.radiance, vec3(0.0f), vec3(1.0f));

@@ -6,40 +6,39 @@
 #include "hdDelegate/embree/media/mediumStack.h"
 #include "hdDelegate/film/sampler.h"
 
+#include <type_traits>
+
 namespace patina {
 
 class LightPathRecord;
 
-/// A path while it is traced: the ray that goes on, and what multiple importance sampling has to
-/// know about the vertex it comes from.
-struct Path {
-    explicit Path(Sampler& s) : sampler(s) {}
+/// A path while it is traced, as plain data: the ray that goes on, what it carries, and what
+/// multiple importance sampling has to know about the vertex it comes from.
+struct PathState {
+    explicit PathState(const Sampler& s) : sampler(s) {}
 
-    Sampler& sampler;
+    Sampler sampler;
     vec3 origin{0.0f}, direction{0.0f};
     float near = 0.0f, far = 0.0f, time = 0.0f;
     vec3 throughput{1.0f}, radiance{0.0f};
     float alpha = 0.0f;
-    LightPathRecord* lightPaths = nullptr; ///< shares radiance out; null where no AOV asks
     float coneWidth = 0.0f, coneSpread = 0.0f;
+    float travelled = 0.0f;    ///< since the last vertex, over surfaces that were passed through
+    int passThroughs = 0;      ///< of these
     int depth = 0;             ///< bounces off surfaces so far
     int scatterings = 0;       ///< inside media
     unsigned rays = RayCamera; ///< kind of the ray, of RayMask
     float caught = 0.0f; ///< alpha that a reflection catcher has where the ray meets something
+    bool shown = false;  ///< AOVs have what they show of the first surface
 
     // the last vertex that scattered
-    bool specular = true;      ///< no light sample could have found this ray
-    float lightSamples = 1.0f; ///< that it took
+    bool specular = true; ///< no light sample could have found this ray
+    int lightSamples = 1; ///< that it took
     float pdf = 0.0f;
     vec3 vertex{0.0f}, vertexNormal{0.0f};
     bool vertexTwoSided = false;
     vec3 diffuseShare{1.0f}, specularShare{0.0f}; ///< of the throughput's last factor, sum 1
-    const Surface* vertexSurface = nullptr;       ///< for light linking
-    const std::vector<int>* vertexInstanceCategories = nullptr;
     bool departs = false; ///< the ray comes from it directly, and was not traced yet
-
-    MediumStack media;
-    HeroWavelengths waves;
 
     // caustics from photons, see integratorCaustics.cpp
     bool onPhotons = false;      ///< since a surface that shows photons it has met casters alone
@@ -52,6 +51,18 @@ struct Path {
     /// The camera's own ray, not yet scattered.
     bool fromCamera() const { return depth == 0 && scatterings == 0; }
     bool indirect() const { return depth + scatterings > 1; }
+};
+static_assert(std::is_trivially_copyable<PathState>::value, "a path moves as bytes do");
+
+/// A path with what stages ask for that few scenes have.
+struct Path : PathState {
+    using PathState::PathState;
+
+    MediumStack media;
+    HeroWavelengths waves;
+    LightPathRecord* lightPaths = nullptr;  ///< shares radiance out; null where no AOV asks
+    const Surface* vertexSurface = nullptr; ///< of the last vertex, for light linking
+    const std::vector<int>* vertexInstanceCategories = nullptr;
 };
 
 } // namespace patina

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace patina {
 
@@ -24,6 +25,15 @@ LightTriangle triangleAt(const Surface& surface, unsigned primitive, const mat4&
     for (int k = 0; k < 3; ++k)
         triangle.vertices[k] = vec3(place * vec4(surface.placed.positions[0][corners[k]], 1.0f));
     return triangle;
+}
+
+/// An order of places, by the instances that they are inside of.
+bool standBefore(const InstanceStep* a, size_t countA, const InstanceStep* b, size_t countB) {
+    return std::lexicographical_compare(
+        a, a + countA, b, b + countB, [](const InstanceStep& x, const InstanceStep& y) {
+            const Instancer *of = &x.values->instancer(), *other = &y.values->instancer();
+            return of == other ? x.instance < y.instance : std::less<>()(of, other);
+        });
 }
 
 /// Whether points go there and back without loss.
@@ -116,23 +126,12 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene, L
         }
         input.add(std::move(place));
         _sources.push_back({&surface, &found, isMeshLight ? meshLight->second.info : _glowInfo});
-        found.places.push_back(where.toWorld);
+        found.places.push_back(int(_places.size()));
         _places.push_back(std::move(places[i]));
     }
-    found.sort();
-}
-
-void SceneLights::EmittingSurface::sort() {
-    vec3 low(INFINITY), high(-INFINITY);
-    for (size_t i = 0; i < places.size(); ++i) {
-        sorted.push_back(int(i));
-        low = glm::min(low, vec3(places[i][3]));
-        high = glm::max(high, vec3(places[i][3]));
-    }
-    for (int a = 1; a < 3; ++a)
-        if (high[a] - low[a] > high[axis] - low[axis]) axis = a;
-    std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) {
-        return places[size_t(a)][3][axis] < places[size_t(b)][3][axis];
+    std::sort(found.places.begin(), found.places.end(), [&](int a, int b) {
+        const auto &x = _places[size_t(a)].steps, &y = _places[size_t(b)].steps;
+        return standBefore(x.data(), x.size(), y.data(), y.size());
     });
 }
 
@@ -197,34 +196,13 @@ float SceneLights::factorOf(const Surface& surface, const EmittingSurface& found
     return std::max(here / first, leastFactor);
 }
 
-/// Hits of moving instances have transforms between those of the places. What is farther away along
-/// one axis than the nearest place so far cannot be nearer.
-int SceneLights::EmittingSurface::nearestPlace(const mat4& groupToWorld) const {
-    if (places.size() < 2) return 0;
-    const float x = groupToWorld[3][axis];
-    const auto middle = std::lower_bound(sorted.begin(), sorted.end(), x, [&](int place, float to) {
-        return places[size_t(place)][3][axis] < to;
-    });
-    int nearest = 0;
-    float best = INFINITY;
-    const auto look = [&](int i) { // @returns whether farther ones may be nearer
-        float difference = 0.0f;
-        for (int c = 0; c < 4; ++c) {
-            const vec4 d = places[size_t(i)][c] - groupToWorld[c];
-            difference += glm::dot(d, d);
-        }
-        if (difference < best || (difference == best && i < nearest)) {
-            best = difference;
-            nearest = i;
-        }
-        const float along = places[size_t(i)][3][axis] - x;
-        return along * along <= best;
-    };
-    for (auto i = middle; i != sorted.end() && look(*i); ++i) {
-    }
-    for (auto i = middle; i != sorted.begin() && look(*std::prev(i)); --i) {
-    }
-    return nearest;
+int SceneLights::placeOf(const EmittingSurface& emitting, const Hit& hit) const {
+    const auto found = std::lower_bound(
+        emitting.places.begin(), emitting.places.end(), hit, [&](int place, const Hit& to) {
+            const std::vector<InstanceStep>& steps = _places[size_t(place)].steps;
+            return standBefore(steps.data(), steps.size(), to.steps, size_t(to.stepCount));
+        });
+    return found == emitting.places.end() ? emitting.firstPlace : *found;
 }
 
 } // namespace patina

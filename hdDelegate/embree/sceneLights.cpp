@@ -27,6 +27,12 @@ double areaOf(const Surface& surface, const mat4& place) {
 
 } // namespace
 
+SceneLights::MeshLight::Glow SceneLights::MeshLight::glowOf(const Light& light) {
+    return light.materialSyncMode == "noMaterialResponse"       ? Glow::Hidden
+           : light.materialSyncMode == "materialGlowTintsLight" ? Glow::TintsLight
+                                                                : Glow::AddsToLight;
+}
+
 bool SceneLights::haveRoom(double more, const LightSetInput& input) {
     const double sum = double(input.lights.size()) + double(input.triangleCount) + more;
     return sum <= double(limitOf(Limit::lights));
@@ -98,7 +104,9 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
             diagnostics.warn(light->path, "geometry", messages::meshLightWithoutMesh);
             continue;
         }
-        MeshLight meshLight{light, lightBaseRadiance(*light), int(_infos.size()), {}};
+        MeshLight meshLight{
+            light, lightBaseRadiance(*light), int(_infos.size()), MeshLight::glowOf(*light), {}};
+        _hidesMaterials |= meshLight.glow == MeshLight::Glow::Hidden;
         const double places = scene.placeCount(surface->prim->group);
         if (!haveRoom(places * double(surface->topology().triangles.size()), input)) {
             warnOfMany(light->path, diagnostics);
@@ -139,15 +147,12 @@ int SceneLights::worthwhileSamples() const {
     return _set->infiniteLights().empty() ? 1 : 2;
 }
 
-int SceneLights::triangleLight(const Surface* surface, unsigned primitive,
-                               const mat4& groupToWorld) const {
-    const auto found = _emitting.find(surface);
+int SceneLights::triangleLight(const Hit& hit) const {
+    const auto found = _emitting.find(hit.surface);
     if (found == _emitting.end()) return -1;
-    const int slot = found->second.slots[primitive];
+    const int slot = found->second.slots[hit.primitive];
     if (slot < 0) return -1;
-    const EmittingSurface& emitting = found->second;
-    const int place = emitting.firstPlace + emitting.nearestPlace(groupToWorld);
-    return _set->lightCount() + _set->glowing(place).first + slot;
+    return _set->lightCount() + _set->glowing(placeOf(found->second, hit)).first + slot;
 }
 
 vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
@@ -162,15 +167,14 @@ vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
     const bool front = glm::dot(s.geometricNormal, s.viewDirection) > 0.0f;
     vec3 light = front ? mesh.radiance : vec3(0.0f);
     if (lit && !mesh.filters.empty()) {
-        const size_t place =
-            size_t(_emitting.at(point.hit->surface).nearestPlace(point.hit->groupToWorld));
+        const EmittingSurface& emitting = _emitting.at(point.hit->surface);
+        const size_t place = size_t(placeOf(emitting, *point.hit) - emitting.firstPlace);
         light *= mesh.filters[place].factor(*lit, -s.viewDirection, glm::length(s.position - *lit),
                                             point.hit->time);
     }
-    if (mesh.light->materialSyncMode == "noMaterialResponse") return light;
-    if (mesh.light->materialSyncMode == "materialGlowTintsLight" && program.hasEmission())
-        return light * glow;
-    return light + glow;
+    if (mesh.glow == MeshLight::Glow::Hidden) return light;
+    return mesh.glow == MeshLight::Glow::TintsLight && program.hasEmission() ? light * glow
+                                                                             : light + glow;
 }
 
 vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from, float time) const {
@@ -186,12 +190,6 @@ vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from, 
     float presence = 1.0f;
     if (!point.slot->opaque) point.slot->program->opacity(point.shading, nullptr, &presence);
     return emission(point, &from) * presence;
-}
-
-bool SceneLights::hidesMaterial(const Surface* surface) const {
-    const auto found = _meshLights.find(surface);
-    return found != _meshLights.end() &&
-           found->second.light->materialSyncMode == "noMaterialResponse";
 }
 
 } // namespace patina

@@ -46,7 +46,7 @@ public:
     int worthwhileSamples() const;
 
     /// Light index of a triangle that was hit; -1 when it does not emit.
-    int triangleLight(const Surface* surface, unsigned primitive, const mat4& groupToWorld) const;
+    int triangleLight(const Hit& hit) const;
     /// The surface of a light that is a triangle; null for others.
     const Surface* triangleSurface(int light) const {
         return light < _set->lightCount() ? nullptr : sourceOf(light).surface;
@@ -57,13 +57,21 @@ public:
     /// @param lit the point that it lights, which filters of mesh lights ask for; null: unfiltered
     vec3 emission(const SurfacePoint& point, const vec3* lit = nullptr) const;
     /// A mesh light that is nothing but a light (materialSyncMode noMaterialResponse).
-    bool hidesMaterial(const Surface* surface) const;
+    bool hidesMaterial(const Surface* surface) const {
+        if (!_hidesMaterials) return false;
+        const auto found = _meshLights.find(surface);
+        return found != _meshLights.end() && found->second.glow == MeshLight::Glow::Hidden;
+    }
 
 private:
     struct MeshLight {
+        enum class Glow { TintsLight, AddsToLight, Hidden }; ///< of the surface's material
+        static Glow glowOf(const Light& light);
+
         std::shared_ptr<const Light> light;
         vec3 radiance{0.0f};
         int info = 0;
+        Glow glow = Glow::TintsLight;
         std::vector<LightFilters> filters; ///< per place of the surface; none: nothing is filtered
     };
     /// A surface wherever it is placed.
@@ -71,12 +79,7 @@ private:
         std::vector<int> slots;           ///< per primitive: which of those that glow it is, or -1
         std::vector<unsigned> primitives; ///< per slot
         int firstPlace = 0;               ///< in LightSetInput::glowing; the others follow
-        std::vector<mat4> places;
-        int axis = 0;            ///< along which the places are spread most
-        std::vector<int> sorted; ///< places in the order of their translations along it
-
-        void sort();
-        int nearestPlace(const mat4& groupToWorld) const;
+        std::vector<int> places;          ///< these, in the order of the instances around them
     };
     /// Of a place in LightSetInput::glowing.
     struct Source {
@@ -92,6 +95,8 @@ private:
                        const RenderSettings& settings);
     void addSurface(const Surface& surface, const EmbreeScene& scene, LightSetInput& input,
                     Diagnostics& diagnostics);
+    /// In LightSetInput::glowing.
+    int placeOf(const EmittingSurface& emitting, const Hit& hit) const;
     const Source& sourceOf(int light) const {
         return _sources[size_t(_set->placeOf(light - _set->lightCount()))];
     }
@@ -113,7 +118,7 @@ private:
     std::map<const Surface*, EmittingSurface> _emitting;
     std::map<const Surface*, MeshLight> _meshLights;
     int _glowInfo = 0;
-    bool _splitsLobes = false, _hasOwnShadows = false;
+    bool _splitsLobes = false, _hasOwnShadows = false, _hidesMaterials = false;
 };
 
 } // namespace patina

@@ -27,7 +27,7 @@ bool Integrator::linked(int category, const Surface* surface,
 /// The part of a light that reaches a point past everything in between. Surfaces block it but for
 /// their presence; media take their share, those of objects without a refracting surface too.
 /// @param media at the point, on the side that the light comes from
-vec3 Integrator::visibility(const Path& path, const MediumStack& media, const vec3& origin,
+vec3 Integrator::visibility(Path& path, const MediumStack& media, const vec3& origin,
                             const vec3& direction, float distance, const LightInfo& light,
                             TraceCounters& counters) const {
     const auto left = [](const MediumStack& stack, float length) {

@@ -78,12 +78,12 @@ struct LightDraw {
     EmitterDraw emitter;
 };
 
-/// An area light met by a ray.
+/// An area light met by a ray. Not initialised: rays have room for several, and most meet none.
 struct LightHit {
-    int light = -1;
-    float distance = 0.0f; ///< along the ray
-    vec3 position{0.0f}, normal{0.0f};
-    vec3 radiance{0.0f}; ///< against the ray's direction
+    int light;
+    float distance; ///< along the ray
+    vec3 position, normal;
+    vec3 radiance; ///< against the ray's direction
 };
 
 /// All lights of a scene during one shutter. Immutable, so threads share it; equal inputs give

@@ -4,8 +4,8 @@
 The scenes are those of `patina bench path`. Every renderer draws them with ever more samples until the mean FLIP (HDR;
 Andersson et al. 2020) beside its own reference is below the last target. A reference is one image of many samples, not
 denoised. Times are of processors, with the denoiser's and without what is done once per scene; a row is the median of the runs,
-which have seeds of their own. Between two numbers of samples the error is taken for a power of time. Cycles is denoised where
-its build can do that.
+which have seeds of their own. Between two numbers of samples the error is taken for a power of time. Cycles is that of `patina
+bench path`, denoised by its own denoiser.
 """
 import math
 import os
@@ -26,7 +26,8 @@ def commands(without):
     from patina.cli import compiled, denoiser
 
     denoiser.prepare(compiled.load())
-    return {who: command for who, command in pathBench.peers().items() if who in ("Patina", "Cycles") and who not in without}
+    found = pathBench.peers(*{"Cycles"}.difference(without))
+    return {who: command for who, command in found.items() if who not in without}
 
 
 def folder_for(who, name, folder, options):
@@ -81,7 +82,7 @@ def measure(name, options):
                 worker.draw(options.reference, 1000, file, denoise=False)
                 references[who] = np.load(file)
             for who, worker in workers.items():
-                found[who] = climb(name, who, worker, references, folder, options)
+                found[f"{who} {worker.version}".strip()] = climb(name, who, worker, references, folder, options)
         except RuntimeError as error:
             log.seek(0)
             raise SystemExit(f"{name}: {error}\n" + "".join(log.readlines()[-8:])) from error
@@ -113,7 +114,8 @@ def main(arguments):
     parser.add_argument("scenes", nargs="*", help=f"of {', '.join(pathScenes.SCENES)} (default: all)")
     parser.add_argument("--samples", default="1,2,4,8,16,32,64,128,256", help="ever more (default: 1,2,4 ... 256)")
     parser.add_argument("--targets", default="0.05,0.02", help="mean FLIP, falling (default: 0.05,0.02)")
-    parser.add_argument("--without", action="append", default=[], choices=["Cycles"], help="leaves a renderer out")
+    parser.add_argument("--without", action="append", default=[], choices=["Cycles", "Cycles guided"],
+                        help="leaves a renderer out; Cycles: both")
     options = parser.parse(arguments)
     options.samples = sorted(map(int, options.samples.split(",")))
     options.targets = sorted(map(float, options.targets.split(",")), reverse=True)
@@ -124,7 +126,7 @@ def main(arguments):
     for name in names:
         results[name] = measure(name, options)
         if len(results) == 1:
-            heads = [who + (", denoised" if who == "Patina" else " (ratio)") for who in results[name]]
+            heads = [who + ("" if who == "Patina" else " (ratio)") for who in results[name]]
             print("| scene | mean FLIP | " + " | ".join(heads) + " |\n|---|---|" + "---|" * len(heads))
         show(name, results[name], options)
     outputs.write_json(options.json, {"size": options.pixels, "reference": options.reference, "scenes": results})

@@ -77,7 +77,7 @@ def main(arguments):
     options = parser.parse(arguments)
     if options.runs < 1 or options.samples < 1:
         parser.error("--runs and --samples take 1 or more")
-    commands = {who: command for who, command in pathBench.peers().items() if not who.startswith("Cycles")}
+    commands = pathBench.peers("Mitsuba")
     if len(commands) < 2:
         print("Mitsuba is not installed here")
     found = measure(commands, options)

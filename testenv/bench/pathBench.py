@@ -9,14 +9,17 @@ which the error, taken as a power of the samples, reaches the target. Renderers 
 disturbs the machine disturbs all of them.
 
 All have the same geometry, camera, bounces, light and box filter; principled materials are each renderer's own.
+
+Cycles is that of PyPI's bpy, with its light tree, and a second time with path guiding. $PATINA_BPY_PYTHON names a Python that
+has bpy. Without it the benchmark installs bpy (requirements-cycles.txt) into an environment of its own, inside of Patina's.
 """
 import json
 import os
-import shutil
 import statistics
 import subprocess
 import sys
 import tempfile
+import venv
 
 import numpy as np
 
@@ -33,7 +36,8 @@ class Worker:
 
     def __init__(self, command, log):
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True)
-        self.ready = self._answer()["ready"]
+        first = self._answer()
+        self.ready, self.version = first["ready"], first["version"]
 
     def _answer(self):
         last = "no message"
@@ -56,17 +60,43 @@ class Worker:
         self.process.wait()
 
 
-def peers():
-    """:returns: name -> command without the folder, of the renderers that are here"""
+def bpy_python():
+    """:returns: a Python with bpy, None where it cannot be had"""
+    named = os.environ.get("PATINA_BPY_PYTHON")
+    folder = os.path.join(sys.prefix, "bpy")
+    python = named or os.path.join(folder, "bin", "python")
+    if named or os.path.exists(os.path.join(folder, "installed")):
+        return python
+    print(f"installing bpy into {folder}", file=sys.stderr)
+    venv.create(folder, clear=True, with_pip=True)
+    needs = os.path.join(HERE, "..", "..", "requirements-cycles.txt")
+    if subprocess.run([python, "-m", "pip", "install", "-q", "-r", needs], check=False).returncode != 0:
+        return None
+    with open(os.path.join(folder, "installed"), "w", encoding="utf-8"):
+        return python
+
+
+def peers(*asked):
+    """:param asked: Mitsuba, Cycles
+    :returns: name -> command without the folder, of Patina and those that are here"""
     found = {"Patina": [sys.executable, os.path.join(HERE, "pathPatina.py")]}
+    if "Mitsuba" in asked:
+        found.update(mitsuba())
+    python = bpy_python() if "Cycles" in asked else None
+    if python:
+        script = os.path.join(HERE, "pathCycles.py")
+        found.update({"Cycles": [python, script], "Cycles guided": [python, script, None, "guided"]})
+    return found
+
+
+def mitsuba():
+    found = {}
     probe = "import mitsuba; print(*(v for v in ('llvm_ad_rgb', 'scalar_rgb') if v in mitsuba.variants()))"
     reported = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=False)
     for variant in reported.stdout.split() if reported.returncode == 0 else ():
         check = f"import mitsuba; mitsuba.set_variant('{variant}'); import drjit; print(mitsuba.Float(1))"
         if subprocess.run([sys.executable, "-c", check], capture_output=True, check=False).returncode == 0:
             found["Mitsuba " + variant] = [sys.executable, os.path.join(HERE, "pathMitsuba.py"), None, variant]
-    if shutil.which("blender"):
-        found["Cycles"] = ["blender", "-b", "--python-exit-code", "1", "--python", os.path.join(HERE, "pathCycles.py"), "--"]
     return found
 
 
@@ -134,9 +164,10 @@ def measure(name, commands, options, pictures):
                 each[clock] = (statistics.median(took[many]) - statistics.median(took[few])) / (many - few)
                 each[clock + "Spread"] = (max(took[many]) - min(took[many])) / statistics.median(took[many])
             wanted = to_target(few, many, errors, options.target)
-            found[who] = {"ready": worker.ready, "errors": errors, "samplesToTarget": wanted, **each,
-                          "secondsToTarget": wanted * each["seconds"], "processorToTarget": wanted * each["processor"],
-                          "mean": float(np.mean(images[who, many]))}
+            found[f"{who} {worker.version}".strip()] = {
+                "ready": worker.ready, "errors": errors, "samplesToTarget": wanted, **each,
+                "secondsToTarget": wanted * each["seconds"], "processorToTarget": wanted * each["processor"],
+                "mean": float(np.mean(images[who, many]))}
             if pictures:
                 from patina.cli import compiled
 
@@ -150,7 +181,7 @@ def show(name, found, options):
     print(f"{name}: to a relMSE of {options.target:g}; what one sample of all pixels takes; its error at {options.samples[1]} "
           "samples")
     for who, row in found.items():
-        print(f"  {who:<20}{row['secondsToTarget']:9.2f} s (processor {row['processorToTarget']:8.2f} s) "
+        print(f"  {who:<24}{row['secondsToTarget']:9.2f} s (processor {row['processorToTarget']:8.2f} s) "
               f"{1e3 * row['seconds']:8.1f} ms (processor {1e3 * row['processor']:8.1f}, spread "
               f"{100 * row['processorSpread']:3.0f} %) {row['errors'][1]:.2e}  ready after {row['ready']:5.1f} s  mean "
               f"{row['mean']:.3f}"
@@ -165,7 +196,7 @@ def main(arguments):
     parser.add_argument("--samples", default="8,64", help="few and many (default: 8,64)")
     parser.add_argument("--target", type=float, default=1e-3, help="relMSE (default: 1e-3)")
     parser.add_argument("--method", action="append", default=[], metavar="CHOICE=METHOD", help="of Patina (repeatable)")
-    parser.add_argument("--without", action="append", default=[], help="leaves a renderer out, as Cycles (repeatable)")
+    parser.add_argument("--without", action="append", default=[], help="leaves a renderer out, as 'Cycles guided' (repeatable)")
     parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew")
     options = parser.parse(arguments)
     options.samples = tuple(map(int, options.samples.split(",")))
@@ -174,7 +205,9 @@ def main(arguments):
     names = parser.known(options.scenes, pathScenes.SCENES,
                          len(options.samples) == 2 and options.samples[0] < options.samples[1] and options.runs >= 2,
                          "--samples takes few and many, --runs at least 2")
-    commands = {who: command for who, command in peers().items() if not any(who.startswith(name) for name in options.without)}
+    asked = [name for name in ("Mitsuba", "Cycles") if name not in options.without]
+    commands = {who: command for who, command in peers(*asked).items()
+                if not any(who.startswith(name) for name in options.without)}
     for who in ("Mitsuba", "Cycles"):
         if not any(name.startswith(who) for name in commands):
             print(f"{who} is left out" if who in options.without else f"{who} is not installed here")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The path tracing benchmark's scenes in Cycles, run by Blender: blender -b --python pathCycles.py -- FOLDER"""
+"""The path tracing benchmark's scenes in Cycles, run by a Python that has PyPI's bpy: pathCycles.py FOLDER [guided]"""
 import os
 import sys
 import tempfile
@@ -101,13 +101,7 @@ def sky(path):
     links.new(light.outputs[0], output.inputs["Surface"])
 
 
-def can_denoise():
-    import _cycles
-
-    return getattr(_cycles, "with_openimagedenoise", False)
-
-
-def main(folder):
+def main(folder, guided=""):
     started = time.perf_counter()
     bpy.ops.wm.read_factory_settings(use_empty=True)
     held, arrays = pathWorker.load(folder)
@@ -143,23 +137,24 @@ def main(folder):
     cycles.caustics_reflective = cycles.caustics_refractive = True
     cycles.pixel_filter_type = "BOX"
     cycles.filter_width = 1.0
+    cycles.use_light_tree, cycles.use_guiding = True, bool(guided)
     file = os.path.join(tempfile.mkdtemp(prefix="pathCycles"), "image.exr")
 
     def draw(samples, seed, to, denoise):
         cycles.samples, cycles.seed = samples, seed
-        cycles.use_denoising = bool(denoise and held.get("denoise") and can_denoise())
+        cycles.use_denoising = bool(denoise and held.get("denoise"))
         scene.render.filepath = file
         bpy.ops.render.render(write_still=True)
         if to == os.devnull:
             return
         image = bpy.data.images.load(file, check_existing=False)
-        image.colorspace_settings.name = "Raw"
+        image.colorspace_settings.name = "Non-Color"
         pixels = np.empty(held["width"] * held["height"] * 4, np.float32)
         image.pixels.foreach_get(pixels)
         bpy.data.images.remove(image)
         np.save(to, pixels.reshape(held["height"], held["width"], 4)[::-1, :, :3])
 
-    pathWorker.serve(draw, started)
+    pathWorker.serve(draw, started, bpy.app.version_string)
 
 
-main(sys.argv[sys.argv.index("--") + 1])
+main(*sys.argv[1:])

@@ -85,7 +85,7 @@ def main(folder, variant):
         if file != os.devnull:
             np.save(file, image[..., :3])
 
-    pathWorker.serve(draw, started)
+    pathWorker.serve(draw, started, mi.__version__)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,8 @@
 """The common part of the renderers' processes in the path tracing benchmark: scenes on disk, and the talk with the benchmark.
 
 A worker is started with a folder and reads a line of JSON for each image: {"samples", "seed", "file", "denoise"}. It answers
-with the seconds and the processor seconds that the image took; the first line tells what it took to get ready, and what a
-first image of one sample took of that.
+with the seconds and the processor seconds that the image took; the first line tells the renderer's version, what it took to get
+ready, and what a first image of one sample took of that.
 """
 import json
 import os
@@ -46,13 +46,13 @@ def answer(values):
     print(SAID + json.dumps(values), flush=True)
 
 
-def serve(draw, started):
+def serve(draw, started, version=""):
     """:param draw: function of samples, seed, a file's path and whether to denoise where the scene asks for that; writes an
         array (height, width, 3) there with numpy.save
     :param started: time.perf_counter() before the scene was made"""
     begin = time.perf_counter()
     draw(1, 999, os.devnull, True)
-    answer({"ready": time.perf_counter() - started, "first": time.perf_counter() - begin})
+    answer({"version": version, "ready": time.perf_counter() - started, "first": time.perf_counter() - begin})
     for line in sys.stdin:
         asked = json.loads(line)
         wall, cpu = time.perf_counter(), time.process_time()

@@ -3,7 +3,9 @@
 import argparse
 import json
 import math
+import os
 import shutil
+import sys
 
 import pytest
 
@@ -11,6 +13,7 @@ import denoiseBench
 import growthBench
 import growthStages
 import inProcess
+import pathBench
 import planBench
 import rayBench
 import viewportBench
@@ -99,6 +102,22 @@ def test_time_to_an_error_is_found_between_two():
     assert denoiseBench.time_to(points, 0.2) == (pytest.approx(2.0), "")
     assert denoiseBench.time_to(points, 0.5) == (1.0, "<")
     assert denoiseBench.time_to(points, 0.05) == (4.0, ">")
+
+
+def test_cycles_is_that_of_a_python_with_bpy(monkeypatch, tmp_path):
+    monkeypatch.setenv("PATINA_BPY_PYTHON", "/named/python")
+    found = pathBench.peers("Cycles")
+    assert [found[name][0] for name in ("Cycles", "Cycles guided")] == ["/named/python"] * 2
+    monkeypatch.delenv("PATINA_BPY_PYTHON")
+    monkeypatch.setattr(sys, "prefix", str(tmp_path))
+    monkeypatch.setattr(pathBench.venv, "create", lambda folder, **_: os.mkdir(folder))
+    for status in (1, 0):  # of pip; the next run asks it no more once bpy is there
+        monkeypatch.setattr(pathBench.subprocess, "run", lambda *_, **__: argparse.Namespace(returncode=status))
+        assert ("Cycles" in pathBench.peers("Cycles")) == (status == 0)
+        if status:
+            (tmp_path / "bpy").rmdir()
+    monkeypatch.delattr(pathBench.subprocess, "run")
+    assert pathBench.peers("Cycles")["Cycles"][0] == str(tmp_path / "bpy" / "bin" / "python")
 
 
 def test_denoised_images_come_nearer(tmp_path):

@@ -3,9 +3,9 @@
 
 The path tracer shows blocks of pixels before a slow first pass ends, so its rows say also when there was something to see.
 Patina's two back ends beside Storm and hdEmbree, each in a process of its own, of one sample or pass. A first image begins with
-the stage's file: opening it is in the time. Where Blender is installed, Cycles draws the made stage, too. Debian's Blender
-reads no USD, so its scene stands ready in memory and only its first image counts. hdEmbree shows neither materials nor lights.
-A stage of one's own needs a camera: FILE:CAMERA.
+the stage's file: opening it is in the time. Cycles of `patina bench path` draws the made stage, too. Its scene stands ready in
+memory and only its first image counts. hdEmbree shows neither materials nor lights. A stage of one's own needs a camera:
+FILE:CAMERA.
 """
 import json
 import os
@@ -102,21 +102,21 @@ def measure(name, stage, camera, edits, options):
 
 
 def cycles(folder, options):
-    """:returns: seconds of the first image of the made stage in Cycles, None without Blender"""
+    """Times the first image of the made stage. :returns: Cycles and its version -> as of measure(); empty without it"""
     import pathBench
 
-    command = next((words for who, words in pathBench.peers().items() if who.startswith("Cycles")), None)
+    command = pathBench.peers("Cycles").get("Cycles")
     if not command:
-        return None
+        return {}
     found = []
     for _ in range(options.runs):
         process = subprocess.run([*command, folder], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
         lines = [line for line in process.stdout.splitlines() if line.startswith("path bench: ")]
         if not lines:
             print(f"Cycles does not run here: {experiment.reason(process)}", file=sys.stderr)
-            return None
-        found.append(json.loads(lines[0][len("path bench: "):])["first"])
-    return {"first": statistics.median(found)}
+            return {}
+        found.append(json.loads(lines[0][len("path bench: "):]))
+    return {f"Cycles {found[0]['version']}": {"first": statistics.median(told["first"] for told in found)}}
 
 
 def show(name, found):
@@ -160,9 +160,8 @@ def main(arguments):
             else:
                 parser.error(f"there is no stage {wanted}; a file needs a camera: FILE:CAMERA")
             found = measure(name, stage, camera, edits, options)
-            peer = cycles(folder, options) if wanted == MADE else None
-            if peer:
-                found["Cycles"] = peer
+            if wanted == MADE:
+                found.update(cycles(folder, options))
         results[name] = found
         show(name, found)
     outputs.write_json(options.json, {"size": options.size, "cold": options.cold, "stages": results})

@@ -25,8 +25,7 @@ public:
 
     /// Deeper than the stack holds, further objects are not noticed.
     void enter(const MaterialProgram* program, const Medium& medium) {
-        if (_size < int(_entries.size()))
-            _entries[_size++] = {program, medium, medium.extinction(), medium.scattering()};
+        if (_size < int(_entries.size())) _entries[_size++] = Entry(program, medium);
     }
 
     /// Leaves the innermost medium of this material; leaving one that was never entered (the mesh
@@ -60,9 +59,15 @@ public:
 
 private:
     struct Entry {
-        const MaterialProgram* program = nullptr;
-        Medium medium;
-        glm::vec3 extinction{0.0f}, scattering{0.0f};
+        Entry() {} // NOLINT: a stack is made for every path, and few fill it
+        Entry(const MaterialProgram* p, const Medium& m)
+            : program(p), medium(m), extinction(m.extinction()), scattering(m.scattering()) {}
+
+        const MaterialProgram* program;
+        union {
+            Medium medium;
+        };
+        glm::vec3 extinction, scattering;
     };
     std::array<Entry, 8> _entries;
     int _size = 0;

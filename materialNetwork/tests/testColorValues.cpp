@@ -4,6 +4,7 @@
 
 #include "materialNetwork/color/colorSpaces.h"
 #include "materialNetwork/network/value.h"
+#include "base/messages.h"
 
 #include <cmath>
 
@@ -135,7 +136,7 @@ TEST(ColorValues, SpacesMayBeWrittenOut) {
 TEST(ColorValues, WhatACurveMakesInfiniteIsRefused) {
     std::string problem;
     EXPECT_TRUE(std::isnan(linear("g22_rec709", {1e30f, 0.0f, 0.0f}, problem).x));
-    EXPECT_EQ(problem, "the value is not a finite number");
+    EXPECT_EQ(problem, messages::valueNotFinite().text());
 }
 
 } // namespace patina

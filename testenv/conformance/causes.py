@@ -43,6 +43,11 @@ CAUSES = (  # (set, pattern of stages, pattern of ways, the cause)
     ("usd-wg", "*/stage_composition/over.usda", "sceneIndex", "scene indices of 26.08 draw a prim that no `def` makes"),
     ("usd-wg", "*/framesPerSecond_*", "read", "OpenUSD refuses a frame rate that is not above 0"),
     *(("arnold-usd", stages, "*", _SKINNED) for stages in ("test_1352/*", "test_1443/data/test.usda", "test_1837/*")),
+    *(("arnold-usd", stages, "delegate", "coarse meshes of small balls, or of one that fills the picture")
+      for stages in ("test_000[4679]/*", "test_1346/*", "test_1593/*")),
+    *(("arnold-usd", stages, "delegate", "UsdImagingDelegate moves nothing by its velocities")
+      for stages in ("test_0029/*", "test_015[07]/*", "test_021[34]/*", "test_1354/*", "test_1427.*", "test_1442/*",
+                     "test_2127/*", "test_2231/*")),
     ("arnold-usd", "test_1329/*", "*",
      "velocities beside one sample at another frame: scene indices take it to be at this one"),
     ("arnold-usd", "test_1868/*", "*",

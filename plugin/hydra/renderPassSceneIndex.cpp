@@ -25,6 +25,14 @@ const std::array<TfToken, 4>& names() {
     return all;
 }
 
+/// Whether a prim is a part of native instances, which are drawn or not where they stand.
+bool isOfNativeInstances(const SdfPath& path) {
+    const SdfPathVector above = path.GetPrefixes();
+    return std::any_of(above.begin(), above.end(), [](const SdfPath& prefix) {
+        return prefix.GetName() == "UsdNiPropagatedPrototypes"; // UsdImaging's name
+    });
+}
+
 HdSampledDataSourceHandle number(int value) {
     return HdRetainedTypedSampledDataSource<int>::New(value);
 }
@@ -47,7 +55,8 @@ HdSceneIndexPrim HdPatinaRenderPassSceneIndex::GetPrim(const SdfPath& path) cons
     if (_path.IsEmpty() || !prim.dataSource) return prim;
     if (prim.primType == HdPrimTypeTokens->instancer) {
         mask(path, prim);
-    } else if (HdPrimTypeIsGprim(prim.primType) || HdPrimTypeIsLight(prim.primType)) {
+    } else if ((HdPrimTypeIsGprim(prim.primType) || HdPrimTypeIsLight(prim.primType)) &&
+               !isOfNativeInstances(path)) {
         if (!isDrawn(path)) HdPatinaHide(prim);
         static const TfToken seen("patina:visibility:camera");
         std::vector<std::pair<TfToken, HdSampledDataSourceHandle>> marks;
@@ -75,7 +84,7 @@ void HdPatinaRenderPassSceneIndex::mask(const SdfPath& path, HdSceneIndexPrim& p
     const auto located = topology.GetInstanceLocations();
     const VtArray<SdfPath> locations = located ? located->GetTypedValue(0.0f) : VtArray<SdfPath>();
     size_t count = locations.size(); // of native instances; others are instances of one prim
-    if (locations.empty() && !isDrawn(path)) {
+    if (locations.empty() && !isOfNativeInstances(path) && !isDrawn(path)) {
         HdIntArrayVectorSchema indices = topology.GetInstanceIndices();
         for (size_t i = 0; i < indices.GetNumElements(); ++i)
             for (const int index : indices.GetElement(i)->GetTypedValue(0.0f))

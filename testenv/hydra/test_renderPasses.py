@@ -130,6 +130,8 @@ def shown(picture):
     ("rel collection:prune:includes = </World/a>", "bcd"),
     ("rel collection:renderVisibility:excludes = [</World/b>, </World/c>]", "ad"),
     ("rel collection:renderVisibility:excludes = </World/d>", "abc"),
+    ("uniform bool collection:renderVisibility:includeRoot = 0\nrel collection:renderVisibility:includes = </World/c>", "c"),
+    ("uniform bool collection:renderVisibility:includeRoot = 0\nrel collection:renderVisibility:includes = </World/d>", "d"),
     ("rel collection:cameraVisibility:excludes = </World/a>", "bcd"),
     ("rel collection:matte:includes = </World/b>", "acd")])
 def test_a_pass_draws_what_its_collections_say(tmp_path, lines, squares):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """`patina release`: what it refuses, and its bill of materials. everyPackage.sh makes and tries the files themselves."""
+import contextlib
 import json
 import os
 import shutil
@@ -102,3 +103,24 @@ def test_missing_tools_are_named(checkout, tmp_path, monkeypatch):
     monkeypatch.setattr(release.sys, "executable", str(programs / "python"))
     with pytest.raises(CommandError, match="missing: cmake, ninja-build, npm, dpkg, dpkg-dev, file, patchelf"):
         run(tmp_path / "dist")
+
+
+def test_plugins_are_named_for_their_hosts(tmp_path, monkeypatch):
+    """What builds and packs them is tested with hosts (testenv/hydra)."""
+    asked = {}
+
+    def build_all(hosts, headers, build, command, portable):
+        asked.update(hosts=hosts, headers=headers, portable=portable)
+        return [release.hydraHosts.Built("plugin", "programs", "libraries", (26, 8), name) for name in ("usd", "blender")]
+
+    monkeypatch.setenv("PATINA_BUILD_DIR", "build")
+    monkeypatch.setenv("PATINA_COMMAND", "./patina")
+    monkeypatch.setattr(release.hydraHosts, "build_all", build_all)
+    monkeypatch.setattr(release.pluginPackage, "pack", lambda built, file: open(file, "w").close())
+    monkeypatch.setattr(release.pluginPackage, "whole", lambda built: contextlib.nullcontext("folder"))
+    monkeypatch.setattr(release.blenderAddOn, "blender_version", lambda host: "5.0")
+    monkeypatch.setattr(release.blenderAddOn, "pack", lambda host, plugin, version, file: open(file, "w").close())
+    release._plugins(types.SimpleNamespace(usd=["/opt/usd"], blender=["/opt/blender"], headers=["/opt/src"]), str(tmp_path))
+    assert asked == {"hosts": ["/opt/usd", "/opt/blender"], "headers": ["/opt/src"], "portable": True}
+    version = release.__version__
+    assert sorted(os.listdir(tmp_path)) == [f"hdPatina-{version}-blender-5.0.zip", f"hdPatina-{version}-usd.tar.gz"]

@@ -75,6 +75,7 @@ def checkout(tmp_path, monkeypatch):
     for words in (["init", "-q"], ["add", "."], ["-c", "user.name=a", "-c", "user.email=a@b", "commit", "-qm", "one"]):
         subprocess.run(["git", "-C", root, *words], check=True)
     monkeypatch.setattr(release, "ROOT", str(root))
+    monkeypatch.setenv("PATINA_BUILD_DIR", str(tmp_path / "build"))
     return root
 
 
@@ -99,7 +100,6 @@ def test_missing_tools_are_named(checkout, tmp_path, monkeypatch):
     programs.mkdir()
     os.symlink(shutil.which("git"), programs / "git")
     monkeypatch.setenv("PATH", str(programs))
-    monkeypatch.setenv("PATINA_BUILD_DIR", str(tmp_path / "build"))
     monkeypatch.setattr(release.sys, "executable", str(programs / "python"))
     with pytest.raises(CommandError, match="missing: cmake, ninja-build, npm, dpkg, dpkg-dev, file, patchelf"):
         run(tmp_path / "dist")

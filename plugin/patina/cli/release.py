@@ -35,7 +35,7 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    if not os.path.isfile(os.path.join(ROOT, "CMakePresets.json")):
+    if not os.path.isfile(os.path.join(ROOT, "CMakePresets.json")) or not os.environ.get("PATINA_BUILD_DIR"):
         raise CommandError("releases are made in a checkout only: run ./patina release there")
     folder = os.path.abspath(arguments.folder)
     if os.path.exists(folder) and (not os.path.isdir(folder) or os.listdir(folder)):
@@ -64,7 +64,10 @@ def run(arguments):
 
 
 def _git(*words):
-    done = subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True, check=False)
+    try:
+        done = subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise CommandError(f"git: {error.strerror}") from None
     if done.returncode:
         raise CommandError(f"git {words[0]}: {done.stderr.strip()}")
     return done.stdout

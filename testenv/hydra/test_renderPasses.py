@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Render passes and back plates in usdrecord: the picture is that of the command line."""
+"""Render passes and back plates in usdrecord: passes draw the picture of the command line, in all bits; plates are where and
+what they are there."""
 import subprocess
 import sys
 
@@ -140,7 +141,7 @@ def test_a_pass_draws_what_its_collections_say(tmp_path, lines, squares):
     hydra, record = pictures(stage, tmp_path, "--camera", "camera", "--renderPassPrimPath", "/Render/pass")
     assert shown(record) == squares
     assert shown(hydra) == squares
-    assert np.allclose(hydra, record, atol=0.02), "alpha of mattes too"
+    assert np.array_equal(hydra, record), "alpha of mattes too"
 
 
 PLATE = """#usda 1.0
@@ -161,7 +162,7 @@ def Camera "other"
     float verticalAperture = 10
     float2 clippingRange = (1, 100)
 }
-def Sphere "mirror"
+def Sphere "ball"
 {
     double radius = 2
     double3 xformOp:translate = (0, 0, -20)

@@ -37,6 +37,8 @@ const HdContainerDataSourceHandle& black() {
 }
 
 HdBackPlateSchema plateOf(const HdSceneIndexBaseRefPtr& input, const SdfPath& plate) {
+    if (plate.GetPathElementCount() < 2)
+        return HdBackPlateSchema(nullptr); // it has no camera above
     const HdSceneIndexPrim camera = input->GetPrim(plate.GetParentPath());
     if (camera.primType != HdPrimTypeTokens->camera) return HdBackPlateSchema(nullptr);
     return HdCameraSchema::GetFromParent(camera.dataSource)

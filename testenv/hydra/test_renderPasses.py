@@ -162,6 +162,12 @@ def Camera "other"
     float verticalAperture = 10
     float2 clippingRange = (1, 100)
 }
+def Xform "mesh" # a name that parts of plates have, too
+{
+    def Scope "material"
+    {
+    }
+}
 def Sphere "ball"
 {
     double radius = 2

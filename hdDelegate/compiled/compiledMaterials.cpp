@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/compiled/compiledMaterials.h"
 
+#include "materialNetwork/network/renderingColors.h"
+
 namespace patina {
 
 std::shared_ptr<const MaterialPrim> CompiledMaterials::find(const std::string& path,
@@ -17,11 +19,19 @@ std::shared_ptr<const MaterialPrim> CompiledMaterials::find(const std::string& p
 std::shared_ptr<const MaterialProgram>
 CompiledMaterials::program(const std::shared_ptr<const MaterialPrim>& prim,
                            const MethodChoices& methods, double tolerance) {
-    return _programs.get(prim.get(), {prim, methods, tolerance}, [&] {
-        return compileMaterial(prim && !prim->network.empty() ? prim->network
-                                                              : makeDisplayColorNetwork(),
+    const RenderingSpace& space = *_renderingSpace;
+    return _programs.get(prim.get(), {prim, methods, tolerance, &space}, [&] {
+        const Network& network =
+            prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork();
+        return compileMaterial(space.isRec709() ? network : inRenderingSpace(network, space),
                                _textures, _diagnostics, methods, tolerance);
     });
+}
+
+std::shared_ptr<const MaterialProgram> CompiledMaterials::compile(const Network& network) const {
+    const RenderingSpace& space = *_renderingSpace;
+    return compileMaterial(space.isRec709() ? network : inRenderingSpace(network, space), _textures,
+                           _diagnostics);
 }
 
 } // namespace patina

@@ -189,6 +189,7 @@ private:
     bool _guided = false;                             ///< there is one of them
     bool _finiteLights;                               ///< there are some that a ray may meet
     PixelFilter _filter;
+    const Wavelengths& _wavelengths;      ///< of the rendering space
     const PhotonPass* _photons = nullptr; ///< of the samples that are taken now
     MediumStack _cameraMedia;             ///< that the camera stands in
     bool _cullBack, _cullFront, _cullDoubleSided, _ambientOcclusion;

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/film/outliers.h"
+#include "materialNetwork/color/renderingSpace.h"
 
 #include <map>
 #include <string>
@@ -43,6 +44,8 @@ struct ImageOptions {
     Outliers outliers = Outliers::Keep;
     int quality = 95;                         ///< of JPEG and WebP
     const ColorSpaces* colorSpaces = nullptr; ///< null: ColorSpaces::shared()
+    /// Of the film's colours: OpenEXR's chromaticities, and where the display transform begins.
+    const RenderingSpace* renderingSpace = &RenderingSpace::rec709();
 };
 
 /// Says early why writeImage() will fail: unknown format, missing folder, place that cannot be

@@ -98,12 +98,11 @@ void readInputs(const Params& p, Light& light) {
 void convertColor(const HdMaterialNode& node, const char* input, HdPatinaRenderParam& param,
                   const SdfPath& id, vec3& color) {
     const auto given = node.parameters.find(TfToken(std::string("colorSpace:") + input));
-    if (given == node.parameters.end()) return;
-    const std::string space = textOf(given->second);
-    if (!ColorSpaces::shared().valueToRendering(space, &color.x))
+    const std::string space = given == node.parameters.end() ? "" : textOf(given->second);
+    if (!ColorSpaces::shared().valueToRendering(space, param.renderingSpace(), &color.x))
         param.warn(id, std::string("inputs:") + input, messages::valueSpaceUnknown(space));
     else if (!ColorSpaces::isData(space))
-        color = glm::max(color, vec3(0.0f)); // of what Rec.709 does not reach
+        color = glm::max(color, vec3(0.0f)); // of what the rendering space does not reach
 }
 
 template <class T>

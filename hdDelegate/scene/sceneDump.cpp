@@ -356,6 +356,8 @@ void writeMaterial(Writer& w, const MaterialPrim& m) {
 
 std::string dumpScene(const SceneState& scene, int maxValues) {
     Writer w(maxValues);
+    if (!scene.renderingSpace->isRec709())
+        w.line("renderingColorSpace", scene.renderingSpace->name);
     if (scene.metersPerUnit != 0.01) w.line("metersPerUnit", number(scene.metersPerUnit));
     for (const auto& item : scene.cameras)
         writeCamera(w, *item.second);

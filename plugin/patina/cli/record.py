@@ -187,7 +187,8 @@ class _Job:
         options = reader.StageOptions(
             frame=shot.frame, purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
             headlight=not self.arguments.disableCameraLight,
-            render_pass=self.arguments.renderPassPrimPath, material_purpose=getattr(self.arguments, "materialPurpose", "full"),
+            render_pass=self.arguments.renderPassPrimPath, rendering_color_space=self.arguments.renderingColorSpace,
+            material_purpose=getattr(self.arguments, "materialPurpose", "full"),
             matte_names=any(aov.startswith("crypto") for shot in self.shots for aov in shot.aovs()))
         with self.scene.edit() as edit:
             edit.clear()

@@ -73,6 +73,7 @@ public:
     bool hasNonDelta() const {
         return _dispersed ? _dispersed->hasNonDelta() : _bsdf.hasNonDelta();
     }
+    float ior() const { return _bsdf.ior(); } ///< the hero's
 
 private:
     const Bsdf& _bsdf;

@@ -150,6 +150,7 @@ void writeMarks(Writer& w, const Marked& marks, const std::string& whose = {}) {
     field("matte", marks.catching.matte, false);
     field("catches shadows", marks.catching.shadows, false);
     field("catches reflections", marks.catching.reflections, false);
+    field("dielectricPriority", marks.dielectricPriority, 0);
     if (!marks.matteName.empty()) w.line(whose + "matteName", text(marks.matteName));
 }
 

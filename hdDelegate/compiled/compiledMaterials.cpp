@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/compiled/compiledMaterials.h"
 
-#include "materialNetwork/network/renderingColors.h"
-
 namespace patina {
 
 std::shared_ptr<const MaterialPrim> CompiledMaterials::find(const std::string& path,
@@ -21,17 +19,10 @@ CompiledMaterials::program(const std::shared_ptr<const MaterialPrim>& prim,
                            const MethodChoices& methods, double tolerance) {
     const RenderingSpace& space = *_renderingSpace;
     return _programs.get(prim.get(), {prim, methods, tolerance, &space}, [&] {
-        const Network& network =
-            prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork();
-        return compileMaterial(space.isRec709() ? network : inRenderingSpace(network, space),
-                               _textures, _diagnostics, methods, tolerance);
+        return compileMaterial(prim && !prim->network.empty() ? prim->network
+                                                              : makeDisplayColorNetwork(),
+                               _textures, _diagnostics, methods, tolerance, space);
     });
-}
-
-std::shared_ptr<const MaterialProgram> CompiledMaterials::compile(const Network& network) const {
-    const RenderingSpace& space = *_renderingSpace;
-    return compileMaterial(space.isRec709() ? network : inRenderingSpace(network, space), _textures,
-                           _diagnostics);
 }
 
 } // namespace patina

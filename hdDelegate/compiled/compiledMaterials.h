@@ -4,7 +4,6 @@
 #include "hdDelegate/compiled/madeOnce.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
-#include "materialNetwork/color/renderingSpace.h"
 #include "materialNetwork/material.h"
 
 #include <atomic>
@@ -34,7 +33,9 @@ public:
     void setRenderingSpace(const RenderingSpace& space) { _renderingSpace = &space; }
 
     /// The program of what is no material of the scene.
-    std::shared_ptr<const MaterialProgram> compile(const Network& network) const;
+    std::shared_ptr<const MaterialProgram> compile(const Network& network) const {
+        return compileMaterial(network, _textures, _diagnostics, {}, -1.0, *_renderingSpace);
+    }
 
     size_t programsBuilt() const { return _programs.count(); } ///< since this was made
 

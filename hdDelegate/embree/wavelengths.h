@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hdDelegate/scene/types.h"
-#include "materialNetwork/color/renderingSpace.h"
+#include "materialNetwork/color/colorSpaces.h"
 
 #include <vector>
 
@@ -10,10 +10,10 @@ namespace patina {
 
 /// Wavelengths of light, drawn in proportion to the mean of the three channels' sensitivities.
 ///
-/// The sensitivity of a channel is that of the rendering space to one wavelength (sh::filmChannels),
-/// with negative parts set to 0 and the rest scaled to sum to 1. So light of one wavelength outside
-/// of the gamut shows at the gamut's edge, no path counts negative, and light whose wavelengths all
-/// stay together keeps its colour.
+/// The sensitivity of a channel is that of the rendering space to one wavelength
+/// (sh::filmChannels), with negative parts set to 0 and the rest scaled to sum to 1. So light of
+/// one wavelength outside of the gamut shows at the gamut's edge, no path counts negative, and
+/// light whose wavelengths all stay together keeps its colour.
 class Wavelengths {
 public:
     static const Wavelengths& of(const RenderingSpace& space = RenderingSpace::rec709());

@@ -3,7 +3,7 @@
 
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/film/outliers.h"
-#include "materialNetwork/color/renderingSpace.h"
+#include "materialNetwork/color/colorSpaces.h"
 
 #include <map>
 #include <string>
@@ -11,8 +11,6 @@
 #include <vector>
 
 namespace patina {
-
-class ColorSpaces;
 
 using MetadataValue = std::variant<std::string, int, double>;
 /// Metadata of an image about its making. Names are those of OIIO (Software, DateTime, ...) or

@@ -7,7 +7,7 @@
 #include "hdDelegate/scene/material.h"
 #include "hdDelegate/scene/primMap.h"
 #include "hdDelegate/scene/sceneDelta.h"
-#include "materialNetwork/color/renderingSpace.h"
+#include "materialNetwork/color/colorSpaces.h"
 #include "base/diagnostics.h"
 
 #include <cstdint>

@@ -15,7 +15,13 @@ from rendering import color, patina, record  # noqa: E402
 AP1 = np.array([[0.613097402, 0.339523146, 0.047379451],
                 [0.070193722, 0.916353879, 0.013452398],
                 [0.020615593, 0.109569773, 0.869814634]])
-WHITE = "def DistantLight \"sun\" { float inputs:intensity = 1 float inputs:angle = 0 %s }\n"
+WHITE = """def DistantLight "sun"
+{
+    float inputs:intensity = 1
+    float inputs:angle = 0
+    %s
+}
+"""
 CAMERA = """#usda 1.0
 ( %s )
 def Camera "camera"
@@ -123,7 +129,7 @@ def test_colours_of_lights_beyond_rec709_are_kept(tmp_path):
 
 
 def test_a_temperature_is_a_colour_of_rec709(tmp_path):
-    light = WHITE % "bool inputs:enableColorTemperature = 1 float inputs:colorTemperature = 3000"
+    light = WHITE % "bool inputs:enableColorTemperature = 1\n    float inputs:colorTemperature = 3000"
     stage = stage_of(tmp_path, "value", light)
     warm = rendered(tmp_path, stage) * np.pi / ORANGE
     found = rendered(tmp_path, stage, "--renderingColorSpace", "lin_ap1_scene")
@@ -162,7 +168,7 @@ def test_files_say_the_space_and_pictures_look_the_same(tmp_path):
     pictures = []
     for name, flags in (("plain.png", ()), ("aces.png", ("--renderingColorSpace", "acescg"))):
         record(stage, tmp_path / name, "--camera", "/camera", "--imageWidth", 8, "--imageHeight", 8, "--samples", 4, *flags)
-        pictures.append(np.array(_patina.read_image(str(tmp_path / name))["pixels"])[..., :3])
+        pictures.append(np.array(_patina.read_image(str(tmp_path / name)).pixels)[..., :3])
     assert np.abs(pictures[0] - pictures[1]).max() <= 1.01 / 255  # one step of rounding
     assert pictures[0].std() > 0.1
 

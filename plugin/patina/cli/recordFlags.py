@@ -189,7 +189,8 @@ def aovs_of(arguments):
 def image_options_of(arguments):
     """:returns: dict of image options"""
     options = {"half": arguments.half, "compression": arguments.compression, "bits": arguments.bits,
-               "display": arguments.display, "view": arguments.view, "rendering_color_space": arguments.renderingColorSpace, "pixel_aspect_ratio": arguments.pixelAspectRatio,
+               "display": arguments.display, "view": arguments.view, "rendering_color_space": arguments.renderingColorSpace,
+               "pixel_aspect_ratio": arguments.pixelAspectRatio,
                "raw": arguments.colorCorrectionMode == "disabled",
                "outliers": arguments.outliers, "aovs": ["color", "alpha"] + aovs_of(arguments)}
     return options

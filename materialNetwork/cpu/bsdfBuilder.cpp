@@ -13,6 +13,12 @@
 
 namespace patina {
 
+namespace {
+
+const EnergyCurve unknownEnergy; ///< of a lobe whose ior another one divides
+
+} // namespace
+
 void BsdfBuilder::build(const ProgramCode& code, const ShadingPoint& point,
                         const glm::vec4* registers, Bsdf& out) {
     sh::Slab slabs[Bsdf::maxLobes];
@@ -109,7 +115,7 @@ void BsdfBuilder::instantiate(const ProgramCode& code, const ShadingPoint& point
         l.albedo = glm::vec3(0.0f);
         if (registers[t.weight].x > 0.0f) {
             const glm::vec3 fixed =
-                lobeFixWo(l, out._frames[l.frame].wo, surrounded ? EnergyCurve() : t.energy);
+                lobeFixWo(l, out._frames[l.frame].wo, surrounded ? unknownEnergy : t.energy);
             const bool tinted = code.layerTransmittance == LayerTransmittance::Tinted &&
                                 lobeHas(l.kind, lobe::Covers) && !lobeTransmits(l);
             coverage[i] = coverOf(code.layerTransmittance, tinted ? l.albedo : fixed, numbers);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Objects that overlap, with dielectric priorities: what is seen equals a scene that was cut by booleans, where each surface has
-the ior of its one side over that of the other.
+"""Objects that overlap, with dielectric priorities: what is seen equals a scene that was cut by booleans, where each surface
+has the ior of its one side over that of the other.
 
 A path takes the same random numbers through both scenes, as a surface that is not there takes none. So images differ by the
 rounding of ray origins and of ior quotients alone: all but some pixels, whose paths choose otherwise, are equal to 1e-3."""
@@ -48,8 +48,6 @@ def head(unit=1.0, at=(0.0, 0.0, 0.0)):
 
 def material(name, ior, absorption=None):
     """Clear, or with a medium that absorbs so much per unit of length; a second bounce of each is coloured by that alone."""
-    medium = "" if absorption is None else f"""
-        token inputs:volumeshader.connect = </{name}/volume.outputs:out>"""
     return f"""def Material "{name}"
 {{
     token outputs:surface.connect = </{name}/surface.outputs:out>
@@ -118,7 +116,8 @@ def test_water_that_reaches_into_its_glass(tmp_path, unit, at):
     """A hollow glass ball full of water: the water is modelled too large, and the wall counts where both are."""
     absorption = [x / unit for x in (0.1, 0.5, 1.2)]
     text = head(unit, at) + material("glass", GLASS) + material("water", WATER, absorption)
-    nested = text + sphere("wall", 1.5, "glass", 2, at=at, unit=unit) + sphere("hollow", 1.2, "glass", 2, True, at=at, unit=unit)
+    nested = text + sphere("wall", 1.5, "glass", 2, at=at, unit=unit)
+    nested += sphere("hollow", 1.2, "glass", 2, True, at=at, unit=unit)
     nested += sphere("drink", 1.35, "water", 1, at=at, unit=unit)
     # Cut: the water's surface is the hollow's, and has the ior of water over that of glass.
     cut = head(unit, at) + material("glass", GLASS) + material("filling", WATER / GLASS, absorption)
@@ -129,8 +128,8 @@ def test_water_that_reaches_into_its_glass(tmp_path, unit, at):
 def test_ice_in_a_drink(tmp_path):
     """Ice that lies whole in water replaces it: its surface has the ior of ice over that of water."""
     both = material("water", WATER)
-    nested = head() + both + material("ice", ICE) + sphere("drink", 1.5, "water", 1) + sphere("ice", 0.8, "ice", 2)
-    cut = head() + both + material("ice", ICE / WATER) + sphere("drink", 1.5, "water") + sphere("ice", 0.8, "ice")
+    nested = head() + both + material("ice", ICE) + sphere("drink", 1.5, "water", 1) + sphere("cube", 0.8, "ice", 2)
+    cut = head() + both + material("ice", ICE / WATER) + sphere("drink", 1.5, "water") + sphere("cube", 0.8, "ice")
     truth = image(tmp_path, "cut", cut)
     assert_equal(image(tmp_path, "nested", nested), truth)
     # Without priorities the ice has its ior over that of air.
@@ -141,22 +140,27 @@ def test_ice_in_a_drink(tmp_path):
 def test_an_ice_cube_that_looks_out_of_the_water(tmp_path):
     """Two balls that overlap in part: inside of the ice the water's surface is not there."""
     parts = material("water", WATER, (0.3, 0.2, 0.1)) + material("ice", ICE)
-    nested = head() + parts + sphere("drink", 1.2, "water", 1) + sphere("ice", 0.9, "ice", 2, at=(0.9, 0.5, 0.3))
-    reversed_ = head() + parts + sphere("drink", 1.2, "water", 2) + sphere("ice", 0.9, "ice", 1, at=(0.9, 0.5, 0.3))
-    first, second = image(tmp_path, "nested", nested), image(tmp_path, "reversed", reversed_)
-    assert np.isfinite(first).all() and np.abs(first - second).mean() > 1e-3
-    # Of one ior and medium there is no way to tell them apart: both are one body, whatever the order.
-    same = material("water", WATER) + material("ice", WATER)
-    one, two = (image(tmp_path, f"same{k}", head() + same + sphere("drink", 1.2, "water", 1 + k) +
-                      sphere("ice", 0.9, "ice", 2 - k, at=(0.9, 0.5, 0.3))) for k in (0, 1))
-    assert_equal(one, two)
+    images = [image(tmp_path, f"order{k}", head() + parts + sphere("drink", 1.2, "water", 1 + k) +
+                    sphere("cube", 0.9, "ice", 2 - k, at=(0.9, 0.5, 0.3))) for k in (0, 1)]
+    assert np.isfinite(images).all() and np.abs(images[0] - images[1]).mean() > 1e-3
+
+
+@pytest.mark.parametrize("order", [(1, 2, 3), (3, 2, 1), (2, 3, 1)])
+def test_no_light_is_lost_where_three_overlap(tmp_path, order):
+    """Clear objects under an even sky of 0.3 look like it, however they overlap: interfaces send on all that meets them."""
+    text = head()
+    text = text[:text.index("def RectLight")]
+    for k, (rank, ior) in enumerate(zip(order, (GLASS, WATER, ICE))):
+        text += material(f"look{k}", ior) + sphere(f"ball{k}", 1.1, f"look{k}", rank, at=(0.7 * k - 0.7, 0.3 * k, -0.2 * k))
+    # Smooth normals on polygons lose some grazing light: 3e-5 of it in a single ball, 1.3e-3 here.
+    assert image(tmp_path, "furnace", text, "--maxDepth", 256).mean() == pytest.approx(0.3, rel=5e-3)
 
 
 def test_a_camera_in_the_drink(tmp_path):
     """The media around the camera have their priorities and iors."""
-    parts = material("water", WATER, (0.02, 0.05, 0.1))
-    nested = head() + parts + material("ice", ICE) + sphere("sea", 30, "water", 1) + sphere("ice", 1.2, "ice", 2)
-    cut = head() + parts + material("ice", ICE / WATER) + sphere("sea", 30, "water") + sphere("ice", 1.2, "ice")
+    water, nothing = material("water", WATER, (0.02, 0.05, 0.1)), (1e-9, 1e-9, 1e-9)  # the ice's medium replaces the water
+    nested = head() + water + material("ice", ICE, nothing) + sphere("sea", 30, "water", 1) + sphere("cube", 1.2, "ice", 2)
+    cut = head() + water + material("ice", ICE / WATER, nothing) + sphere("sea", 30, "water") + sphere("cube", 1.2, "ice")
     assert_equal(image(tmp_path, "nested", nested), image(tmp_path, "cut", cut))
 
 
@@ -168,8 +172,9 @@ def test_photons_go_the_same_way(tmp_path):
     point3f[] points = [(-6, -2, 6), (6, -2, 6), (6, -2, -6), (-6, -2, -6)]
 }
 """
-    nested = text + material("water", WATER) + material("ice", ICE) + sphere("drink", 1.5, "water", 1) + sphere("ice", 0.8, "ice", 2)
-    cut = text + material("water", WATER) + material("ice", ICE / WATER) + sphere("drink", 1.5, "water") + sphere("ice", 0.8, "ice")
+    text += material("water", WATER)
+    nested = text + material("ice", ICE) + sphere("drink", 1.5, "water", 1) + sphere("cube", 0.8, "ice", 2)
+    cut = text + material("ice", ICE / WATER) + sphere("drink", 1.5, "water") + sphere("cube", 0.8, "ice")
     flags = "--method", "caustics=photons"
     assert_equal(image(tmp_path, "nested", nested, *flags), image(tmp_path, "cut", cut, *flags), but=0.1)
 
@@ -180,7 +185,7 @@ def test_a_priority_that_means_nothing_is_told(tmp_path, value):
     stage.write_text(head() + material("water", WATER) + sphere("drink", 1.5, "water", 7).replace(
         "int primvars:patina:dielectricPriority = 7", f"double primvars:patina:dielectricPriority = {value}"))
     process = patina("record", stage, tmp_path / "x.exr", "--imageWidth", 8, "--samples", 1)
-    assert "/drink primvars:patina:dielectricPriority" in process.stderr and value in process.stderr
+    assert "/drink.primvars:patina:dielectricPriority: has an unknown value" in process.stderr
 
 
 def test_the_rasterizer_says_that_it_ranks_nothing(tmp_path):

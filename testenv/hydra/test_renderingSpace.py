@@ -8,7 +8,7 @@ from rendering import color, patina
 
 pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_usdrecord(),
                                 reason="this OpenUSD has no usdrecord")
-# A floor whose colour is a primvar, a ball with a colour and a glow of a temperature, a coloured and a warm light.
+# A floor whose colour is a primvar, a card with a colour and a glow of a temperature, a coloured and a warm light.
 STAGE = """#usda 1.0
 ( renderSettingsPrimPath = "/Render/settings" )
 def Camera "camera"
@@ -28,9 +28,12 @@ def Mesh "floor"
     uniform token subdivisionScheme = "none"
     color3f[] primvars:displayColor = [(0.7, 0.2, 0.1)]
 }
-def Sphere "ball" ( prepend apiSchemas = ["MaterialBindingAPI"] )
+def Mesh "card" ( prepend apiSchemas = ["MaterialBindingAPI"] )
 {
-    double radius = 2
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-2, -2, 0), (2, -2, 0), (2, 1, 0), (-2, 2, 0)]
+    uniform token subdivisionScheme = "none"
     rel material:binding = </paint>
 }
 def Material "paint"
@@ -108,6 +111,7 @@ def command_line(stage):
 def test_products_are_those_of_the_command_line(tmp_path, scene_index):
     def usdrecord(stage):
         process = hydraBuild.run_usdrecord(stage, tmp_path / "view.png", "--renderSettingsPrimPath", "/Render/settings",
+                                           "--disableCameraLight",
                                            scene_index=scene_index)
         return hydraBuild.warnings_of(process)
 

@@ -260,6 +260,8 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     _film->allowNegative(takesLightAway(state, _settings));
     _film->setFirstSample(uint32_t(std::max(0, _settings.sampleBegin)));
     const CameraRays rays(camera, _settings, _origin, distortionOf(camera));
+    if (tellMotion(_settings.aovs) && !ScreenMotion::knows(camera))
+        _scene->diagnostics().warn(camera.path, "", messages::motionAovsEmpty);
     RenderSettings sampled = _settings;
     sampled.tolerance = plan.noise(_settings.tolerance);
     sampled.maxDepth = plan.depth(_settings);

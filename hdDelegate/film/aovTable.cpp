@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/aovTable.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace patina {
@@ -67,6 +68,13 @@ AovId aovIdOf(const std::string& name) {
     for (const AovRow& row : aovRows())
         if (row.id != AovId::primvars && row.id != AovId::lpe && name == row.name) return row.id;
     return AovId::unknown;
+}
+
+bool tellMotion(const std::vector<std::string>& aovs) {
+    return std::any_of(aovs.begin(), aovs.end(), [](const std::string& aov) {
+        const AovId id = aovIdOf(aov);
+        return id == AovId::motionForward || id == AovId::motionBackward;
+    });
 }
 
 } // namespace patina

@@ -36,6 +36,7 @@ struct AovRow {
     const char* hydraName = nullptr;
     const char* expression = nullptr; ///< of its light paths
     const char* aliases = "";         ///< of render vars, separated by spaces
+    const char* primvar = nullptr;    ///< that it shows
 
     // The words of aovs.def.
     AovRow& film() {
@@ -70,6 +71,10 @@ struct AovRow {
         aliases = text;
         return *this;
     }
+    AovRow& reads(const char* text) {
+        primvar = text;
+        return *this;
+    }
     AovRow& all(const char* = "") { return *this; } // for plugin/patina/cli
 };
 
@@ -98,5 +103,8 @@ std::string aovNamed(const std::string& source);
 
 /// @returns AovId::unknown for a name that standardAov() does not take
 AovId aovIdOf(const std::string& name);
+
+/// Whether one of these tells how things move from frame to frame.
+bool tellMotion(const std::vector<std::string>& aovs);
 
 } // namespace patina

@@ -42,6 +42,18 @@ std::string cryptomatteLayer(const AovSpec& spec) {
     return layer;
 }
 
+int cryptomatteLayerOf(const std::string& name, std::string& aov) {
+    const size_t digits = 2;
+    if (name.size() <= digits) return -1;
+    const std::string number = name.substr(name.size() - digits);
+    const std::string base = aovNamed(name.substr(0, name.size() - digits));
+    const AovId id = aovIdOf(base);
+    if (id == AovId::unknown || aovRows()[size_t(id)].kind != AovKind::Coverage) return -1;
+    if (number[0] != '0' || number[1] < '0' || number[1] - '0' >= mostCryptomatteLayers) return -1;
+    aov = base;
+    return number[1] - '0';
+}
+
 std::vector<std::string> cryptomatteChannels(const AovSpec& spec) {
     std::vector<std::string> channels;
     for (int i = 0; i < spec.components; ++i) {

@@ -23,7 +23,7 @@ struct AovSpec {
     float clearValue = 0.0f; ///< of pixels that no sample reached
     bool isInteger = false;  ///< ids: stored as float bits of int32 (glm::intBitsToFloat)
     AovId id = AovId::unknown;
-    std::string primvar = {}; ///< NAME of primvars:NAME
+    std::string primvar = {}; ///< that it shows: NAME of primvars:NAME
     std::string paths = {};   ///< the light path expression that it is of
 };
 

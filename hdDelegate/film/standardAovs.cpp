@@ -72,6 +72,7 @@ AovSpec standardAov(const std::string& name) {
         spec.paths = lightPathAovOf(name).expression;
     }
     if (row.expression) spec.paths = row.expression;
+    if (row.primvar) spec.primvar = row.primvar;
     return spec;
 }
 

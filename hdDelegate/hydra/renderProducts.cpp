@@ -117,6 +117,15 @@ bool HdPatinaRenderProducts::wanted() const {
     return !_state.settings().interactive && !_state.products().empty();
 }
 
+std::vector<std::string> HdPatinaRenderProducts::aovs() const {
+    std::vector<std::string> found;
+    if (!wanted()) return found;
+    for (const auto& product : _state.products())
+        for (const auto& var : product.renderVars)
+            found.push_back(filmAovOfVar(var));
+    return found;
+}
+
 bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& product,
                                      Output& output) {
     HdPatinaRenderParam& param = _state.param;

@@ -23,6 +23,8 @@ public:
     /// Whether there is something to write: the host is not interactive and a settings prim with
     /// products is active.
     bool wanted() const;
+    /// Of the film, of all products that are wanted.
+    std::vector<std::string> aovs() const;
     /// Starts over when scene or settings have changed, goes on otherwise. Never blocks on a
     /// render.
     /// @returns whether all products are written (or have failed, with a warning)

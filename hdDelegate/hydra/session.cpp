@@ -2,6 +2,7 @@
 #include "hdDelegate/hydra/session.h"
 
 #include "hdDelegate/backends/backends.h"
+#include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/denoiser.h"
 
 #include <algorithm>
@@ -25,6 +26,11 @@ std::shared_ptr<Renderer> HdPatinaSession::renderer() const {
 bool HdPatinaSession::isRunning() const {
     const auto current = renderer();
     return current && current->isRunning();
+}
+
+Metadata HdPatinaSession::mattes() const {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _mattes;
 }
 
 RenderProgress HdPatinaSession::progress() const {
@@ -116,6 +122,9 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
         frame->images.resize(_forms.size());
         for (size_t i = 0; i < _forms.size(); ++i)
             _forms[i].read(denoised ? clean : film, frame->images[i]);
+        for (const AovSpec& spec : film.aovs())
+            if (frame->last && spec.kind == AovKind::Coverage)
+                addCryptomatteMetadata(spec, film.coverageNames(spec.name), frame->mattes);
     }
     std::unique_lock<std::mutex> lock(_mutex);
     // Images that follow each other in small steps are a jump again where a host misses some.
@@ -135,6 +144,7 @@ std::shared_ptr<HdPatinaFrame> HdPatinaSession::take() {
     {
         std::lock_guard<std::mutex> lock(_mutex);
         frame.swap(_frame);
+        if (frame) _mattes = frame->mattes;
     }
     _taken.notify_all();
     return frame;

@@ -80,7 +80,7 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
         _materials.clear();
         for (const std::string& name : _aovs.leftOut)
             _diagnostics.warn("", "",
-                              messages::primvarAovEmpty(name, RasterAovRequest::maxPrimvars));
+                              messages::primvarAovEmpty(name, _aovs.room()));
     }
     _domeMethods.clear();
     _standIns = 0;

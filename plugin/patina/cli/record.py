@@ -161,16 +161,17 @@ class _Job:
 
     def _info(self, shot):
         """:returns: what the reader reported; the scene holds the shot's frame as its camera sees it"""
-        if self._read is None or self._read[0] != shot.frame or not self._also_from(shot.camera):
+        moment = (shot.frame, self._blurs(shot))
+        if self._read is None or self._read[0] != moment or not self._also_from(shot.camera):
             with self.statistics.phase("translate"):
-                self._read = (shot.frame, shot.camera, self._translate(shot))
+                self._read = (moment, shot.camera, self._translate(shot))
         info = self._read[2]
         return info if shot.camera == self._read[1] else dataclasses.replace(info, camera=shot.camera)
 
     def _also_from(self, camera):
         """:returns: whether what was read looks as it would for another camera of the same frame: with an equal shutter, and
             without a headlight"""
-        frame, read_for, info = self._read
+        (frame, blurs), read_for, info = self._read
         if camera == read_for:
             return True
         if info.headlight or camera not in info.cameras:
@@ -178,17 +179,21 @@ class _Job:
         from patina.cli.products import prim_value
 
         prim = self.stage.GetPrimAtPath(camera)
-        return all((prim_value(prim.GetAttribute("shutter:" + end), frame) or 0.0) == time
+        return not blurs or all((prim_value(prim.GetAttribute("shutter:" + end), frame) or 0.0) == time
                    for end, time in zip(("open", "close"), info.shutter))
+
+    def _blurs(self, shot):
+        return dict(self.settings, **shot.settings)["enableMotionBlur"]
 
     def _translate(self, shot):
         from patina import stage as reader
 
+        wanted = [aov for shot in self.shots for aov in shot.aovs()]
         options = reader.StageOptions(
-            frame=shot.frame, purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
+            frame=shot.frame, shutter=None if self._blurs(shot) else (0.0, 0.0), motion=any(aov.startswith("motion") for aov in wanted), purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
             headlight=not self.arguments.disableCameraLight,
             render_pass=self.arguments.renderPassPrimPath, material_purpose=getattr(self.arguments, "materialPurpose", "full"),
-            matte_names=any(aov.startswith("crypto") for shot in self.shots for aov in shot.aovs()))
+            matte_names=any(aov.startswith("crypto") for aov in wanted))
         with self.scene.edit() as edit:
             edit.clear()
             return reader.read_stage(self.stage, edit, options)

@@ -41,6 +41,9 @@ public:
     /// Depth in [0,1] as OpenGL's default window depth, of a camera space point.
     float windowDepth(const vec3& cameraPoint) const { return _frame.windowDepth(cameraPoint); }
     float depthOf(const vec3& cameraPoint) const { return _frame.depthOf(cameraPoint); }
+    float depthAt(const vec3& place) const { ///< of a place in the space of the rays
+        return depthOf(vec3(_worldToCamera * vec4(place, 1.0f)));
+    }
     float pixelSpread() const { return _pixelSpread; } ///< see CameraFrame
     bool orthographic() const { return _frame.orthographic; }
     const Camera& camera() const { return _camera; }

@@ -40,6 +40,15 @@ bool sameSpec(const AovSpec& a, const AovSpec& b) {
 }
 
 constexpr char noisyColor[] = "color.noisy";
+constexpr char noisy[] = ".noisy";
+
+/// @returns AOV of AOV.noisy; empty for another name
+std::string noisyAovOf(const std::string& name) {
+    const size_t length = sizeof noisy - 1, end = name.size();
+    return end > length && name.compare(end - length, length, noisy) == 0
+               ? name.substr(0, end - length)
+               : "";
+}
 
 bool alwaysThere(const std::string& name) {
     const AovId id = aovIdOf(name);
@@ -109,6 +118,7 @@ void Film::clear(int width, int height, const std::vector<AovSpec>& aovs) {
     const bool same = width == _width && height == _height &&
                       std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);
     _denoised.clear();
+    _deep.reset();
     _blockSize = 1;
     _firstSample = 0;
     _allowsNegative = false;
@@ -163,8 +173,7 @@ int Film::aovIndex(const std::string& name) const {
 }
 
 bool Film::findSpec(const std::string& name, AovSpec& spec) const {
-    if (name == noisyColor && denoised()) {
-        spec = standardAov("color");
+    if (denoised(noisyAovOf(name)) && findSpec(noisyAovOf(name), spec)) {
         spec.name = name;
         return true;
     }
@@ -293,10 +302,11 @@ void Film::setMean(int x, int y, glm::vec3 color, float alpha) {
     p.meanBefore += float((after - before) / n);
 }
 
-void Film::setDenoised(std::vector<float> color) {
-    if (color.size() != 3 * _pixels.size())
-        throw std::invalid_argument("the denoised colour has not as many pixels as the film");
-    _denoised = std::move(color);
+void Film::setDenoised(std::vector<float> pixels, const std::string& aov) {
+    AovSpec spec;
+    if (pixels.size() != 3 * _pixels.size() || !findSpec(aov, spec) || spec.components != 3)
+        throw std::invalid_argument("the denoised " + aov + " has not the film's pixels");
+    _denoised[aov] = std::move(pixels);
 }
 
 void Film::copyFrom(const Film& other) {
@@ -392,9 +402,11 @@ glm::ivec2 Film::shownAt(int x, int y) const {
     return {x, y};
 }
 
-std::vector<float> Film::resolve(const std::string& name) const {
+std::vector<float> Film::resolve(const std::string& asked) const {
     AovSpec spec;
-    if (!findSpec(name, spec)) return {};
+    if (!findSpec(asked, spec)) return {};
+    if (const auto clean = _denoised.find(asked); clean != _denoised.end()) return clean->second;
+    const std::string base = noisyAovOf(asked), &name = denoised(base) ? base : asked;
     if (std::vector<float> made = fromSource(spec); !made.empty()) return made;
     size_t n = size_t(spec.components);
     std::vector<float> out(size_t(_width) * size_t(_height) * n);
@@ -407,8 +419,7 @@ std::vector<float> Film::resolve(const std::string& name) const {
             }
         });
     };
-    if (name == "color" && denoised()) return _denoised;
-    if (name == "color" || name == noisyColor) {
+    if (name == "color") {
         eachPixel([this](int x, int y, float* to) {
             glm::vec3 c = color(x, y);
             std::copy(&c.x, &c.x + 3, to);

@@ -30,6 +30,7 @@ struct ImageOptions {
     int dataWindow[4] = {0, 0, -1, -1};
     double pixelAspectRatio = 1.0;
 
+    bool deep = false;       ///< the film's deep pixels (film/deepPixels.h), instead of its AOVs
     bool half = false;       ///< OpenEXR: colour, alpha and albedo as half; data always is float
     bool integerIds = false; ///< OpenEXR: ids as UINT; else as float, which is exact below 2^24
     std::string compression = "zip"; ///< OpenEXR: none, rle, zip, zips, piz, pxr24, b44, dwaa...
@@ -82,7 +83,7 @@ struct ImageData {
     Metadata metadata;
 };
 
-/// Reads any format of OIIO without changing values.
+/// Reads any format of OIIO without changing values. Samples of deep images are put over each other.
 /// @throws std::runtime_error with a one-line reason
 ImageData readImage(const std::string& path);
 

@@ -12,7 +12,7 @@ namespace patina {
 /// Writes the products of the active UsdRenderSettings prim, one after the other, in the
 /// background. Each has its own camera, resolution, conform policy, data window and render vars.
 ///
-/// Only `raster` products are images. The source of a render var is an AOV of the film (named as in
+/// Products of type `raster` are images, those of type `deepRaster` deep ones. The source of a render var is an AOV of the film (named as in
 /// Hydra or the film, `Ci`, `a` and `z` included), or with sourceType primvar a primvar. A file
 /// appears whole, or the earlier file stays.
 class HdPatinaRenderProducts {
@@ -36,7 +36,7 @@ private:
         std::string file; ///< to write
         std::string camera;
         HdPatinaSettings settings;
-        std::vector<std::string> order; ///< AOVs of the file
+        std::vector<std::string> order; ///< AOVs of the file; of a deep one none
     };
 
     bool prepare(const HdRenderSettings::RenderProduct& product, Output& output);

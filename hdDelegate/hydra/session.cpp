@@ -96,7 +96,7 @@ bool HdPatinaSession::denoiseCopy(const Film& film, Film& clean) {
     if (film.width() < 1 || film.height() < 1) return false;
     try {
         clean.copyFrom(film);
-        denoise(clean, _settings.threads);
+        denoise(clean, _settings.threads, _settings.denoiseAovs);
         return true;
     } catch (const std::runtime_error& error) {
         _scene->diagnostics().warn("", "denoise", messages::notDenoised(error.what()));

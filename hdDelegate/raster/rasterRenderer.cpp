@@ -186,6 +186,7 @@ private:
             if (!aov.paths.empty() || aov.id == AovId::shadow)
                 _scene->diagnostics().warn("", "",
                                            messages::lightPathAovEmpty(channelsOfAov(aov.name)));
+        if (_settings.deep) _scene->diagnostics().warn("", "", messages::deepLeftOut);
         if (tellMotion(_settings.aovs))
             for (const auto& item : state.geometry)
                 if (deforms(*item.second) && isDrawnInRaster(*item.second, _settings))

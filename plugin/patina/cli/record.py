@@ -73,6 +73,10 @@ class _Job:
         outputs.need_folders([a.json, a.report], a.makeOutputPath)
         if a.image:
             self.module.check_image_path(a.image, ["color", "alpha"] + recordFlags.aovs_of(a))
+        if a.deep:
+            if not a.deep.lower().endswith(".exr"):
+                raise CommandError(f"--deep {a.deep}: deep images are OpenEXR (.exr)")
+            outputs.need_folders([a.deep], a.makeOutputPath)
         if a.denoise:
             denoiser.prepare(self.module)
         outputs.check_all([a.image, a.json, a.report])
@@ -96,6 +100,10 @@ class _Job:
             if not a.image:
                 for output in shot.outputs:
                     self.module.check_image_path(output.image, list(output.aovs))
+            if shot.deep and a.resume:
+                raise CommandError(f"{shot.image}: --resume continues no deep image, since a checkpoint has no depths")
+            if shot.deep:
+                a.checkpointSeconds = 0.0
         reports.plan(a, self.shots, self.stage)
         self.snapshots.check([image for shot in self.shots for image in shot.images], a.snapshotSuffix)
         for shot in self.shots:
@@ -137,7 +145,7 @@ class _Job:
         with self.statistics.phase("denoise"):
             if denoiser.takes_away(film):
                 self.statistics.warn("", "denoise", "pixelsBelowZero")
-            denoiser.run(self.module, film, self.arguments.threads)
+            denoiser.run(self.module, film, self.arguments.threads, self.arguments.denoiseAovs)
 
     @property
     def _has_checkpoint(self):
@@ -206,7 +214,7 @@ class _Job:
         camera = self.scene.camera(info.camera)
         size = shots.size_of(shot, camera, settings["pixelAspectRatio"])
         shots.place(settings, size, camera, functools.partial(self.statistics.warn, shot.prim))
-        settings.update(aovs=list(wanted), timeMaterials=bool(self.arguments.report))
+        settings.update(aovs=list(wanted), timeMaterials=bool(self.arguments.report), deep=shot.deep)
         return settings
 
     def _film(self, shot, settings, info):
@@ -272,6 +280,8 @@ class _Job:
         a = self.arguments
         metadata = self.statistics.metadata(a, settings, info.camera)
         for output in shot.outputs:
+            if output.deep and not film.has_deep:
+                continue  # the back end has said so
             self.module.write_images(film, output.image, shots.image_options(a, shot, output, settings), metadata)
         self.snapshots.remove()
         if self._has_checkpoint and not self.interrupted and not a.keepCheckpoint:
@@ -280,9 +290,11 @@ class _Job:
     def _write_snapshot(self, film, shot, settings, camera):
         """:param film: a copy, which the render does not touch"""
         if self.arguments.denoise:
-            denoiser.run(self.module, film, self.arguments.threads)
+            denoiser.run(self.module, film, self.arguments.threads, self.arguments.denoiseAovs)
         metadata = statistics.of_snapshot(self.arguments, film, camera)
         for output in shot.outputs:
+            if output.deep:
+                continue  # copies of films have no depths
             path = self.snapshots.place_of(output.image, self.arguments.snapshotSuffix)
             self.module.write_images(film, path, shots.image_options(self.arguments, shot, output, settings), metadata)
             self.snapshots.wrote(path)

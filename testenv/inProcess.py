@@ -66,7 +66,8 @@ class Stage:
         overrides.apply(opened, a.set)
         frame = float(a.frames) if a.frames else None if a.defaultTime else opened.GetStartTimeCode()
         options = reader.StageOptions(frame=frame, purposes=recordFlags.purposes_of(a), complexity=a.complexity,
-                                      camera=a.camera, headlight=not a.disableCameraLight)
+                                      camera=a.camera, headlight=not a.disableCameraLight,
+                                      motion=any(name.startswith("motion") for name in recordFlags.aovs_of(a)))
         self.module, self.scene, self.backend = _patina, _patina.Scene(), a.backend
         with self.scene.edit() as edit:
             self.camera = reader.read_stage(opened, edit, options).camera

@@ -57,7 +57,7 @@ CameraFrame::CameraFrame(const Camera& camera, const RenderSettings& settings)
       shutterOpen(shutterOf(camera, settings).x), clipNear(camera.clipNear), clipFar(camera.clipFar),
       orthographic(camera.orthographic && camera.lens.standard()), radial(!camera.lens.standard()) {
     constexpr float unit = 0.1f; // tenths of a scene unit
-    shutterLength = std::max(0.0f, shutterOf(camera, settings).y - shutterOpen);
+    shutterLength = shutterOf(camera, settings).y - shutterOpen;
     vec2 aperture(std::max(1e-6f, camera.horizontalAperture),
                   std::max(1e-6f, camera.verticalAperture));
     const vec2 offset = vec2(camera.horizontalApertureOffset, camera.verticalApertureOffset) * unit;
@@ -95,7 +95,8 @@ float CameraFrame::windowDepth(const vec3& p) const {
 }
 
 vec2 shutterOf(const Camera& camera, const RenderSettings& settings) {
-    return settings.enableMotionBlur ? vec2(camera.shutterOpen, camera.shutterClose) : vec2(0.0f);
+    const bool opens = settings.enableMotionBlur && camera.shutterClose > camera.shutterOpen;
+    return opens ? vec2(camera.shutterOpen, camera.shutterClose) : vec2(0.0f);
 }
 
 dvec3 cameraPlace(const Camera& camera, const RenderSettings& settings) {

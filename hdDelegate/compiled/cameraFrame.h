@@ -37,8 +37,8 @@ private:
     float _pixelSpread = 0.0f;
 };
 
-/// When the shutter opens and closes, time codes relative to the frame: without motion blur all is
-/// as at the frame's time.
+/// When the shutter opens and closes, time codes relative to the frame. Without motion blur, or
+/// where it never opens, all is as at the frame's time.
 vec2 shutterOf(const Camera& camera, const RenderSettings& settings);
 
 /// Where the camera is in the middle of the shutter.

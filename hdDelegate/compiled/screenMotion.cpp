@@ -38,6 +38,7 @@ dmat4 ScreenMotion::toWorld(const Geometry& prim, const InstanceStep* steps, int
                             Moment moment) {
     dmat4 result(1.0);
     for (int i = 0; i < count; ++i) {
+        if (!steps[i].values) continue;
         const Instancer& instancer = steps[i].values->instancer();
         result = result * exactTransformAt(instancer.transforms[size_t(steps[i].instance)],
                                            timeCode(moment));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/sceneLights.h"
 
+#include "hdDelegate/compiled/cameraFrame.h"
 #include "hdDelegate/embree/caustics/causticCasters.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "base/limits.h"

@@ -70,6 +70,11 @@ AovId aovIdOf(const std::string& name) {
     return AovId::unknown;
 }
 
+bool isOfFilm(const std::string& aov) {
+    const AovId id = aovIdOf(aov);
+    return id != AovId::unknown && aovRows()[size_t(id)].ofFilm;
+}
+
 bool tellMotion(const std::vector<std::string>& aovs) {
     return std::any_of(aovs.begin(), aovs.end(), [](const std::string& aov) {
         const AovId id = aovIdOf(aov);

@@ -104,6 +104,9 @@ std::string aovNamed(const std::string& source);
 /// @returns AovId::unknown for a name that standardAov() does not take
 AovId aovIdOf(const std::string& name);
 
+/// Whether the film makes an AOV from the samples themselves, so that it is always there.
+bool isOfFilm(const std::string& aov);
+
 /// Whether one of these tells how things move from frame to frame.
 bool tellMotion(const std::vector<std::string>& aovs);
 

@@ -31,7 +31,7 @@ glm::dvec4 over(const std::vector<DeepSample>& samples) {
 void expectInOrder(const std::vector<DeepSample>& samples) {
     for (size_t i = 0; i < samples.size(); ++i) {
         EXPECT_LE(samples[i].front, samples[i].back);
-        if (i > 0) EXPECT_LE(samples[i - 1].back, samples[i].front) << "samples overlap";
+        EXPECT_LE(i > 0 ? samples[i - 1].back : 0.0f, samples[i].front) << "samples overlap";
     }
 }
 

@@ -163,6 +163,7 @@ def settings_of(arguments):
     settings["samples"] = arguments.samples or (MAX_SAMPLES if endless else DEFAULT_SAMPLES)
     settings["aovs"] = list(dict.fromkeys(aovs_of(arguments) + list(denoiser.GUIDES if arguments.denoise else ())))
     settings["methods"] = methods.parse(arguments.method)
+    settings["deep"] = bool(arguments.deep)
     _check_display(arguments)
     if arguments.dataWindow:
         settings["dataWindow"] = arguments.dataWindow

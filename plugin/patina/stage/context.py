@@ -85,6 +85,8 @@ class Context:
 
     def _shutter_offsets(self, samples):
         frame, (start, end) = self.time.GetValue(), self.shutter
+        if not end > start:  # all is as at the frame's time
+            return [0.0]
         inside = sorted({float(s) - frame for s in samples if start < float(s) - frame < end})
         if len(inside) > self._most_samples - 2:
             step = (end - start) / (self._most_samples - 1)
@@ -104,6 +106,8 @@ class Context:
         count = 2
         if any(attribute.HasAuthoredValue() for attribute in bent):
             count = max(3, UsdGeom.MotionAPI(prim).ComputeNonlinearSampleCount(self.time))
+        if not self.shutter[1] > self.shutter[0]:
+            return self.with_moments([0.0])
         return self.with_moments(distinct(np.linspace(*self.shutter, min(count, self._most_samples)).tolist()))
 
     def attribute_offsets(self, attribute):

@@ -54,8 +54,9 @@ double largest(const dvec3& v) {
 
 CameraFrame::CameraFrame(const Camera& camera, const RenderSettings& settings)
     : imageSize(settings.width, settings.height), focusDistance(camera.focusDistance),
-      shutterOpen(shutterOf(camera, settings).x), clipNear(camera.clipNear), clipFar(camera.clipFar),
-      orthographic(camera.orthographic && camera.lens.standard()), radial(!camera.lens.standard()) {
+      shutterOpen(shutterOf(camera, settings).x), clipNear(camera.clipNear),
+      clipFar(camera.clipFar), orthographic(camera.orthographic && camera.lens.standard()),
+      radial(!camera.lens.standard()) {
     constexpr float unit = 0.1f; // tenths of a scene unit
     shutterLength = shutterOf(camera, settings).y - shutterOpen;
     vec2 aperture(std::max(1e-6f, camera.horizontalAperture),

@@ -71,11 +71,12 @@ Integrator::Step Integrator::fly(Path& path, float distance, TraceCounters& coun
             if (path.lightPaths) path.lightPaths->straight(LightEvent());
             addRadiance(path, collision.emitted);
             path.throughput = before;
-            const float sum = (collision.emitted.x + collision.emitted.y + collision.emitted.z) / 3.0f;
+            const float sum =
+                (collision.emitted.x + collision.emitted.y + collision.emitted.z) / 3.0f;
             if (path.deep && path.fromCamera() && sum > 0.0f)
-                path.deep->pass(_camera.depthAt(path.origin + path.direction *
-                                                                  (collision.emittedFrom / sum)),
-                                path.radiance, true);
+                path.deep->pass(
+                    _camera.depthAt(path.origin + path.direction * (collision.emittedFrom / sum)),
+                    path.radiance, true);
         }
         if (collision.absorbed) return Step::Ends;
     }

@@ -87,8 +87,8 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
         _lightPaths.write(*lightPaths, target, _camera.camera().exposureScale,
                           !film.usable(color, path.alpha));
     if (deep)
-        deep->write(*film.deep(), x, y, path.radiance, path.alpha,
-                    _camera.camera().exposureScale, film.usable(color, path.alpha));
+        deep->write(*film.deep(), x, y, path.radiance, path.alpha, _camera.camera().exposureScale,
+                    film.usable(color, path.alpha));
     film.addColor(x, y, color, path.alpha);
 }
 

@@ -23,7 +23,8 @@ struct DeepImage {
 /// @throws std::runtime_error with a one-line reason
 DeepImage readDeep(const std::string& path);
 
-/// The channels of a deep image after OpenImageIO has put the samples of each pixel over each other.
+/// The channels of a deep image after OpenImageIO has put the samples of each pixel over each
+/// other.
 /// @throws std::runtime_error with a one-line reason
 std::vector<float> flattened(const std::string& path);
 

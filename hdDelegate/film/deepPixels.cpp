@@ -37,8 +37,8 @@ void DeepPixels::add(int x, int y, const DeepEvent* events, int count) {
 void DeepPixels::insert(std::vector<Bin>& bins, const DeepEvent& event) const {
     const float z = event.depth, close = nearlyOne * std::abs(z);
     // The first bin behind; before it are those that begin at z or nearer.
-    const auto next = std::upper_bound(bins.begin(), bins.end(), z,
-                                       [](float depth, const Bin& bin) { return depth < bin.front; });
+    const auto next = std::upper_bound(
+        bins.begin(), bins.end(), z, [](float depth, const Bin& bin) { return depth < bin.front; });
     const auto takes = [&](const Bin& bin) {
         return bin.inVolume == event.inVolume && z >= bin.front - close && z <= bin.back + close;
     };

@@ -138,8 +138,8 @@ public:
     void keepDeep(int most) { _deep = std::make_shared<DeepPixels>(_width, _height, most); }
     DeepPixels* deep() const { return _deep.get(); } ///< or null
 
-    /// Becomes equal to another film, but for deep pixels, with all of its accumulators. The image of a source becomes
-    /// one sample of each pixel.
+    /// Becomes equal to another film, but for deep pixels, with all of its accumulators. The image
+    /// of a source becomes one sample of each pixel.
     void copyFrom(const Film& other);
 
     uint32_t sampleCount(int x, int y) const { return pixel(x, y).count; }

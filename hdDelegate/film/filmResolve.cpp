@@ -71,7 +71,8 @@ glm::ivec2 Film::shownAt(int x, int y) const {
 std::vector<float> Film::resolve(const std::string& asked) const {
     AovSpec spec;
     if (!findSpec(asked, spec)) return {};
-    if (const auto clean = _denoised.find(spec.name); clean != _denoised.end()) return clean->second;
+    if (const auto clean = _denoised.find(spec.name); clean != _denoised.end())
+        return clean->second;
     const std::string base = noisyAovOf(asked), &name = denoised(base) ? base : asked;
     if (std::vector<float> made = fromSource(spec); !made.empty()) return made;
     size_t n = size_t(spec.components);

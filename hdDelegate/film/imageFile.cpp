@@ -86,7 +86,8 @@ void writeImage(const Film& film, const std::string& path, const ImageOptions& o
                 const Metadata& metadata) {
     checkOptions(options);
     if (options.deep) {
-        if (!film.deep()) throw std::runtime_error("cannot write '" + path + "': no deep pixels were kept");
+        if (!film.deep())
+            throw std::runtime_error("cannot write '" + path + "': no deep pixels were kept");
         return writeDeep(*film.deep(), path, options, metadata);
     }
     checkAovs(path, options.aovs);

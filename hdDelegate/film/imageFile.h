@@ -83,7 +83,8 @@ struct ImageData {
     Metadata metadata;
 };
 
-/// Reads any format of OIIO without changing values. Samples of deep images are put over each other.
+/// Reads any format of OIIO without changing values. Samples of deep images are put over each
+/// other.
 /// @throws std::runtime_error with a one-line reason
 ImageData readImage(const std::string& path);
 

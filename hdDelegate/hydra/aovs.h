@@ -11,8 +11,8 @@ namespace patina {
 
 /// The film's name of an AOV as Hydra names it; empty when there is none. Hydra's `depth` is window
 /// depth (the film's deviceDepth), its `cameraDepth` the distance along the camera's axis (the
-/// film's depth); the other names are the same, primvars:NAME and lpe:EXPR among them, or those that
-/// render vars have.
+/// film's depth); the other names are the same, primvars:NAME and lpe:EXPR among them, or those
+/// that render vars have.
 std::string filmAovOf(const TfToken& hydraName);
 
 /// What a buffer shows of the film.

@@ -53,7 +53,7 @@ private:
     std::shared_ptr<HdPatinaDelegateState> _state;
     std::shared_ptr<HdPatinaSession> _session;
     HdPatinaRenderProducts _products;
-    std::string _cameraPath;                  ///< of a camera of its own; no path of a stage
+    std::string _cameraPath;                        ///< of a camera of its own; no path of a stage
     std::map<TfToken, HdPatinaShownAov> _shownAovs; ///< of each name that was bound
     std::set<TfToken> _inexact;                     ///< of these: warned of
 

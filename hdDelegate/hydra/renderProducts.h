@@ -12,9 +12,9 @@ namespace patina {
 /// Writes the products of the active UsdRenderSettings prim, one after the other, in the
 /// background. Each has its own camera, resolution, conform policy, data window and render vars.
 ///
-/// Products of type `raster` are images, those of type `deepRaster` deep ones. The source of a render var is an AOV of the film (named as in
-/// Hydra or the film, `Ci`, `a` and `z` included), or with sourceType primvar a primvar. A file
-/// appears whole, or the earlier file stays.
+/// Products of type `raster` are images, those of type `deepRaster` deep ones. The source of a
+/// render var is an AOV of the film (named as in Hydra or the film, `Ci`, `a` and `z` included), or
+/// with sourceType primvar a primvar. A file appears whole, or the earlier file stays.
 class HdPatinaRenderProducts {
 public:
     explicit HdPatinaRenderProducts(HdPatinaDelegateState& state);

@@ -20,7 +20,7 @@ struct HdPatinaFrame {
     std::vector<std::vector<uint8_t>> images; ///< in the forms of start()
     bool last = false;                        ///< nothing better will come: converged or failed
     std::string error;                        ///< of a render that failed
-    Metadata mattes; ///< of the last one: of Cryptomatte, as files have it
+    Metadata mattes;                          ///< of the last one: of Cryptomatte, as files have it
 };
 
 /// One renderer with its film, on behalf of one render pass; a change of the back end replaces the

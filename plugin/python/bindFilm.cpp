@@ -292,7 +292,8 @@ void bindFilm(py::module_& m) {
             mustRest(film);
             denoise(film, threads, aovs);
         },
-        py::arg("film"), py::arg("threads") = 0, py::arg("aovs") = false, py::call_guard<py::gil_scoped_release>(),
+        py::arg("film"), py::arg("threads") = 0, py::arg("aovs") = false,
+        py::call_guard<py::gil_scoped_release>(),
         "Replaces the film's colour by what Open Image Denoise makes of it, led by the AOVs "
         "denoisingAlbedo and denoisingNormal where both are there; the noisy one is color.noisy "
         "then. With `aovs` likewise those of light. RuntimeError says in one line why not.");

@@ -15,9 +15,9 @@ RasterMotion::RasterMotion(const RasterScene& scene, const RasterCamera& camera,
         }))
         return;
     const float seen = camera.timeCode(0.5f);
-    for (const float time : {ScreenMotion::timeCode(ScreenMotion::Before),
-                             ScreenMotion::timeCode(ScreenMotion::Now),
-                             ScreenMotion::timeCode(ScreenMotion::After), seen})
+    for (const float time :
+         {ScreenMotion::timeCode(ScreenMotion::Before), ScreenMotion::timeCode(ScreenMotion::Now),
+          ScreenMotion::timeCode(ScreenMotion::After), seen})
         _instances.push_back(
             std::make_unique<RasterInstances>(scene.parts().placements, time, scene.origin()));
     for (const RasterDraw& draw : scene.draws()) {
@@ -41,8 +41,7 @@ bool RasterMotion::way(const int* ids, const vec3& position, ScreenMotion::Momen
     const Prim& prim = known->second;
     const size_t place = size_t(ids[3]);
     if (place >= prim.seen->size()) return false;
-    const glm::dvec4 inPrim = prim.fromWhereSeen *
-                              glm::inverse((*prim.seen)[place].groupToWorld) *
+    const glm::dvec4 inPrim = prim.fromWhereSeen * glm::inverse((*prim.seen)[place].groupToWorld) *
                               glm::dvec4(dvec3(position), 1.0);
     const auto inWorld = [&](ScreenMotion::Moment m) {
         return dvec3((*prim.places[m])[place].groupToWorld * prim.toGroup[m] * inPrim);

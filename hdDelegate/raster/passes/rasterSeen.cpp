@@ -181,7 +181,8 @@ void RasterSeen::write(const RasterScene& scene, const RasterCamera& camera, con
                 const size_t i = size_t(_height - 1 - y) * size_t(_width) + size_t(x);
                 if (_images.positions[i].w == 0.0f) continue;
                 float out[4] = {0, 0, 0, 0};
-                if (aovValue(aovs[a].id, PixelPoint{_images, camera, moving, scene.origin(), slot, i}, out))
+                if (aovValue(aovs[a].id,
+                             PixelPoint{_images, camera, moving, scene.origin(), slot, i}, out))
                     film.addAov(int(a), x, y, out, 0.0f);
             }
         });

@@ -60,7 +60,8 @@ struct RasterAovRequest {
     }
 
     bool operator==(const RasterAovRequest& o) const {
-        return albedo == o.albedo && geometricNormal == o.geometricNormal && primvars == o.primvars && leftOut == o.leftOut;
+        return albedo == o.albedo && geometricNormal == o.geometricNormal &&
+               primvars == o.primvars && leftOut == o.leftOut;
     }
 };
 

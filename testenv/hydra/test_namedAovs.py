@@ -86,8 +86,8 @@ def test_motion_of_camera_and_prim(tmp_path, scene_index, shutter):
 @MODES
 def test_motion_of_points(tmp_path, scene_index):
     later = CORNERS.replace("-20, -20", "-19, -20").replace("(20", "(21").replace("-20, 20", "-19, 20")
-    channels, _ = render(tmp_path, quad(points=f".timeSamples = {{5: {CORNERS}, 6: {later}}}"), ("motionFore", "motionBackward"),
-                         scene_index)
+    moves = quad(points=f".timeSamples = {{5: {CORNERS}, 6: {later}}}")
+    channels, _ = render(tmp_path, moves, ("motionFore", "motionBackward"), scene_index)
     assert vectors(channels, "motionFore") == pytest.approx(whole(PIXELS, 0.0), abs=ROUNDING)
     assert np.abs(vectors(channels, "motionBackward")).max() < ROUNDING
 

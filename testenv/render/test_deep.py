@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Deep images, read back by OpenImageIO: put over each other, their samples are the flat image; and they lie where things are."""
+"""Deep images, read back by OpenImageIO: put over each other, their samples are the flat image; they lie where things are."""
 import json
 
 import numpy as np
@@ -155,7 +155,8 @@ def Scope "Render"
 '''
     stage, report = tmp_path / "stage.usda", tmp_path / "report.json"
     stage.write_text(HEAD + quad("sheet", -9, 0.5, 4, "half") + quad("wall", -9, 9, 2) + render)
-    patina("record", stage, "--settings", "/Render/main", "--outputFolder", tmp_path, "--samples", 16, "--quiet", "--json", report)
+    patina("record", stage, "--settings", "/Render/main", "--outputFolder", tmp_path, "--samples", 16, "--quiet", "--json",
+           report)
     beauty = flat(tmp_path / "flat.exr")
     assert (np.abs(flat(tmp_path / "deep.exr") - beauty) <= bound_of(tmp_path / "deep.exr", beauty)).all()
     with open(report, encoding="utf-8") as file:
@@ -183,7 +184,8 @@ def test_what_does_not_go_together(tmp_path, arguments, words):
 
 
 def test_frames_of_a_sequence(tmp_path):
-    record(scene("diffuseBox"), tmp_path / "image.##.exr", "-w", 8, "--samples", 1, "--frames", "1:2", "--deep", tmp_path / "deep.##.exr")
+    image = tmp_path / "image.##.exr"
+    record(scene("diffuseBox"), image, "-w", 8, "--samples", 1, "--frames", "1:2", "--deep", tmp_path / "deep.##.exr")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["deep.01.exr", "deep.02.exr", "image.01.exr", "image.02.exr"]
-    end = record(scene("diffuseBox"), tmp_path / "image.##.exr", "--frames", "1:2", "--deep", tmp_path / "deep.exr", check=False)
+    end = record(scene("diffuseBox"), image, "--frames", "1:2", "--deep", tmp_path / "deep.exr", check=False)
     assert end.returncode == 2 and "has no place for the frame" in end.stderr

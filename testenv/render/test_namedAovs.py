@@ -65,8 +65,8 @@ def quad(body="", name="sheet", half=20.0, z=-DISTANCE, kind="Mesh"):
 
 
 def stage_text(prims, camera="", far=0.0, unit=1.0, metersPerUnit=1.0, shutter=(0.0, 0.0)):
-    return HEAD % dict(prims=prims, camera=camera, far=far, near=0.1 * unit, most=1000 * unit, open=shutter[0], close=shutter[1],
-                       metersPerUnit=metersPerUnit)
+    return HEAD % dict(prims=prims, camera=camera, far=far, near=0.1 * unit, most=1000 * unit, open=shutter[0],
+                       close=shutter[1], metersPerUnit=metersPerUnit)
 
 
 def scaled(unit):
@@ -141,7 +141,8 @@ def test_what_comes_nearer_goes_outwards(tmp_path, backend):
 def test_instances_inside_of_instances(tmp_path, backend):
     """The outer instancer goes right, the inner one up, and the sheet back to the left: 1, 0.5 and -0.25 a frame."""
     def at(numbers, name="positions"):
-        return f'point3f[] {name}.timeSamples = {{4: [({numbers[0]}, {numbers[1]}, 0)], 6: [({-numbers[0]}, {-numbers[1]}, 0)]}}'
+        x, y = numbers
+        return f'point3f[] {name}.timeSamples = {{4: [({x}, {y}, 0)], 6: [({-x}, {-y}, 0)]}}'
 
     sheet = quad(moving("translate", {4: (0.25, 0, 0), 6: (-0.25, 0, 0)}))
     inner = (f'    def PointInstancer "inner"\n    {{\n        int[] protoIndices = [0]\n        {at((0, -0.5))}\n'
@@ -282,8 +283,8 @@ def Scope "Render"
 '''
     (tmp_path / "stage.usda").write_text(
         stage_text(quad(moving("translate", {0: (-5, 0, 0), 10: (5, 0, 0)})), shutter=(0.5, 0.75)) + settings)
-    patina("record", tmp_path / "stage.usda", "--settings", "/Render/main", "--outputFolder", tmp_path, "--frames", 5, "--samples",
-           4, "--quiet")
+    patina("record", tmp_path / "stage.usda", "--settings", "/Render/main", "--outputFolder", tmp_path, "--frames", 5,
+           "--samples", 4, "--quiet")
     found = _patina.read_image(str(tmp_path / "product.exr"))
     channels = dict(zip(found.channels, np.moveaxis(np.array(found.pixels), -1, 0)))
     assert {name.split(".")[0] for name in channels} == {"motionForward", "Ng", "Pref", "uv", "position"}

@@ -198,8 +198,9 @@ class _Job:
 
         wanted = [aov for shot in self.shots for aov in shot.aovs()]
         options = reader.StageOptions(
-            frame=shot.frame, shutter=None if self._blurs(shot) else (0.0, 0.0), motion=any(aov.startswith("motion") for aov in wanted), purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
-            headlight=not self.arguments.disableCameraLight,
+            frame=shot.frame, purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
+            shutter=None if self._blurs(shot) else (0.0, 0.0), headlight=not self.arguments.disableCameraLight,
+            motion=any(aov.startswith("motion") for aov in wanted),
             render_pass=self.arguments.renderPassPrimPath, material_purpose=getattr(self.arguments, "materialPurpose", "full"),
             matte_names=any(aov.startswith("crypto") for aov in wanted))
         with self.scene.edit() as edit:

@@ -75,8 +75,8 @@ def _add_denoise_flag(group):
                             "noisy one as color.noisy (./patina installs pyoidn for it; else $PATINA_OIDN_LIBRARY names "
                             "the library)")
     group.add_argument("--denoiseAovs", action="store_true",
-                       help="with --denoise: AOVs of light as well, each by itself with the same guides; they then add up to the "
-                            "colour only nearly")
+                       help="with --denoise: AOVs of light as well, each by itself with the same guides; they then add up to "
+                            "the colour only nearly")
 
 
 def add_tolerance_flag(group):
@@ -98,8 +98,9 @@ def _add_output_flags(group):
                             f"or all; light by its paths: {', '.join(LIGHT_AOVS)}, or NAME=lpe:EXPRESSION, in which "
                             "'key' is a light group")
     group.add_argument("--deep", metavar="FILE.exr",
-                       help="also write a deep image: the samples of each pixel front to back, with R, G, B, A, Z and ZBack, of "
-                            "surfaces, partial coverage and volumes. Flattened it is IMAGE before any denoising. Path tracer only")
+                       help="also write a deep image: the samples of each pixel front to back, with R, G, B, A, Z and ZBack, "
+                            "of surfaces, partial coverage and volumes. Flattened it is IMAGE before any denoising. Path "
+                            "tracer only")
     group.add_argument("--half", action="store_true", help="OpenEXR: colour as 16-bit floats")
     group.add_argument("--compression", default="zip", metavar="NAME",
                        choices=["none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"],

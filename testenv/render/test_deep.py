@@ -155,8 +155,8 @@ def Scope "Render"
 '''
     stage, report = tmp_path / "stage.usda", tmp_path / "report.json"
     stage.write_text(HEAD + quad("sheet", -9, 0.5, 4, "half") + quad("wall", -9, 9, 2) + render)
-    patina("record", stage, "--settings", "/Render/main", "--outputFolder", tmp_path, "--samples", 16, "--quiet", "--json",
-           report)
+    patina("record", stage, "--settings", "/Render/main", "--outputFolder", tmp_path, "--samples", 16, "--quiet",
+           f"--json={report}")
     beauty = flat(tmp_path / "flat.exr")
     assert (np.abs(flat(tmp_path / "deep.exr") - beauty) <= bound_of(tmp_path / "deep.exr", beauty)).all()
     with open(report, encoding="utf-8") as file:
@@ -167,7 +167,7 @@ def test_the_rasterizer_says_that_it_has_none(tmp_path):
     needs_opengl("raster")
     report = tmp_path / "report.json"
     record(scene("diffuseBox"), tmp_path / "image.exr", "-w", 16, "--samples", 1, "--backend", "raster", "--deep",
-           tmp_path / "deep.exr", "--json", report)
+           tmp_path / "deep.exr", f"--json={report}")
     assert not (tmp_path / "deep.exr").exists() and (tmp_path / "image.exr").exists()
     with open(report, encoding="utf-8") as file:
         assert [w["id"] for w in json.load(file)["warnings"]] == ["deepLeftOut"]

@@ -80,7 +80,8 @@ def render(tmp_path, text, aovs, backend="embree", *arguments, samples=4):
     needs_opengl(backend)
     stage, image, report = tmp_path / "stage.usda", tmp_path / "image.exr", tmp_path / "report.json"
     stage.write_text(text)
-    record(stage, image, "-w", SIZE, "--samples", samples, "--frames", 5, "--backend", backend, "--json", report,
+    record(stage, image, "-w", SIZE, "--samples", samples, "--frames", 5, "--backend", backend, "--filterRadius", 0.5,
+           f"--json={report}",
            *[a for aov in aovs for a in ("--aov", aov)], *arguments)
     found = _patina.read_image(str(image))
     with open(report, encoding="utf-8") as file:

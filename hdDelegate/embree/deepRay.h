@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/film/deepPixels.h"
+#include "hdDelegate/film/film.h"
 
 namespace patina {
 

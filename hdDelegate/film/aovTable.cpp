@@ -70,6 +70,18 @@ AovId aovIdOf(const std::string& name) {
     return AovId::unknown;
 }
 
+int cryptomatteLayerOf(const std::string& name, std::string& aov) {
+    const size_t digits = 2;
+    if (name.size() <= digits) return -1;
+    const std::string number = name.substr(name.size() - digits);
+    const std::string base = aovNamed(name.substr(0, name.size() - digits));
+    const AovId id = aovIdOf(base);
+    if (id == AovId::unknown || aovRows()[size_t(id)].kind != AovKind::Coverage) return -1;
+    if (number[0] != '0' || number[1] < '0' || number[1] >= '8') return -1;
+    aov = base;
+    return number[1] - '0';
+}
+
 bool isOfFilm(const std::string& aov) {
     const AovId id = aovIdOf(aov);
     return id != AovId::unknown && aovRows()[size_t(id)].ofFilm;

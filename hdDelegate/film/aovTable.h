@@ -104,6 +104,11 @@ std::string aovNamed(const std::string& source);
 /// @returns AovId::unknown for a name that standardAov() does not take
 AovId aovIdOf(const std::string& name);
 
+/// A layer of Cryptomatte by its name in files: crypto_object01 is the second one of cryptoObject.
+/// @param aov receives the AOV's name
+/// @returns its number, 0 to 7; -1 for another name
+int cryptomatteLayerOf(const std::string& name, std::string& aov);
+
 /// Whether the film makes an AOV from the samples themselves, so that it is always there.
 bool isOfFilm(const std::string& aov);
 

@@ -42,18 +42,6 @@ std::string cryptomatteLayer(const AovSpec& spec) {
     return layer;
 }
 
-int cryptomatteLayerOf(const std::string& name, std::string& aov) {
-    const size_t digits = 2;
-    if (name.size() <= digits) return -1;
-    const std::string number = name.substr(name.size() - digits);
-    const std::string base = aovNamed(name.substr(0, name.size() - digits));
-    const AovId id = aovIdOf(base);
-    if (id == AovId::unknown || aovRows()[size_t(id)].kind != AovKind::Coverage) return -1;
-    if (number[0] != '0' || number[1] < '0' || number[1] - '0' >= mostCryptomatteLayers) return -1;
-    aov = base;
-    return number[1] - '0';
-}
-
 std::vector<std::string> cryptomatteChannels(const AovSpec& spec) {
     std::vector<std::string> channels;
     for (int i = 0; i < spec.components; ++i) {
@@ -87,6 +75,14 @@ void checkCryptomatteCompression(const std::string& path, const std::string& com
     throw std::runtime_error("cannot write '" + path + "': compression '" + compression +
                              "' changes the ids of Cryptomatte; none, rle, zip, zips and piz do "
                              "not");
+}
+
+Metadata cryptomatteMetadata(const Film& film) {
+    Metadata metadata;
+    for (const AovSpec& spec : film.aovs())
+        if (spec.kind == AovKind::Coverage)
+            addCryptomatteMetadata(spec, film.coverageNames(spec.name), metadata);
+    return metadata;
 }
 
 } // namespace patina

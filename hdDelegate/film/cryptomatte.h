@@ -17,14 +17,6 @@ int cryptomatteComponents(int levels);
 /// The name of its layers: crypto_object of cryptoObject.
 std::string cryptomatteLayer(const AovSpec& spec);
 
-/// Layers that hold all of so many ids.
-inline constexpr int mostCryptomatteLayers = 8;
-
-/// A layer by its name in files: crypto_object01 is the second one of cryptoObject.
-/// @param aov receives the AOV's name
-/// @returns its number, -1 for another name
-int cryptomatteLayerOf(const std::string& name, std::string& aov);
-
 /// crypto_object00.R ... crypto_object02.A
 std::vector<std::string> cryptomatteChannels(const AovSpec& spec);
 

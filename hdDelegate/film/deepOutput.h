@@ -12,17 +12,6 @@ namespace patina {
 void writeDeep(const DeepPixels& pixels, const std::string& path, const ImageOptions& options = {},
                const Metadata& metadata = {});
 
-/// A deep image as it is in its file.
-struct DeepImage {
-    int width = 0, height = 0;
-    std::vector<std::string> channels;
-    std::vector<int> counts;   ///< samples by pixel, top row first
-    std::vector<float> values; ///< sample after sample, channels interleaved
-};
-
-/// @throws std::runtime_error with a one-line reason
-DeepImage readDeep(const std::string& path);
-
 /// The channels of a deep image after OpenImageIO has put the samples of each pixel over each
 /// other.
 /// @throws std::runtime_error with a one-line reason

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/aovs.h"
 
-#include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/film.h"
 
 #include <pxr/base/gf/vec2f.h>
@@ -35,9 +34,8 @@ HdPatinaShownAov shownAovOf(const TfToken& hydraName) {
     if (shown.layer >= 0) return shown;
     shown.film = filmAovOf(hydraName);
     if (shown.film.empty() || standardAov(shown.film).kind != AovKind::Coverage) return shown;
-    TF_WARN("AOV %s has several layers; its buffer stays empty. Buffers of %s00, %s01... show them",
-            hydraName.GetText(), cryptomatteLayer(standardAov(shown.film)).c_str(),
-            cryptomatteLayer(standardAov(shown.film)).c_str());
+    TF_WARN("AOV %s has several layers; its buffer stays empty. Buffers %s00, %s01... show them",
+            hydraName.GetText(), hydraName.GetText(), hydraName.GetText());
     return {};
 }
 

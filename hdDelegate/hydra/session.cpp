@@ -2,7 +2,6 @@
 #include "hdDelegate/hydra/session.h"
 
 #include "hdDelegate/backends/backends.h"
-#include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/denoiser.h"
 
 #include <algorithm>
@@ -122,9 +121,7 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
         frame->images.resize(_forms.size());
         for (size_t i = 0; i < _forms.size(); ++i)
             _forms[i].read(denoised ? clean : film, frame->images[i]);
-        for (const AovSpec& spec : film.aovs())
-            if (frame->last && spec.kind == AovKind::Coverage)
-                addCryptomatteMetadata(spec, film.coverageNames(spec.name), frame->mattes);
+        if (frame->last) frame->mattes = cryptomatteMetadata(film);
     }
     std::unique_lock<std::mutex> lock(_mutex);
     // Images that follow each other in small steps are a jump again where a host misses some.

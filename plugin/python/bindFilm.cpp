@@ -4,7 +4,6 @@
 
 #include "plugin/python/filmAtRest.h"
 #include "hdDelegate/film/atomicFile.h"
-#include "hdDelegate/film/deepOutput.h"
 #include "hdDelegate/film/denoiser.h"
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/film/relativeError.h"

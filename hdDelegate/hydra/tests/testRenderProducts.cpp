@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/film/deepOutput.h"
+#include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/hydra/renderDelegate.h"
 #include "hdDelegate/hydra/renderPass.h"
 #include "hdDelegate/hydra/renderProducts.h"

@@ -379,3 +379,24 @@ def test_reference_position_without_the_primvar(tmp_path, backend):
     own = (vectors(channels, "position", "XYZ") - (1, 2, 0)) / (2, 2, 1)
     assert vectors(channels, "Pref", "XYZ") == pytest.approx(own, abs=1e-5)
     assert not vectors(channels, "primvars:Pref", "XYZ").any()
+
+
+@backends
+def test_equal_spheres_that_share_their_triangles(tmp_path, backend):
+    """Twenty of them, each with ways of its own: to the right before the frame, up after it."""
+    places_ = [((i % 5 - 2) * 1.5, (i // 5 - 1.5) * 1.5) for i in range(20)]
+    prims = "".join(f'''    def Sphere "s{i:02d}"
+    {{
+        double radius = 0.7
+        {moving("translate", {4: (x - 0.1 * i, y, -8), 5: (x, y, -8), 6: (x, y + 0.05 * i, -8)})}
+    }}
+''' for i, (x, y) in enumerate(places_))
+    channels, _ = render(tmp_path, stage_text(prims), ("Pref", "position", "primId", *MOTION), backend)
+    for i, (x, y) in enumerate(places_):
+        seen = channels["primId"] == i
+        place = vectors(channels, "position", "XYZ")[seen]
+        assert len(place) > 4
+        assert vectors(channels, "Pref", "XYZ")[seen] == pytest.approx(place - (x, y, -8), abs=rounding({}) / PIXELS)
+        pixels = SIZE / -place[:, 2:]
+        assert vectors(channels, "motionForward")[seen] == pytest.approx(pixels * (0, -0.05 * i), abs=rounding({}))
+        assert vectors(channels, "motionBackward")[seen] == pytest.approx(pixels * (-0.1 * i, 0), abs=rounding({}))

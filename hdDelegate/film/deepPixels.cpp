@@ -27,9 +27,11 @@ void DeepPixels::Bin::add(const DeepEvent& event) {
 void DeepPixels::add(int x, int y, const DeepEvent* events, int count) {
     Cell& cell = _cells[size_t(y) * size_t(_width) + size_t(x)];
     ++cell.rays;
-    for (int i = 0; i < count; ++i)
-        if (events[i].alpha != 0.0f || events[i].color != glm::vec3(0.0f))
-            insert(cell.bins, events[i]);
+    for (int i = 0; i < count; ++i) {
+        DeepEvent event = events[i];
+        if (!std::isfinite(event.depth)) event.depth = deepBackground;
+        if (event.alpha != 0.0f || event.color != glm::vec3(0.0f)) insert(cell.bins, event);
+    }
     while (cell.bins.size() > _most)
         mergeClosest(cell.bins);
 }

@@ -77,6 +77,7 @@ class _Job:
             if not a.deep.lower().endswith(".exr"):
                 raise CommandError(f"--deep {a.deep}: deep images are OpenEXR (.exr)")
             outputs.need_folders([a.deep], a.makeOutputPath)
+        a.denoise = a.denoise or a.denoiseAovs
         if a.denoise:
             denoiser.prepare(self.module)
         outputs.check_all([a.image, a.json, a.report])
@@ -88,6 +89,7 @@ class _Job:
         if prim:
             self.arguments = a = renderSettings.applied(a, prim)
             partJob.check(a)  # once more: now with what the prim says
+            a.denoise = a.denoise or a.denoiseAovs
             if a.denoise:
                 denoiser.prepare(self.module)
         self.settings, self.purposes = recordFlags.settings_of(a), recordFlags.purposes_of(a)

@@ -75,7 +75,7 @@ def _add_denoise_flag(group):
                             "noisy one as color.noisy (./patina installs pyoidn for it; else $PATINA_OIDN_LIBRARY names "
                             "the library)")
     group.add_argument("--denoiseAovs", action="store_true",
-                       help="with --denoise: AOVs of light as well, each by itself with the same guides; they then add up to "
+                       help="as --denoise, and AOVs of light as well, each by itself with the same guides; they then add up to "
                             "the colour only nearly")
 
 

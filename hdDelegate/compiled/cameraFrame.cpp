@@ -54,11 +54,11 @@ double largest(const dvec3& v) {
 
 CameraFrame::CameraFrame(const Camera& camera, const RenderSettings& settings)
     : imageSize(settings.width, settings.height), focusDistance(camera.focusDistance),
-      shutterOpen(float(camera.shutterOpen)), clipNear(camera.clipNear), clipFar(camera.clipFar),
-      orthographic(camera.orthographic && camera.lens.standard()), radial(!camera.lens.standard()) {
+      shutterOpen(shutterOf(camera, settings).x), clipNear(camera.clipNear),
+      clipFar(camera.clipFar), orthographic(camera.orthographic && camera.lens.standard()),
+      radial(!camera.lens.standard()) {
     constexpr float unit = 0.1f; // tenths of a scene unit
-    shutterLength =
-        settings.enableMotionBlur ? std::max(0.0f, float(camera.shutterClose) - shutterOpen) : 0.0f;
+    shutterLength = shutterOf(camera, settings).y - shutterOpen;
     vec2 aperture(std::max(1e-6f, camera.horizontalAperture),
                   std::max(1e-6f, camera.verticalAperture));
     const vec2 offset = vec2(camera.horizontalApertureOffset, camera.verticalApertureOffset) * unit;
@@ -93,6 +93,11 @@ float CameraFrame::windowDepth(const vec3& p) const {
     if (orthographic) return std::clamp((z - clipNear) / (clipFar - clipNear), 0.0f, 1.0f);
     if (z <= 0.0f) return 0.0f;
     return std::clamp(clipFar * (z - clipNear) / (z * (clipFar - clipNear)), 0.0f, 1.0f);
+}
+
+vec2 shutterOf(const Camera& camera, const RenderSettings& settings) {
+    const bool opens = settings.enableMotionBlur && camera.shutterClose > camera.shutterOpen;
+    return opens ? vec2(camera.shutterOpen, camera.shutterClose) : vec2(0.0f);
 }
 
 dvec3 cameraPlace(const Camera& camera, const RenderSettings& settings) {

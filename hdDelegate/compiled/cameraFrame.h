@@ -37,6 +37,10 @@ private:
     float _pixelSpread = 0.0f;
 };
 
+/// When the shutter opens and closes, time codes relative to the frame. Without motion blur, or
+/// where it never opens, all is as at the frame's time.
+vec2 shutterOf(const Camera& camera, const RenderSettings& settings);
+
 /// Where the camera is in the middle of the shutter.
 dvec3 cameraPlace(const Camera& camera, const RenderSettings& settings);
 /// How large things look from there. @param origin of the space that they are in, see seenFrom()

@@ -11,25 +11,18 @@ namespace patina {
 
 namespace {
 
-bool moves(const Geometry& prim) {
-    switch (prim.kind) {
-    case GeometryKind::Mesh: return static_cast<const Mesh&>(prim).points.moves();
-    case GeometryKind::Curves: return static_cast<const Curves&>(prim).points.moves();
-    case GeometryKind::Points: return static_cast<const Points&>(prim).points.moves();
-    default: return false;
-    }
-}
-
 /// Times make no difference to what stands still, edges none to what is drawn as it is.
-std::array<double, 7> numbersOf(const ShapeRequest& request) {
+std::array<double, 8> numbersOf(const ShapeRequest& request) {
     const TessellationOptions& o = request.options;
     const GeometryKind kind = request.prim->kind;
-    const bool stands = !moves(*request.prim);
+    const bool stands = !deforms(*request.prim);
     const double open = stands ? 0.0 : double(o.shutterOpen);
     const double close = stands ? 0.0 : double(o.shutterClose);
-    if (kind == GeometryKind::Curves || kind == GeometryKind::Points) return {open, close};
+    const double moments = !stands && o.withMoments ? 1.0 : 0.0;
+    if (kind == GeometryKind::Curves || kind == GeometryKind::Points) return {open, close, moments};
     return {open,
             close,
+            moments,
             double(o.targetEdge),
             kind == GeometryKind::Implicit ? double(o.roundEdge) : 0.0,
             double(o.edgeBudget),

@@ -53,7 +53,7 @@ private:
 
     private:
         Reference<const Geometry> _prim;
-        std::array<double, 7> _numbers;
+        std::array<double, 8> _numbers;
         std::vector<Reference<const MaterialProgram>> _displacers; ///< empty: nothing is displaced
         mat4 _toWorld;
     };

@@ -22,11 +22,12 @@ void frameOf(const vec3& n, vec3& x, vec3& y) {
 
 float AmbientOcclusion::sample(const CameraRay& ray, Sampler& sampler,
                                const std::vector<AovSpec>& aovs, const AovTarget& target,
-                               const CameraRays& camera, uint64_t& rayCount) const {
+                               const CameraRays& camera, uint64_t& rayCount, float& depth) const {
     Hit hit;
     ++rayCount;
     if (!scene.intersect(ray.origin, ray.direction, ray.near, ray.far, ray.time, RayCamera, hit))
         return -1.0f;
+    depth = camera.depthAt(ray.origin + ray.direction * hit.distance);
     if (!aovs.empty()) {
         SurfacePoint point;
         computeSurfacePoint(hit, ray.origin, ray.direction,

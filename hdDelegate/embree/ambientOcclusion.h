@@ -17,9 +17,11 @@ struct AmbientOcclusion {
     int rays; ///< per hit, cosine distributed, stratified
 
     /// @param target where AOVs are written; @param rayCount is counted up by the rays traced
+    /// @param depth of what is hit, as of the AOV
     /// @returns visibility, or a negative number when the ray meets nothing
     float sample(const CameraRay& ray, Sampler& sampler, const std::vector<AovSpec>& aovs,
-                 const AovTarget& target, const CameraRays& camera, uint64_t& rayCount) const;
+                 const AovTarget& target, const CameraRays& camera, uint64_t& rayCount,
+                 float& depth) const;
 };
 
 } // namespace patina

@@ -2,6 +2,7 @@
 #include "hdDelegate/embree/aovWriter.h"
 
 #include "hdDelegate/compiled/matteNames.h"
+#include "hdDelegate/embree/hitPlace.h"
 #include "hdDelegate/film/aovValues.h"
 
 namespace patina {
@@ -22,6 +23,7 @@ public:
     float windowDepth() const { return _camera.windowDepth(_inCamera); }
     vec3 position() const { return _shading.worldPosition(); }
     const vec3& normal() const { return _shading.normal; }
+    const vec3& geometricNormal() const { return _shading.geometricNormal; }
     const mat4& worldToCamera() const { return _camera.worldToCamera(); }
     int primId() const { return _hit.surface->primId; }
     int instanceId() const { return _hit.instanceId; }
@@ -35,6 +37,20 @@ public:
     bool primvar(float out[4]) const {
         readPrimvar(_hit, *primvarName, out);
         return true;
+    }
+    bool reference(float out[4]) const {
+        if (readPrimvar(_hit, *primvarName, out)) return true;
+        const dvec3 place = _hit.surface->shape == Surface::Shape::Triangles
+                                ? HitPlace(_hit, _camera.frame()).inPrim()
+                                : dvec3(_shading.objectPosition);
+        out[0] = float(place.x), out[1] = float(place.y), out[2] = float(place.z);
+        return true;
+    }
+    bool motion(bool later, float out[4]) const {
+        const HitPlace place(_hit, _camera.frame());
+        const auto moment = later ? ScreenMotion::After : ScreenMotion::Before;
+        return _camera.motion().way(place.inWorld(ScreenMotion::Now), place.inWorld(moment), moment,
+                                    out);
     }
 
     const std::string* primvarName = nullptr;

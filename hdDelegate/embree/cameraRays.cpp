@@ -23,7 +23,7 @@ CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings, con
                        std::shared_ptr<const DistortionMap> distortion)
     : _camera(camera), _frame(camera, settings), _origin(origin),
       _moves(camera.transform.moves() && _frame.shutterLength > 0.0f),
-      _pixelSpread(_frame.pixelSpread()) {
+      _pixelSpread(_frame.pixelSpread()), _motion(camera, _frame) {
     _worldToCamera = glm::inverse(transformAt(0.5f));
     if (LensRays::needed(camera.lens)) _lens.emplace(camera, _frame, std::move(distortion));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/compiled/screenMotion.h"
 #include "hdDelegate/embree/lensRays.h"
 
 #include <memory>
@@ -40,9 +41,14 @@ public:
     /// Depth in [0,1] as OpenGL's default window depth, of a camera space point.
     float windowDepth(const vec3& cameraPoint) const { return _frame.windowDepth(cameraPoint); }
     float depthOf(const vec3& cameraPoint) const { return _frame.depthOf(cameraPoint); }
+    float depthAt(const vec3& place) const { ///< of a place in the space of the rays
+        return depthOf(vec3(_worldToCamera * vec4(place, 1.0f)));
+    }
     float pixelSpread() const { return _pixelSpread; } ///< see CameraFrame
     bool orthographic() const { return _frame.orthographic; }
     const Camera& camera() const { return _camera; }
+    const CameraFrame& frame() const { return _frame; }
+    const ScreenMotion& motion() const { return _motion; } ///< of places in the world
 
 private:
     mat4 transformAt(float time) const;
@@ -54,6 +60,7 @@ private:
     bool _moves;
     float _pixelSpread;
     mat4 _worldToCamera{1.0f};
+    ScreenMotion _motion;
 };
 
 /// Value of a sampled quantity at a time, linear between samples and constant outside.

@@ -257,9 +257,12 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs, _settings.cryptomatteLevels);
     _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
 
+    if (_settings.deep) _film->keepDeep(_settings.deepSamples);
     _film->allowNegative(takesLightAway(state, _settings));
     _film->setFirstSample(uint32_t(std::max(0, _settings.sampleBegin)));
     const CameraRays rays(camera, _settings, _origin, distortionOf(camera));
+    if (tellMotion(_settings.aovs) && !ScreenMotion::knows(camera))
+        _scene->diagnostics().warn(camera.path, "", messages::motionAovsEmpty);
     RenderSettings sampled = _settings;
     sampled.tolerance = plan.noise(_settings.tolerance);
     sampled.maxDepth = plan.depth(_settings);

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/compiled/drawFilter.h"
 #include "hdDelegate/embree/cameraRays.h"
+#include "hdDelegate/film/aovTable.h"
 #include "hdDelegate/parallel.h"
 #include "hdDelegate/scene/primCompare.h"
 #include "materialNetwork/material.h"
@@ -36,6 +37,8 @@ size_t bytesOf(const Surface& surface, bool keepsRest) {
     add(surface.placed.positions);
     add(surface.placed.points);
     add(surface.placed.normals);
+    add(surface.moments.positions);
+    add(surface.moments.points);
     for (const MeshAttribute& attribute : surface.attributes())
         total += attribute.data.size() * sizeof(float);
     return total;
@@ -188,14 +191,16 @@ void EmbreeScene::describe(CachedSurface& cached, const View& view) {
 
 void EmbreeScene::updateAll(View& view) {
     const SceneState& state = view.state;
-    const float open = float(view.camera.shutterOpen);
-    const float close = view.settings.enableMotionBlur ? float(view.camera.shutterClose) : open;
-    if (open != _shutterOpen || close != _shutterClose || _origin != _builtFrom) {
+    const vec2 shutter = shutterOf(view.camera, view.settings);
+    const bool withMoments = tellMotion(view.settings.aovs);
+    if (shutter != vec2(_shutterOpen, _shutterClose) || _origin != _builtFrom ||
+        withMoments != _withMoments) {
         _surfaces.clear();
         _nodes.clear();
     }
-    _shutterOpen = open;
-    _shutterClose = close;
+    _shutterOpen = shutter.x;
+    _shutterClose = shutter.y;
+    _withMoments = withMoments;
     _builtFrom = _origin;
     _surfacesOf.clear();
     _emitting.clear();

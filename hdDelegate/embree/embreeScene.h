@@ -222,6 +222,7 @@ private:
     std::vector<const Surface*> _emissive;
     VolumeScene _volumes;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f;
+    bool _withMoments = false;           ///< an AOV tells motion
     dvec3 _origin{0.0}, _builtFrom{0.0}; ///< of the last update; of what is cached
     size_t _translucent = 0, _withMedia = 0, _withPriority = 0,
            _surfaceBytes = 0; ///< of all surfaces

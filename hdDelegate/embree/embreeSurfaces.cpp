@@ -56,6 +56,7 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
     ShapeRequest request{prim, {}, displacers};
     request.options.shutterOpen = _shutterOpen;
     request.options.shutterClose = _shutterClose;
+    request.options.withMoments = _withMoments;
     request.options.targetEdge = edgeLength;
     if (displacers.empty()) request.options.roundEdge = edgeLength;
     request.toWorld = displacementSpace(*prim, 0.5f * (_shutterOpen + _shutterClose));
@@ -67,6 +68,7 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
         surface->placed = takeAtRest(shape);
         surface->rest = std::make_shared<const PrimShape>(std::move(shape));
     }
+    if (_withMoments && deforms(*prim)) surface->moments = takeMoments(surface->placed);
     return surface;
 }
 
@@ -143,6 +145,7 @@ void EmbreeScene::updateSurface(const Work& work, bool keepRest) {
         surface = std::make_shared<Surface>(*cached.surface);
         surface->prim = prim;
         surface->placed = atRest(*surface->rest);
+        if (_withMoments && deforms(*prim)) surface->moments = takeMoments(surface->placed);
     }
     if (!shared)
         bake(*surface,

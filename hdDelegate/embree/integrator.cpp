@@ -2,6 +2,7 @@
 #include "hdDelegate/embree/integrator.h"
 
 #include "hdDelegate/embree/aovWriter.h"
+#include "hdDelegate/embree/deepRay.h"
 #include "hdDelegate/embree/media/freeFlight.h"
 #include "hdDelegate/embree/path.h"
 #include "hdDelegate/film/pixelFilter.h"
@@ -199,6 +200,7 @@ Integrator::Step Integrator::meet(Path& path, SurfacePoint& point, const Hit& hi
     // The present share emits, whether or not light also passes.
     if (!culled && !caught && presence > 0.0f) addEmission(path, point, hit, presence);
     if (!(opacity < 1.0f) || path.sampler.random() < opacity) return Step::Arrives;
+    if (path.deep && path.fromCamera()) path.deep->pass(_camera.depthAt(s.position), path.radiance);
     path.throughput *= transmittance;
     if (++path.passThroughs > maxPassThroughs || path.throughput == vec3(0.0f)) return Step::Ends;
     if (program.passThroughEnters() && !culled) path.media.cross(program, s, priorityOf(hit));
@@ -210,7 +212,10 @@ Integrator::Step Integrator::meet(Path& path, SurfacePoint& point, const Hit& hi
 /// AOVs and the denoiser's guides get what they show of a vertex.
 void Integrator::show(Path& path, const SurfacePoint& point, const Bsdf& bsdf,
                       const AovTarget& target) const {
-    if (!std::exchange(path.shown, true)) writeAovs(_aovs, target, _camera, point, bsdf);
+    if (!std::exchange(path.shown, true)) {
+        writeAovs(_aovs, target, _camera, point, bsdf);
+        if (path.deep) path.deep->end(_camera.depthAt(point.shading.position));
+    }
     if (path.featured || !_guided || !bsdf.hasNonDelta()) return;
     path.featured = true;
     path.featureAlbedo = path.throughput * bsdf.albedo();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/embree/deepRay.h"
 #include "hdDelegate/embree/integrator.h"
 
 #include <cmath>
@@ -38,6 +39,8 @@ float Integrator::addLightsAlong(Path& path, float distance) const {
         path.radiance += seen;
         if (path.lightPaths) path.lightPaths->see(emitterOf(nearest->light), seen);
         path.alpha = 1.0f;
+        if (path.deep)
+            path.deep->end(_camera.depthAt(path.origin + path.direction * nearest->distance));
         return nearest->distance;
     }
     for (int i = 0; i < count; ++i)

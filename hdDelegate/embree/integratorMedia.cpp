@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/embree/deepRay.h"
 #include "hdDelegate/embree/integrator.h"
 
 #include "hdDelegate/embree/media/freeFlight.h"
@@ -70,6 +71,12 @@ Integrator::Step Integrator::fly(Path& path, float distance, TraceCounters& coun
             if (path.lightPaths) path.lightPaths->straight(LightEvent());
             addRadiance(path, collision.emitted);
             path.throughput = before;
+            const float sum =
+                (collision.emitted.x + collision.emitted.y + collision.emitted.z) / 3.0f;
+            if (path.deep && path.fromCamera() && sum > 0.0f)
+                path.deep->pass(
+                    _camera.depthAt(path.origin + path.direction * (collision.emittedFrom / sum)),
+                    path.radiance, true);
         }
         if (collision.absorbed) return Step::Ends;
     }
@@ -90,6 +97,8 @@ Integrator::Step Integrator::fly(Path& path, float distance, TraceCounters& coun
 Integrator::Step Integrator::scatterInside(Path& path, const Medium& medium, float distance,
                                            TraceCounters& counters) const {
     if (path.fromCamera()) path.alpha = 1.0f;
+    if (path.deep && path.fromCamera())
+        path.deep->end(_camera.depthAt(path.origin + path.direction * distance), true);
     if (path.depth >= _settings.maxDepth || path.scatterings >= _settings.maxScatterings)
         return Step::Ends;
     ++path.scatterings;

@@ -2,6 +2,7 @@
 #include "hdDelegate/embree/integrator.h"
 
 #include "hdDelegate/embree/ambientOcclusion.h"
+#include "hdDelegate/embree/deepRay.h"
 #include "hdDelegate/embree/media/mediaAround.h"
 #include "hdDelegate/film/film.h"
 
@@ -48,19 +49,27 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
             _lightPaths.write(LightPathRecord(_lightPaths), target, 1.0f, false);
         addFeatures(Path(sampler), target);
         film.addColor(x, y, vec3(0.0f), 0.0f);
+        if (film.deep()) film.deep()->add(x, y, nullptr, 0);
         return;
     }
     counters.clock.enter(nullptr);
     if (_ambientOcclusion) {
         const AmbientOcclusion occlusion{_scene, _settings.ambientOcclusionSamples};
-        const float seen = occlusion.sample(ray, sampler, _aovs, target, _camera, counters.rays);
+        DeepEvent event;
+        const float seen =
+            occlusion.sample(ray, sampler, _aovs, target, _camera, counters.rays, event.depth);
         ++counters.paths;
+        event.color = vec3(std::max(seen, 0.0f));
+        event.alpha = seen < 0.0f ? 0.0f : 1.0f;
+        if (film.deep()) film.deep()->add(x, y, &event, 1);
         film.addColor(x, y, vec3(std::max(seen, 0.0f)), seen < 0.0f ? 0.0f : 1.0f);
         return;
     }
 
     Path path(sampler);
-    path.shown = _aovs.empty();
+    std::optional<DeepRay> deep;
+    if (film.deep()) path.deep = &deep.emplace();
+    path.shown = _aovs.empty() && !path.deep;
     path.origin = ray.origin;
     path.direction = ray.direction;
     path.near = ray.near;
@@ -78,6 +87,9 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     if (lightPaths)
         _lightPaths.write(*lightPaths, target, _camera.camera().exposureScale,
                           !film.usable(color, path.alpha));
+    if (deep)
+        deep->write(*film.deep(), x, y, path.radiance, path.alpha, _camera.camera().exposureScale,
+                    film.usable(color, path.alpha));
     film.addColor(x, y, color, path.alpha);
 }
 

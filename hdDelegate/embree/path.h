@@ -10,6 +10,7 @@
 
 namespace patina {
 
+class DeepRay;
 class LightPathRecord;
 
 /// A path while it is traced, as plain data: the ray that goes on, what it carries, and what
@@ -60,6 +61,7 @@ struct Path : PathState {
 
     MediumStack media;
     HeroWavelengths waves;
+    DeepRay* deep = nullptr;                ///< null where no deep image is made
     LightPathRecord* lightPaths = nullptr;  ///< shares radiance out; null where no AOV asks
     const Surface* vertexSurface = nullptr; ///< of the last vertex, for light linking
     const std::vector<int>* vertexInstanceCategories = nullptr;

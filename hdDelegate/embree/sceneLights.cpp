@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/sceneLights.h"
 
+#include "hdDelegate/compiled/cameraFrame.h"
 #include "hdDelegate/embree/caustics/causticCasters.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "base/limits.h"
@@ -73,8 +74,9 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
                          Diagnostics& diagnostics) {
     LightSetInput input;
     input.origin = scene.origin();
-    input.shutterOpen = float(camera.shutterOpen);
-    input.shutterClose = settings.enableMotionBlur ? float(camera.shutterClose) : input.shutterOpen;
+    const vec2 shutter = shutterOf(camera, settings);
+    input.shutterOpen = shutter.x;
+    input.shutterClose = shutter.y;
     std::map<std::string, std::vector<mat4>> places;
     std::vector<std::shared_ptr<const Light>> meshLights;
     for (const auto& item : state.lights) {

@@ -37,6 +37,9 @@ struct Surface {
     /// PlacedShape has, in the prim's own space. Null where `shared` is not.
     std::shared_ptr<const PrimShape> rest;
     PlacedShape placed;
+    /// In the prim's own space, at ScreenMotion's moments, where its points move and an AOV tells
+    /// motion; else empty.
+    PlacedShape moments;
     /// Of one implicit prim among many: the triangles stand here, and its hits are those of an
     /// instance.
     std::shared_ptr<const SharedShape> shared;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace patina {
 
@@ -63,6 +64,20 @@ PlacedShape takeAtRest(PrimShape& shape) {
         return {{}, std::move(curves.controlPoints), std::move(curves.normals)};
     if (!points.points.empty()) return {{}, std::move(points.points), std::move(points.normals)};
     return {std::move(shape.mesh.positions), {}, std::move(shape.mesh.normals)};
+}
+
+PlacedShape takeMoments(PlacedShape& shape) {
+    PlacedShape moments;
+    const size_t steps = std::max(shape.positions.size(), shape.points.size());
+    const auto cut = [&](auto& from, auto& to) {
+        if (from.size() != steps || steps < 4) return;
+        to.assign(std::make_move_iterator(from.end() - 3), std::make_move_iterator(from.end()));
+        from.resize(steps - 3);
+    };
+    cut(shape.positions, moments.positions);
+    cut(shape.points, moments.points);
+    cut(shape.normals, moments.normals);
+    return moments;
 }
 
 void bake(Surface& surface, const std::vector<mat4>& transforms) {

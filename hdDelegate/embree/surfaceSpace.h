@@ -10,6 +10,9 @@ PlacedShape atRest(const PrimShape& shape);
 /// The same, which the shape then lacks.
 PlacedShape takeAtRest(PrimShape& shape);
 
+/// Takes the moments of TessellationOptions::withMoments out of what is at rest.
+PlacedShape takeMoments(PlacedShape& shape);
+
 /// A motion transform at uniform steps over the shutter; a single step where it stands still.
 /// @param origin of the space that it is wanted in, see seenFrom()
 std::vector<mat4> resample(const MotionTransform& transform, float open, float close,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/aovTable.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace patina {
@@ -67,6 +68,30 @@ AovId aovIdOf(const std::string& name) {
     for (const AovRow& row : aovRows())
         if (row.id != AovId::primvars && row.id != AovId::lpe && name == row.name) return row.id;
     return AovId::unknown;
+}
+
+int cryptomatteLayerOf(const std::string& name, std::string& aov) {
+    const size_t digits = 2;
+    if (name.size() <= digits) return -1;
+    const std::string number = name.substr(name.size() - digits);
+    const std::string base = aovNamed(name.substr(0, name.size() - digits));
+    const AovId id = aovIdOf(base);
+    if (id == AovId::unknown || aovRows()[size_t(id)].kind != AovKind::Coverage) return -1;
+    if (number[0] != '0' || number[1] < '0' || number[1] >= '8') return -1;
+    aov = base;
+    return number[1] - '0';
+}
+
+bool isOfFilm(const std::string& aov) {
+    const AovId id = aovIdOf(aov);
+    return id != AovId::unknown && aovRows()[size_t(id)].ofFilm;
+}
+
+bool tellMotion(const std::vector<std::string>& aovs) {
+    return std::any_of(aovs.begin(), aovs.end(), [](const std::string& aov) {
+        const AovId id = aovIdOf(aov);
+        return id == AovId::motionForward || id == AovId::motionBackward;
+    });
 }
 
 } // namespace patina

@@ -36,6 +36,7 @@ struct AovRow {
     const char* hydraName = nullptr;
     const char* expression = nullptr; ///< of its light paths
     const char* aliases = "";         ///< of render vars, separated by spaces
+    const char* primvar = nullptr;    ///< that it shows
 
     // The words of aovs.def.
     AovRow& film() {
@@ -70,6 +71,10 @@ struct AovRow {
         aliases = text;
         return *this;
     }
+    AovRow& reads(const char* text) {
+        primvar = text;
+        return *this;
+    }
     AovRow& all(const char* = "") { return *this; } // for plugin/patina/cli
 };
 
@@ -98,5 +103,16 @@ std::string aovNamed(const std::string& source);
 
 /// @returns AovId::unknown for a name that standardAov() does not take
 AovId aovIdOf(const std::string& name);
+
+/// A layer of Cryptomatte by its name in files: crypto_object01 is the second one of cryptoObject.
+/// @param aov receives the AOV's name
+/// @returns its number, 0 to 7; -1 for another name
+int cryptomatteLayerOf(const std::string& name, std::string& aov);
+
+/// Whether the film makes an AOV from the samples themselves, so that it is always there.
+bool isOfFilm(const std::string& aov);
+
+/// Whether one of these tells how things move from frame to frame.
+bool tellMotion(const std::vector<std::string>& aovs);
 
 } // namespace patina

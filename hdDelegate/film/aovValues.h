@@ -16,9 +16,9 @@ inline bool aovIsOfNormal(AovId id) {
 ///
 /// @tparam Point what the renderer knows of the place: inCamera(), its position in camera space,
 ///         with its depth() and windowDepth(); position() in the world, normal(),
-///         worldToCamera(), primId(), instanceId(), elementId(); albedo(out) and primvar(out),
-///         which say whether they know it; and denoisingOfPaths, where guides of the denoiser come
-///         from whole paths
+///         geometricNormal(), worldToCamera(), primId(), instanceId(), elementId(); albedo(out),
+///         primvar(out), reference(out) and motion(later, out), which say whether they know it; and
+///         denoisingOfPaths, where guides of the denoiser come from whole paths
 /// @returns false where there is nothing to write
 template <class Point> bool aovValue(AovId id, const Point& p, float out[4]) {
     const auto put = [&](const glm::vec3& v) {
@@ -38,7 +38,12 @@ template <class Point> bool aovValue(AovId id, const Point& p, float out[4]) {
         const glm::vec3 n = glm::mat3(p.worldToCamera()) * p.normal();
         return put(n / std::max(1e-30f, glm::length(n)));
     }
+    case AovId::Ng: return put(p.geometricNormal());
     case AovId::position: return put(p.position());
+    case AovId::uv: return p.primvar(out);
+    case AovId::Pref: return p.reference(out);
+    case AovId::motionForward: return p.motion(true, out);
+    case AovId::motionBackward: return p.motion(false, out);
     case AovId::albedo: return p.albedo(out);
     case AovId::denoisingAlbedo: return !Point::denoisingOfPaths && p.albedo(out);
     case AovId::denoisingNormal: return !Point::denoisingOfPaths && put(p.normal());

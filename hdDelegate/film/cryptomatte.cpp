@@ -77,4 +77,12 @@ void checkCryptomatteCompression(const std::string& path, const std::string& com
                              "not");
 }
 
+Metadata cryptomatteMetadata(const Film& film) {
+    Metadata metadata;
+    for (const AovSpec& spec : film.aovs())
+        if (spec.kind == AovKind::Coverage)
+            addCryptomatteMetadata(spec, film.coverageNames(spec.name), metadata);
+    return metadata;
+}
+
 } // namespace patina

@@ -164,28 +164,33 @@ std::string denoiserMissing() {
     return library()->missing;
 }
 
-void denoise(Film& film, int threads) {
+void denoise(Film& film, int threads, bool ofLight) {
     const std::shared_ptr<const Library> found = library();
     if (!found->missing.empty()) throw std::runtime_error(found->missing);
     const int width = film.width(), height = film.height();
     if (width < 1 || height < 1) throw std::runtime_error("there is no image to denoise");
 
-    std::vector<float> color = film.resolve(film.denoised() ? "color.noisy" : "color");
-    std::vector<float> result(color.size());
-    std::vector<Device::Image> images = {{"color", color}, {"output", result}};
-    std::vector<const char*> flags = {"hdr"};
     std::vector<float> albedo = film.resolve(denoisingAlbedoAov);
     std::vector<float> normal = film.resolve(denoisingNormalAov);
+    for (float& value : albedo)
+        value = std::clamp(value, 0.0f, 1.0f);
+    const bool guided = !albedo.empty() && !normal.empty();
+    std::vector<const char*> flags = {"hdr"};
+    if (guided && meanSamples(film) >= samplesOfCleanGuides) flags.push_back("cleanAux");
+    std::vector<std::string> aovs = {"color"};
+    for (const AovSpec& spec : film.aovs())
+        if (ofLight && (!spec.paths.empty() || spec.id == AovId::shadow)) aovs.push_back(spec.name);
     Device device(*found, threads);
-    if (!albedo.empty() && !normal.empty()) {
-        for (float& value : albedo)
-            value = std::clamp(value, 0.0f, 1.0f);
-        images.push_back({"albedo", albedo});
-        images.push_back({"normal", normal});
-        if (meanSamples(film) >= samplesOfCleanGuides) flags.push_back("cleanAux");
+    std::vector<std::vector<float>> results;
+    for (const std::string& aov : aovs) {
+        std::vector<float> noisy = film.resolve(film.denoised(aov) ? aov + ".noisy" : aov);
+        results.emplace_back(noisy.size());
+        std::vector<Device::Image> images = {{"color", noisy}, {"output", results.back()}};
+        if (guided) images.push_back({"albedo", albedo}), images.push_back({"normal", normal});
+        device.filter(images, flags, width, height);
     }
-    device.filter(images, flags, width, height);
-    film.setDenoised(std::move(result));
+    for (size_t i = 0; i < aovs.size(); ++i)
+        film.setDenoised(std::move(results[i]), aovs[i]);
 }
 
 } // namespace patina

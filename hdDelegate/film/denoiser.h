@@ -23,7 +23,9 @@ std::string denoiserMissing();
 /// led by the film's denoising AOVs where it holds both, which are denoised themselves first.
 /// Alpha stays. The noisy colour stays too, as "color.noisy"; a second call starts from it.
 /// @param threads 0 for all
+/// @param ofLight AOVs of light paths as well, each by itself with the same guides: they add up to
+///        the colour nearly, no longer to all bits
 /// @throws std::runtime_error with a one-line reason; the film is as before then
-void denoise(Film& film, int threads = 0);
+void denoise(Film& film, int threads = 0, bool ofLight = false);
 
 } // namespace patina

@@ -4,7 +4,7 @@
 #include "hdDelegate/parallel.h"
 
 #include <OpenEXR/IexBaseExc.h>
-#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenImageIO/half.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ void put(const ChannelSource& channel, const float* from, uint8_t* to) {
 void checkExrIsWhole(const std::string& path, const std::string& file) {
     bool whole = false;
     try {
-        whole = Imf::InputFile(file.c_str(), 0).isComplete();
+        whole = Imf::MultiPartInputFile(file.c_str(), 0).partComplete(0);
     } catch (const Iex::BaseExc& error) {
         throw std::runtime_error("cannot write '" + path +
                                  "': what was written cannot be read: " + firstLine(error.what()));

@@ -41,11 +41,6 @@ bool sameSpec(const AovSpec& a, const AovSpec& b) {
 
 constexpr char noisyColor[] = "color.noisy";
 
-bool alwaysThere(const std::string& name) {
-    const AovId id = aovIdOf(name);
-    return id != AovId::unknown && aovRows()[size_t(id)].ofFilm;
-}
-
 /// As assign(), but a vector of that size keeps its memory and is filled on all threads.
 template <class Value> void fill(std::vector<Value>& values, size_t count, const Value& value) {
     if (values.size() != count) return values.assign(count, value);
@@ -83,7 +78,7 @@ void checkAovSpec(const AovSpec& spec) {
 
 /// @param plane of such an AOV, whose memory is used again, or an empty one
 void Film::clearPlane(const AovSpec& spec, size_t pixels, Plane& plane) {
-    if (alwaysThere(spec.name)) return;
+    if (isOfFilm(spec.name)) return;
     if (spec.kind == AovKind::Mean)
         return fill(plane.sums, (2 * size_t(spec.components) + 1) * pixels, 0.0);
     if (spec.kind == AovKind::Coverage) {
@@ -109,6 +104,7 @@ void Film::clear(int width, int height, const std::vector<AovSpec>& aovs) {
     const bool same = width == _width && height == _height &&
                       std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);
     _denoised.clear();
+    _deep.reset();
     _blockSize = 1;
     _firstSample = 0;
     _allowsNegative = false;
@@ -141,37 +137,12 @@ void Film::resetTo(const FilmSource* source, int width, int height,
     clear(width, height, aovs);
 }
 
-/// @returns empty where the film itself has the AOV
-std::vector<float> Film::fromSource(const AovSpec& spec) const {
-    if (!_source || (!_source->has(spec.id) && !alwaysThere(spec.name))) return {};
-    PixelForm form;
-    form.type = spec.isInteger ? PixelForm::Type::Int : PixelForm::Type::Float;
-    form.components = spec.components;
-    form.nothing = spec.clearValue;
-    std::vector<float> out(size_t(_width) * size_t(_height) * size_t(spec.components),
-                           spec.clearValue);
-    _source->read(spec.id, form, out.data());
-    return out;
-}
-
 int Film::aovIndex(const std::string& name) const {
     for (size_t i = 0; i < _aovs.size(); ++i)
         if (_aovs[i].name == name) return int(i);
     for (size_t i = 0; i < _aovs.size(); ++i)
         if (_aovs[i].id == AovId::lpe && channelsOfAov(_aovs[i].name) == name) return int(i);
     return -1;
-}
-
-bool Film::findSpec(const std::string& name, AovSpec& spec) const {
-    if (name == noisyColor && denoised()) {
-        spec = standardAov("color");
-        spec.name = name;
-        return true;
-    }
-    int aov = aovIndex(name);
-    if (aov < 0 && !alwaysThere(name)) return false;
-    spec = aov >= 0 ? _aovs[size_t(aov)] : standardAov(name);
-    return true;
 }
 
 bool Film::usable(const glm::vec3& radiance, float alpha) const {
@@ -293,12 +264,6 @@ void Film::setMean(int x, int y, glm::vec3 color, float alpha) {
     p.meanBefore += float((after - before) / n);
 }
 
-void Film::setDenoised(std::vector<float> color) {
-    if (color.size() != 3 * _pixels.size())
-        throw std::invalid_argument("the denoised colour has not as many pixels as the film");
-    _denoised = std::move(color);
-}
-
 void Film::copyFrom(const Film& other) {
     if (other._source) {
         reset(other._width, other._height, other._aovs);
@@ -377,72 +342,6 @@ float Film::deviationOfMean(const Pixel& p) {
     const double weight = 0.5 * (n - part) / part;
     const double earlier = double(p.deviationBefore) * std::sqrt(part / n);
     return float(weight * latest + (1.0 - weight) * earlier);
-}
-
-glm::ivec2 Film::shownAt(int x, int y) const {
-    const glm::ivec4& w = _blockWindow;
-    if (_blockSize < 2 || x < w.x || y < w.y || x >= w.z || y >= w.w || pixel(x, y).count)
-        return {x, y};
-    const int left = x - (x - w.x) % _blockSize, top = y - (y - w.y) % _blockSize;
-    for (int up = 0; up < 2; ++up)
-        for (int back = 0; back < 2; ++back) {
-            const int i = left - back * _blockSize, k = top - up * _blockSize;
-            if (i >= w.x && k >= w.y && pixel(i, k).count) return {i, k};
-        }
-    return {x, y};
-}
-
-std::vector<float> Film::resolve(const std::string& name) const {
-    AovSpec spec;
-    if (!findSpec(name, spec)) return {};
-    if (std::vector<float> made = fromSource(spec); !made.empty()) return made;
-    size_t n = size_t(spec.components);
-    std::vector<float> out(size_t(_width) * size_t(_height) * n);
-    const bool ofSamples = name == "sampleCount" || name == "variance";
-    auto eachPixel = [&](auto value) {
-        parallelFor(0, _height, [&](int y) {
-            for (int x = 0; x < _width; ++x) {
-                const glm::ivec2 shown = ofSamples ? glm::ivec2(x, y) : shownAt(x, y);
-                value(shown.x, shown.y, &out[index(x, y) * n]);
-            }
-        });
-    };
-    if (name == "color" && denoised()) return _denoised;
-    if (name == "color" || name == noisyColor) {
-        eachPixel([this](int x, int y, float* to) {
-            glm::vec3 c = color(x, y);
-            std::copy(&c.x, &c.x + 3, to);
-        });
-    } else if (name == "alpha") {
-        eachPixel([this](int x, int y, float* to) { *to = alpha(x, y); });
-    } else if (name == "sampleCount") {
-        eachPixel([this](int x, int y, float* to) { *to = float(sampleCount(x, y)); });
-    } else if (name == "variance") {
-        eachPixel([this](int x, int y, float* to) { *to = varianceOfMean(x, y); });
-    } else {
-        const Plane& plane = _planes[size_t(aovIndex(name))];
-        eachPixel([&](int x, int y, float* to) {
-            if (spec.kind == AovKind::Coverage) {
-                // Ids that were not kept are empty, or left out.
-                const std::vector<CoverageCount> counts = plane.cells[index(x, y)].ranked();
-                for (size_t i = 0; i < std::min(n / 2, counts.size()); ++i) {
-                    std::memcpy(&to[2 * i], &counts[i].id, sizeof(float));
-                    to[2 * i + 1] = float(double(counts[i].samples) / sampleCount(x, y));
-                }
-                return;
-            }
-            if (spec.kind == AovKind::First) {
-                const float* values = &plane.nearest[index(x, y) * (n + 1)];
-                std::copy(values, values + n, to);
-                return;
-            }
-            const double* sums = &plane.sums[index(x, y) * (2 * n + 1)];
-            const double count = sums[2 * n];
-            for (size_t i = 0; i < n; ++i)
-                to[i] = count > 0 ? float((sums[i] + sums[n + i]) / count) : spec.clearValue;
-        });
-    }
-    return out;
 }
 
 } // namespace patina

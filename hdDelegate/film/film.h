@@ -4,12 +4,15 @@
 #include "base/messages.h"
 #include "hdDelegate/film/aovTable.h"
 #include "hdDelegate/film/coverage.h"
+#include "hdDelegate/film/deepPixels.h"
 #include "hdDelegate/film/filmSource.h"
 
 #include <glm/glm.hpp>
 
 #include <atomic>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,7 +26,7 @@ struct AovSpec {
     float clearValue = 0.0f; ///< of pixels that no sample reached
     bool isInteger = false;  ///< ids: stored as float bits of int32 (glm::intBitsToFloat)
     AovId id = AovId::unknown;
-    std::string primvar = {}; ///< NAME of primvars:NAME
+    std::string primvar = {}; ///< that it shows: NAME of primvars:NAME
     std::string paths = {};   ///< the light path expression that it is of
 };
 
@@ -114,11 +117,12 @@ public:
     /// Replaces the mean of a pixel that has samples; their number and the variance stay.
     void setMean(int x, int y, glm::vec3 color, float alpha);
     /// Shows another colour than the mean of the samples, which then is "color.noisy", until
-    /// reset() is called (as each render does when it starts).
-    /// @param color three floats per pixel, top row first
+    /// reset() is called (as each render does when it starts). Likewise of an AOV of three
+    /// components.
+    /// @param pixels three floats for each, top row first
     /// @throws std::invalid_argument for another number of values
-    void setDenoised(std::vector<float> color);
-    bool denoised() const { return !_denoised.empty(); }
+    void setDenoised(std::vector<float> pixels, const std::string& aov = "color");
+    bool denoised(const std::string& aov = "color") const { return _denoised.count(aov) > 0; }
 
     /// Until reset() is called or size is 1, pixels without samples show that of a neighbour: the
     /// first pixel of their block, or of the block to the left or above. Sample counts and
@@ -130,8 +134,12 @@ public:
         _blockWindow = window;
     }
 
-    /// Becomes equal to another film, with all of its accumulators. The image of a source becomes
-    /// one sample of each pixel.
+    /// After reset(): samples are kept by their depths, too. @param most of a pixel
+    void keepDeep(int most) { _deep = std::make_shared<DeepPixels>(_width, _height, most); }
+    DeepPixels* deep() const { return _deep.get(); } ///< or null
+
+    /// Becomes equal to another film, but for deep pixels, with all of its accumulators. The image
+    /// of a source becomes one sample of each pixel.
     void copyFrom(const Film& other);
 
     uint32_t sampleCount(int x, int y) const { return pixel(x, y).count; }
@@ -151,8 +159,8 @@ public:
     float deviationBefore(int x, int y) const { return pixel(x, y).deviationEarlier; }
     float luminance(int x, int y) const; ///< Rec.709
 
-    /// Resolved pixels of any AOV (also color, alpha, sampleCount, variance, and color.noisy where
-    /// the colour is denoised): components floats per
+    /// Resolved pixels of any AOV (also color, alpha, sampleCount, variance, and AOV.noisy where it
+    /// is denoised): components floats per
     /// pixel, top row first. @returns empty for an unknown name.
     std::vector<float> resolve(const std::string& name) const;
     /// The spec of anything that resolve() knows. @returns false for an unknown name.
@@ -224,7 +232,8 @@ private:
     std::vector<Pixel> _pixels;
     std::vector<Plane> _planes; ///< beside _aovs; empty for those that always exist
     const FilmSource* _source = nullptr;
-    std::vector<float> _denoised; ///< what shows instead of the colour's means, or empty
+    std::shared_ptr<DeepPixels> _deep;
+    std::map<std::string, std::vector<float>> _denoised; ///< by AOV: what shows instead of means
     std::atomic<uint64_t> _dropped{0};
     uint32_t _firstSample = 0;
     bool _allowsNegative = false;

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/film/atomicFile.h"
 #include "hdDelegate/film/cryptomatte.h"
+#include "hdDelegate/film/deepOutput.h"
 #include "hdDelegate/film/imageOutput.h"
 
 #include <algorithm>
@@ -84,6 +85,11 @@ static bool isShown(const std::string& path, const ImageOptions& options) {
 void writeImage(const Film& film, const std::string& path, const ImageOptions& options,
                 const Metadata& metadata) {
     checkOptions(options);
+    if (options.deep) {
+        if (!film.deep())
+            throw std::runtime_error("cannot write '" + path + "': no deep pixels were kept");
+        return writeDeep(*film.deep(), path, options, metadata);
+    }
     checkAovs(path, options.aovs);
     ImagePlacement placement = placementOf(film.width(), film.height(), options);
     std::vector<std::string> names = options.aovs;

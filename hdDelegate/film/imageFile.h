@@ -29,6 +29,7 @@ struct ImageOptions {
     int dataWindow[4] = {0, 0, -1, -1};
     double pixelAspectRatio = 1.0;
 
+    bool deep = false;       ///< the film's deep pixels (film/deepPixels.h), instead of its AOVs
     bool half = false;       ///< OpenEXR: colour, alpha and albedo as half; data always is float
     bool integerIds = false; ///< OpenEXR: ids as UINT; else as float, which is exact below 2^24
     std::string compression = "zip"; ///< OpenEXR: none, rle, zip, zips, piz, pxr24, b44, dwaa...
@@ -68,6 +69,10 @@ void checkImagePath(const std::string& path, const std::vector<std::string>& aov
 void writeImage(const Film& film, const std::string& path, const ImageOptions& options = {},
                 const Metadata& metadata = {});
 
+/// The names of the ids of all of a film's Cryptomatte AOVs, as files have them:
+/// cryptomatte/ID/name, hash, conversion and manifest.
+Metadata cryptomatteMetadata(const Film& film);
+
 /// The names of an AOV's channels in OpenEXR files.
 std::vector<std::string> channelNames(const AovSpec& spec);
 
@@ -83,9 +88,21 @@ struct ImageData {
     Metadata metadata;
 };
 
-/// Reads any format of OIIO without changing values.
+/// Reads any format of OIIO without changing values. Samples of deep images are put over each
+/// other.
 /// @throws std::runtime_error with a one-line reason
 ImageData readImage(const std::string& path);
+
+/// A deep image as it is in its file.
+struct DeepImage {
+    int width = 0, height = 0;
+    std::vector<std::string> channels;
+    std::vector<int> counts;   ///< samples by pixel, top row first
+    std::vector<float> values; ///< sample after sample, channels interleaved
+};
+
+/// @throws std::runtime_error with a one-line reason
+DeepImage readDeep(const std::string& path);
 
 /// Writes float pixels by the rules of writeImage(); of OpenEXR all channels with their names.
 /// Other formats take the first three or four channels (premultiplied) or one.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/film/deepOutput.h"
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/film/imageOutput.h"
 #include "base/limits.h"
@@ -106,6 +107,10 @@ ImageData readImage(const std::string& path) {
     image.metadata = metadataOf(spec);
     size_t n = size_t(spec.nchannels), count = size_t(spec.width) * size_t(spec.height);
     image.pixels.resize(count * n);
+    if (spec.deep) {
+        image.pixels = flattened(path);
+        return image;
+    }
     bool read;
     if (!hasIntegers(spec)) {
         read = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, image.pixels.data());

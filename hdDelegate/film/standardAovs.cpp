@@ -72,6 +72,7 @@ AovSpec standardAov(const std::string& name) {
         spec.paths = lightPathAovOf(name).expression;
     }
     if (row.expression) spec.paths = row.expression;
+    if (row.primvar) spec.primvar = row.primvar;
     return spec;
 }
 
@@ -98,8 +99,7 @@ std::vector<Message> leaveOutLightPaths(std::vector<std::string>& names) {
 std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names, int cryptomatteLevels) {
     std::vector<AovSpec> aovs;
     for (const std::string& name : names) {
-        const AovId id = aovIdOf(name);
-        if (id != AovId::unknown && aovRows()[size_t(id)].ofFilm) continue;
+        if (isOfFilm(name)) continue;
         aovs.push_back(standardAov(name));
         if (aovs.back().kind == AovKind::Coverage)
             aovs.back().components = cryptomatteComponents(cryptomatteLevels);

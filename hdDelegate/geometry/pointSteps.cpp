@@ -55,8 +55,9 @@ PointSteps resamplePoints(const Sampled<std::vector<vec3>>& points, const std::s
         return result;
     }
     const UsableSamples samples = usableSamples(points, prim, diagnostics);
-    const std::vector<float> times =
+    std::vector<float> times =
         motionTimes(samples.times, options.shutterOpen, options.shutterClose);
+    if (options.withMoments && points.moves()) times.insert(times.end(), {-1.0f, 0.0f, 1.0f});
     result.steps.resize(times.size());
     for (size_t step = 0; step < times.size(); ++step) {
         const SampleSpan span = sampleSpan(samples.times, times[step]);

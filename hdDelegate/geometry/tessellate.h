@@ -14,6 +14,9 @@ inline constexpr int roundSegments = 128;
 /// How finely, and when, shapes are drawn.
 struct TessellationOptions {
     float shutterOpen = 0.0f, shutterClose = 0.0f; ///< time codes relative to the frame
+    /// Points that move get three steps more behind those of the shutter: where they are a frame
+    /// before, at the frame, and a frame after.
+    bool withMoments = false;
     float targetEdge =
         0.0f; ///< object units: subdivide until no edge is longer; 0: refineLevel only
     float roundEdge = 0.0f; ///< object units: implicit prims take fewer segments, while none is

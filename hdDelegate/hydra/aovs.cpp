@@ -15,7 +15,7 @@ namespace patina {
 std::string filmAovOf(const TfToken& hydraName) {
     for (const AovRow& row : aovRows())
         if (row.hydraName && hydraName == row.hydraName) return row.name;
-    const std::string& name = hydraName.GetString();
+    const std::string name = aovNamed(hydraName.GetString());
     const AovId id = aovIdOf(name);
     if (id == AovId::unknown) return "";
     if (id != AovId::lpe) return name;
@@ -28,19 +28,25 @@ std::string filmAovOf(const TfToken& hydraName) {
     }
 }
 
-std::string bufferAovOf(const TfToken& hydraName) {
-    const std::string name = filmAovOf(hydraName);
-    // Their components follow from a setting, and are more than the four of a buffer.
-    if (name.empty() || standardAov(name).kind != AovKind::Coverage) return name;
-    TF_WARN("AOV %s is written to files alone; its buffer stays empty", hydraName.GetText());
-    return "";
+HdPatinaShownAov shownAovOf(const TfToken& hydraName) {
+    HdPatinaShownAov shown;
+    shown.layer = cryptomatteLayerOf(hydraName, shown.film);
+    if (shown.layer >= 0) return shown;
+    shown.film = filmAovOf(hydraName);
+    if (shown.film.empty() || standardAov(shown.film).kind != AovKind::Coverage) return shown;
+    TF_WARN("AOV %s has several layers; its buffer stays empty. Buffers %s00, %s01... show them",
+            hydraName.GetText(), hydraName.GetText(), hydraName.GetText());
+    return {};
 }
 
 HdAovDescriptor aovDescriptor(const TfToken& hydraName) {
+    std::string matte;
+    if (cryptomatteLayerOf(hydraName, matte) >= 0)
+        return {HdFormatFloat32Vec4, false, VtValue(GfVec4f(0.0f))};
     const std::string name = filmAovOf(hydraName);
     if (name.empty()) return HdAovDescriptor();
     const AovSpec spec = standardAov(name);
-    if (spec.kind == AovKind::Coverage) return HdAovDescriptor(); // in files alone
+    if (spec.kind == AovKind::Coverage) return HdAovDescriptor(); // its layers are
     if (spec.id == AovId::color) return {HdFormatFloat16Vec4, false, VtValue(GfVec4f(0.0f))};
     if (spec.isInteger) return {HdFormatInt32, false, VtValue(-1)};
     switch (spec.components) {

@@ -76,6 +76,8 @@ void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     param.widenShutter(GetShutterOpen(), GetShutterClose());
     auto camera = std::make_shared<Camera>();
     camera->path = GetId().GetString();
+    _delegate = delegate;
+    _shutter = param.shutter();
     camera->transform = placeOf(*delegate, param, GetId());
     camera->orthographic =
         GetProjection() == Orthographic && knowsProjection(*delegate, param, GetId());
@@ -100,7 +102,17 @@ void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     numberOf(delegate->GetCameraParamValue(GetId(), TfToken("linearExposureScale")), scale);
     camera->exposureScale = float(scale);
     readInputs(*delegate, param, GetId(), *camera);
-    param.set(std::shared_ptr<const Camera>(camera));
+    _camera = camera;
+    param.set(_camera);
+}
+
+void HdPatinaCamera::updateTransform(HdPatinaRenderParam& param) {
+    if (!_camera || _shutter == param.shutter()) return;
+    _shutter = param.shutter();
+    auto camera = std::make_shared<Camera>(*_camera);
+    camera->transform = placeOf(*_delegate, param, GetId());
+    _camera = camera;
+    param.set(_camera);
 }
 
 void HdPatinaCamera::Finalize(HdRenderParam* renderParam) {

@@ -18,6 +18,14 @@ public:
     void Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
               HdDirtyBits* dirtyBits) override;
     void Finalize(HdRenderParam* renderParam) override;
+    /// Samples the transform again where the shutter has become longer since. Host's thread, while
+    /// nothing syncs.
+    void updateTransform(HdPatinaRenderParam& param);
+
+private:
+    std::shared_ptr<const Camera> _camera;
+    HdSceneDelegate* _delegate = nullptr; ///< of the last sync
+    GfVec2f _shutter{0.0f};               ///< over which the transform was sampled
 };
 
 } // namespace patina

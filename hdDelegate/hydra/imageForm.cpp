@@ -10,8 +10,11 @@ namespace patina {
 
 void HdPatinaImageForm::read(const Film& film, std::vector<uint8_t>& bytes) const {
     AovSpec spec;
-    const bool known = film.width() > 0 && !aov.empty() && film.findSpec(aov, spec) &&
-                       spec.components <= 4 && format != HdFormatInvalid; // rows have four floats
+    const bool found = film.width() > 0 && !aov.empty() && film.findSpec(aov, spec);
+    const size_t first = layer > 0 ? 4 * size_t(layer) : 0;
+    const int shown = layer < 0 ? spec.components : std::min(spec.components - int(first), 4);
+    const bool known =
+        found && shown > 0 && shown <= 4 && format != HdFormatInvalid; // rows have four floats
     bytes.resize(known ? size_t(width) * size_t(height) * HdDataSizeOfFormat(format) : 0);
     if (bytes.empty() || readFromSource(film, spec, bytes)) return;
     const bool isColor = spec.id == AovId::color, replaced = replaces(spec);
@@ -22,7 +25,7 @@ void HdPatinaImageForm::read(const Film& film, std::vector<uint8_t>& bytes) cons
         size_t i = size_t(film.height() - 1 - y) * size_t(film.width());
         const size_t end = i + std::min(width, unsigned(film.width()));
         for (; i < end; ++i, out += 4) {
-            std::copy_n(&pixels[i * size_t(spec.components)], spec.components, out);
+            std::copy_n(&pixels[i * size_t(spec.components) + first], shown, out);
             if (isColor) {
                 out[3] = alpha[i];
                 for (int k = 0; k < 4 && !clear.empty; ++k)

@@ -15,6 +15,7 @@ namespace patina {
 /// An AOV as a host's buffer holds it.
 struct HdPatinaImageForm {
     std::string aov; ///< of the film; empty: not known
+    int layer = -1;  ///< of HdPatinaShownAov
     HdFormat format = HdFormatInvalid;
     unsigned width = 0, height = 0;
     ClearValue clear;

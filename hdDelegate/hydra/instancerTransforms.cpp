@@ -172,7 +172,10 @@ std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, c
         if (part.times.size() > 1) times.insert(part.times.begin(), part.times.end());
     }
     if (instancer.times.size() > 1) times.insert(instancer.times.begin(), instancer.times.end());
-    if (times.empty()) times.insert(0.0f);
+    if (times.empty())
+        times.insert(0.0f);
+    else if (param.tellsMotion())
+        times.insert({-1.0f, 0.0f, 1.0f}); // turns are not linear from sample to sample
 
     std::vector<float> kept(times.begin(), times.end());
     if (kept.size() > maxTimeSamples) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/readAgain.h"
 
+#include "hdDelegate/hydra/camera.h"
 #include "hdDelegate/hydra/instancer.h"
 #include "hdDelegate/hydra/instances.h"
 #include "hdDelegate/hydra/light.h"
@@ -9,6 +10,7 @@
 
 #include <pxr/base/work/loops.h>
 #include <pxr/imaging/hd/rprim.h>
+#include <pxr/imaging/hd/tokens.h>
 
 namespace patina {
 
@@ -50,6 +52,10 @@ void readSamples(HdRenderIndex& index, HdPatinaRenderParam& param) {
             if (HdSprim* light = index.GetSprim(type, path))
                 static_cast<HdPatinaLight*>(light)->updateTransform(param);
     }
+    const TfToken& cameras = HdPrimTypeTokens->camera;
+    for (const SdfPath& path : index.GetSprimSubtree(cameras, SdfPath::AbsoluteRootPath()))
+        if (HdSprim* camera = index.GetSprim(cameras, path))
+            static_cast<HdPatinaCamera*>(camera)->updateTransform(param);
     const SdfPathVector& rprims = index.GetRprimIds();
     WorkParallelForN(rprims.size(), [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)

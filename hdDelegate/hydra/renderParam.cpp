@@ -90,6 +90,11 @@ bool HdPatinaRenderParam::widenShutter(double open, double close) {
     return true;
 }
 
+void HdPatinaRenderParam::tellMotion() {
+    widenShutter(-1.0, 1.0);
+    if (!_tellsMotion.exchange(true)) _shutterWidened = true;
+}
+
 void HdPatinaRenderParam::warn(const SdfPath& prim, const std::string& input, const Message& what) {
     _scene->diagnostics().warn(prim.GetString(), input, what);
 }

@@ -3,7 +3,7 @@
 
 #include "hdDelegate/hydra/linkedPrim.h"
 
-#include "hdDelegate/hydra/aovs.h"
+#include "hdDelegate/film/aovTable.h"
 #include "hdDelegate/hydra/clearValue.h"
 #include "hdDelegate/hydra/readAgain.h"
 
@@ -50,11 +50,17 @@ HdPatinaRenderPass::targetsOf(const HdRenderPassAovBindingVector& bindings) {
                     HdPrimTypeTokens->renderBuffer, binding.renderBufferId)));
         if (!own) continue;
         // What is wrong with a name is said once, not with each repaint.
-        auto known = _filmAovs.find(binding.aovName);
-        if (known == _filmAovs.end())
-            known = _filmAovs.emplace(binding.aovName, bufferAovOf(binding.aovName)).first;
-        targets.push_back(
-            {binding.aovName, known->second, own, own->allocation(), binding.clearValue});
+        auto known = _shownAovs.find(binding.aovName);
+        if (known == _shownAovs.end())
+            known = _shownAovs.emplace(binding.aovName, shownAovOf(binding.aovName)).first;
+        HdPatinaShownAov shown = known->second;
+        if (shown.exact() && own->GetFormat() != HdFormatFloat32Vec4) {
+            if (_inexact.insert(binding.aovName).second)
+                TF_WARN("AOV %s needs a buffer of four 32-bit floats; this one stays empty",
+                        binding.aovName.GetText());
+            shown = {};
+        }
+        targets.push_back({binding.aovName, shown, own, own->allocation(), binding.clearValue});
     }
     return targets;
 }
@@ -73,24 +79,36 @@ HdPatinaSettings HdPatinaRenderPass::settingsFor(const HdPatinaView& view,
         if (!path.IsAbsoluteRootPath()) settings.rootPaths.push_back(path.GetString());
     for (const SdfPath& path : GetRprimCollection().GetExcludePaths())
         settings.excludePaths.push_back(path.GetString());
-    for (const Target& target : _targets)
-        if (!target.filmAov.empty()) settings.aovs.push_back(target.filmAov);
+    for (const Target& target : _targets) {
+        const HdPatinaShownAov& shown = target.shown;
+        if (!shown.film.empty()) settings.aovs.push_back(shown.film);
+        settings.cryptomatteLevels = std::max(settings.cryptomatteLevels, 2 * (shown.layer + 1));
+    }
+    // Several layers are of one AOV.
+    std::set<std::string> known;
+    settings.aovs.erase(std::remove_if(settings.aovs.begin(), settings.aovs.end(),
+                                       [&](const auto& a) { return !known.insert(a).second; }),
+                        settings.aovs.end());
     return settings;
 }
 
 void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
                                   const TfTokenVector& renderTags) {
+    const std::vector<Target> current = targetsOf(passState->GetAovBindings());
+    std::vector<std::string> aovs = _products.aovs();
+    for (const Target& target : current)
+        aovs.push_back(target.shown.film);
+    if (tellMotion(aovs)) _state->param.tellMotion();
     readAgain(*GetRenderIndex(), _state->param);
     if (_products.wanted()) {
         // A host that stopped, or pauses, wants no product more.
         if (!_state->stopped() && !_state->paused()) _converged = _products.update();
-        for (const Target& target : targetsOf(passState->GetAovBindings()))
+        for (const Target& target : current)
             target.buffer->setConverged(_converged);
         _state->param.reportWarnings();
         return;
     }
 
-    const std::vector<Target> current = targetsOf(passState->GetAovBindings());
     const int width = current.empty() ? 0 : int(current.front().buffer->GetWidth());
     const int height = current.empty() ? 0 : int(current.front().buffer->GetHeight());
     HdPatinaRenderParam& param = _state->param;
@@ -137,7 +155,7 @@ void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
         } else {
             std::vector<HdPatinaImageForm> forms;
             for (const Target& target : _targets)
-                forms.push_back({target.filmAov, target.buffer->GetFormat(),
+                forms.push_back({target.shown.film, target.shown.layer, target.buffer->GetFormat(),
                                  target.buffer->GetWidth(), target.buffer->GetHeight(),
                                  clearValueOf(target.clearValue)});
             _session->start(view.cameraPath, settings, forms);

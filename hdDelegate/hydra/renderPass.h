@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/hydra/aovs.h"
 #include "hdDelegate/hydra/delegateState.h"
 #include "hdDelegate/hydra/renderBuffer.h"
 #include "hdDelegate/hydra/renderProducts.h"
@@ -9,6 +10,7 @@
 #include <pxr/imaging/hd/renderPass.h>
 
 #include <map>
+#include <set>
 
 namespace patina {
 
@@ -32,7 +34,7 @@ private:
     /// A bound buffer, and what is shown in it.
     struct Target {
         TfToken aovName;
-        std::string filmAov; ///< empty: not known
+        HdPatinaShownAov shown;
         HdPatinaRenderBuffer* buffer = nullptr;
         unsigned int allocation = 0;
         VtValue clearValue;
@@ -51,8 +53,9 @@ private:
     std::shared_ptr<HdPatinaDelegateState> _state;
     std::shared_ptr<HdPatinaSession> _session;
     HdPatinaRenderProducts _products;
-    std::string _cameraPath;                  ///< of a camera of its own; no path of a stage
-    std::map<TfToken, std::string> _filmAovs; ///< of each name that was bound
+    std::string _cameraPath;                        ///< of a camera of its own; no path of a stage
+    std::map<TfToken, HdPatinaShownAov> _shownAovs; ///< of each name that was bound
+    std::set<TfToken> _inexact;                     ///< of these: warned of
 
     // what the running render was started with
     std::vector<Target> _targets;

@@ -117,6 +117,15 @@ bool HdPatinaRenderProducts::wanted() const {
     return !_state.settings().interactive && !_state.products().empty();
 }
 
+std::vector<std::string> HdPatinaRenderProducts::aovs() const {
+    std::vector<std::string> found;
+    if (!wanted()) return found;
+    for (const auto& product : _state.products())
+        for (const auto& var : product.renderVars)
+            found.push_back(filmAovOfVar(var));
+    return found;
+}
+
 bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& product,
                                      Output& output) {
     HdPatinaRenderParam& param = _state.param;
@@ -125,7 +134,8 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
     output.camera = product.cameraPath.GetString();
     output.settings = _state.settings();
     HdPatinaSettings& s = output.settings;
-    if (product.type != "raster") {
+    s.deep = product.type == "deepRaster";
+    if (product.type != "raster" && !s.deep) {
         param.warn(product.productPath, "productType",
                    messages::productTypeUnknown(product.type.GetString()));
         return false;
@@ -158,7 +168,14 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
         else if (std::find(output.order.begin(), output.order.end(), aov) == output.order.end())
             output.order.push_back(aov);
     }
-    if (output.order.empty()) output.order = {"color", "alpha"};
+    if (s.deep) {
+        for (const std::string& aov : output.order)
+            if (aov != "color" && aov != "alpha" && aov != "depth")
+                param.warn(product.productPath, "orderedVars", messages::deepVarLeftOut(aov));
+        output.order.clear();
+    } else if (output.order.empty()) {
+        output.order = {"color", "alpha"};
+    }
     s.aovs = output.order;
     try {
         checkImagePath(output.file, output.order);
@@ -208,6 +225,8 @@ void HdPatinaRenderProducts::write(const Output& output) {
     _session->stop(); // the film is at rest, and no listener runs any more
     ImageOptions options;
     options.aovs = output.order;
+    options.deep = output.settings.deep;
+    if (options.deep && !_session->film()->deep()) return; // the back end has said so
     const HdPatinaSettings& s = output.settings;
     const PixelWindow& frame = s.frameWindow;
     PixelWindow window = s.dataWindow;

@@ -12,9 +12,9 @@ namespace patina {
 /// Writes the products of the active UsdRenderSettings prim, one after the other, in the
 /// background. Each has its own camera, resolution, conform policy, data window and render vars.
 ///
-/// Only `raster` products are images. The source of a render var is an AOV of the film (named as in
-/// Hydra or the film, `Ci`, `a` and `z` included), or with sourceType primvar a primvar. A file
-/// appears whole, or the earlier file stays.
+/// Products of type `raster` are images, those of type `deepRaster` deep ones. The source of a
+/// render var is an AOV of the film (named as in Hydra or the film, `Ci`, `a` and `z` included), or
+/// with sourceType primvar a primvar. A file appears whole, or the earlier file stays.
 class HdPatinaRenderProducts {
 public:
     explicit HdPatinaRenderProducts(HdPatinaDelegateState& state);
@@ -23,6 +23,8 @@ public:
     /// Whether there is something to write: the host is not interactive and a settings prim with
     /// products is active.
     bool wanted() const;
+    /// Of the film, of all products that are wanted.
+    std::vector<std::string> aovs() const;
     /// Starts over when scene or settings have changed, goes on otherwise. Never blocks on a
     /// render.
     /// @returns whether all products are written (or have failed, with a warning)
@@ -34,7 +36,7 @@ private:
         std::string file; ///< to write
         std::string camera;
         HdPatinaSettings settings;
-        std::vector<std::string> order; ///< AOVs of the file
+        std::vector<std::string> order; ///< AOVs of the file; of a deep one none
     };
 
     bool prepare(const HdRenderSettings::RenderProduct& product, Output& output);

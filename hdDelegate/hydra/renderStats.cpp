@@ -56,6 +56,9 @@ VtDictionary renderStats(const HdPatinaDelegateState& state) {
     stats["warnings"] = VtValue(state.param.scene()->diagnostics().count());
     for (const auto& item : slowest.statistics)
         stats["patina:" + item.first] = VtValue(item.second);
+    for (const auto& session : state.sessions())
+        for (const auto& item : session->mattes())
+            stats[item.first] = VtValue(std::get<std::string>(item.second));
     return stats;
 }
 

@@ -11,8 +11,9 @@ namespace patina {
 /// (0..100), fractionDone, numCompletedSamples, totalClockTime and timeRemaining (seconds),
 /// renderProgressAnnotation (a line), peakMemory (bytes of the process), warnings; everything in
 /// RenderProgress::statistics as patina:NAME; and patina:imagesShown, how often the host's buffers
-/// have been given an image since the last edit. Of several passes the one that is furthest behind
-/// counts.
+/// have been given an image since the last edit; and where an image with layers of Cryptomatte is
+/// done, their metadata and manifests as in files, cryptomatte/ID/name.... Of several passes the
+/// one that is furthest behind counts.
 VtDictionary renderStats(const HdPatinaDelegateState& state);
 
 } // namespace patina

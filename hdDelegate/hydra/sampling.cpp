@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/sampling.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace patina {
@@ -28,6 +29,12 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
         values.push_back(m);
     }
     if (values.empty()) return toMat4(before);
+    // Samples may be far apart, and turns are not linear between them: the picture is of this one.
+    const size_t next = size_t(std::lower_bound(times.begin(), times.end(), 0.0f) - times.begin());
+    if (param.tellsMotion() && values.size() > 1 && (next == times.size() || times[next] > 0.0f)) {
+        times.insert(times.begin() + ptrdiff_t(next), 0.0f);
+        values.insert(values.begin() + ptrdiff_t(next), toMat4(before * delegate.GetTransform(id)));
+    }
     return inOrder(std::move(times), std::move(values), param, id, "transform");
 }
 

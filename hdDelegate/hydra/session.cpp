@@ -27,6 +27,11 @@ bool HdPatinaSession::isRunning() const {
     return current && current->isRunning();
 }
 
+Metadata HdPatinaSession::mattes() const {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _mattes;
+}
+
 RenderProgress HdPatinaSession::progress() const {
     const auto current = renderer();
     return current ? current->progress() : RenderProgress();
@@ -90,7 +95,7 @@ bool HdPatinaSession::denoiseCopy(const Film& film, Film& clean) {
     if (film.width() < 1 || film.height() < 1) return false;
     try {
         clean.copyFrom(film);
-        denoise(clean, _settings.threads);
+        denoise(clean, _settings.threads, _settings.denoiseAovs);
         return true;
     } catch (const std::runtime_error& error) {
         _scene->diagnostics().warn("", "denoise", messages::notDenoised(error.what()));
@@ -116,6 +121,7 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
         frame->images.resize(_forms.size());
         for (size_t i = 0; i < _forms.size(); ++i)
             _forms[i].read(denoised ? clean : film, frame->images[i]);
+        if (frame->last) frame->mattes = cryptomatteMetadata(film);
     }
     std::unique_lock<std::mutex> lock(_mutex);
     // Images that follow each other in small steps are a jump again where a host misses some.
@@ -135,6 +141,7 @@ std::shared_ptr<HdPatinaFrame> HdPatinaSession::take() {
     {
         std::lock_guard<std::mutex> lock(_mutex);
         frame.swap(_frame);
+        if (frame) _mattes = frame->mattes;
     }
     _taken.notify_all();
     return frame;

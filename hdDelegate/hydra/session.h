@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/hydra/imageForm.h"
 #include "hdDelegate/hydra/settings.h"
 #include "hdDelegate/renderer/renderer.h"
@@ -19,6 +20,7 @@ struct HdPatinaFrame {
     std::vector<std::vector<uint8_t>> images; ///< in the forms of start()
     bool last = false;                        ///< nothing better will come: converged or failed
     std::string error;                        ///< of a render that failed
+    Metadata mattes;                          ///< of the last one: of Cryptomatte, as files have it
 };
 
 /// One renderer with its film, on behalf of one render pass; a change of the back end replaces the
@@ -47,6 +49,8 @@ public:
     /// Called when a host's buffers have been given an image, and how often that was since start().
     void countShown() { ++_shown; }
     int imagesShown() const { return _shown; }
+    /// The names of the ids in the last frame that was taken.
+    Metadata mattes() const;
     const std::shared_ptr<Film>& film() const { return _film; }
 
 private:
@@ -68,6 +72,7 @@ private:
     std::shared_ptr<HdPatinaFrame> _frame;
     std::vector<std::vector<uint8_t>> _spare; ///< images whose memory is used again
     std::atomic<int> _shown{0};
+    Metadata _mattes;
     bool _paused = false, _stopping = false;
 };
 

@@ -12,7 +12,8 @@ struct HdPatinaSettings : RenderSettings {
     /// embree, raster, interactive (the rasterizer's image, refined by path tracing), or auto:
     /// interactive in interactive hosts where there is a GPU, else embree.
     std::string backend = "auto";
-    bool denoise = false; ///< show what Open Image Denoise makes of the colour
+    bool denoise = false;     ///< show what Open Image Denoise makes of the colour
+    bool denoiseAovs = false; ///< and of AOVs of light
 };
 
 /// The back end that makeBackend() shall make.

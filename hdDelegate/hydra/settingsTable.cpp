@@ -102,10 +102,10 @@ Row backendRow() {
             }};
 }
 
-Row denoiseRow() {
-    return {TfToken("denoise"), "Denoise (Open Image Denoise, where it is found)",
-            VtValue(HdPatinaSettings().denoise), [](HdPatinaSettings& s, const VtValue& v) {
-                s.denoise = v.UncheckedGet<bool>();
+Row denoiseRow(const char* name, const char* label, bool HdPatinaSettings::*field) {
+    return {TfToken(name), label, VtValue(HdPatinaSettings().*field),
+            [field](HdPatinaSettings& s, const VtValue& v) {
+                s.*field = v.UncheckedGet<bool>();
                 return true;
             }};
 }
@@ -117,7 +117,11 @@ const std::vector<Row>& rows() {
             if (setting.shown.empty()) continue;
             made.push_back(rowFor(setting));
             if (setting.name == "interactive") made.back().initial = VtValue(true);
-            if (setting.name == "indirectClamp") made.push_back(denoiseRow());
+            if (setting.name != "indirectClamp") continue;
+            made.push_back(denoiseRow("denoise", "Denoise (Open Image Denoise, where it is found)",
+                                      &HdPatinaSettings::denoise));
+            made.push_back(denoiseRow("denoiseAovs", "Denoise AOVs of light, too",
+                                      &HdPatinaSettings::denoiseAovs));
         }
         return made;
     }();

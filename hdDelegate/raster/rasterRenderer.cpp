@@ -186,6 +186,12 @@ private:
             if (!aov.paths.empty() || aov.id == AovId::shadow)
                 _scene->diagnostics().warn("", "",
                                            messages::lightPathAovEmpty(channelsOfAov(aov.name)));
+        if (_settings.deep) _scene->diagnostics().warn("", "", messages::deepLeftOut);
+        if (tellMotion(_settings.aovs))
+            for (const auto& item : state.geometry)
+                if (deforms(*item.second) && isDrawnInRaster(*item.second, _settings))
+                    _scene->diagnostics().warn(item.first, "points",
+                                               messages::motionOfPointsLeftOut);
         _passes->timer().clear();
         _passes->drawAovs(*_raster, camera, _settings.interactive);
         if (const vec3 origin = _passes->seen().originOf(*_raster); origin != _origin) {

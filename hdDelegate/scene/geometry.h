@@ -181,6 +181,16 @@ struct Volume : Geometry {
     Volume() { kind = GeometryKind::Volume; }
 };
 
+/// Whether the points of a prim move in its own space.
+inline bool deforms(const Geometry& prim) {
+    switch (prim.kind) {
+    case GeometryKind::Mesh: return static_cast<const Mesh&>(prim).points.moves();
+    case GeometryKind::Curves: return static_cast<const Curves&>(prim).points.moves();
+    case GeometryKind::Points: return static_cast<const Points&>(prim).points.moves();
+    default: return false;
+    }
+}
+
 /// Many copies of prototypes. A prototype is a group: every prim whose `group` is its name, and
 /// every instancer whose `group` is its name (that is how instancers nest).
 struct Instancer {

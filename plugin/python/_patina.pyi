@@ -240,6 +240,11 @@ class Film:
         Samples that were not finite; they count as black.
         """
     @property
+    def has_deep(self) -> bool:
+        """
+        Whether samples were kept by their depths, for deep images.
+        """
+    @property
     def height(self) -> int:
         """
         Pixels.
@@ -503,9 +508,9 @@ def default_render_settings() -> dict[str, typing.Any]:
     """
     Every setting with its default.
     """
-def denoise(film: Film, threads: int = 0) -> None:
+def denoise(film: Film, threads: int = 0, aovs: bool = False) -> None:
     """
-    Replaces the film's colour by what Open Image Denoise makes of it, led by the AOVs denoisingAlbedo and denoisingNormal where both are there; the noisy one is color.noisy then. RuntimeError says in one line why not.
+    Replaces the film's colour by what Open Image Denoise makes of it, led by the AOVs denoisingAlbedo and denoisingNormal where both are there; the noisy one is color.noisy then. With `aovs` likewise those of light. RuntimeError says in one line why not.
     """
 def denoiser_missing() -> str:
     """
@@ -634,6 +639,10 @@ def partial_description(file: str) -> str:
 def plan_material(network: Network, methods: dict[str, str] = {}, tolerance: float = -1.0) -> dict[str, typing.Any]:
     """
     How the methods of a material are chosen for a tolerance (0: truths, negative: defaults): dict[str, typing.Any] of tolerance, error (relative luminance), albedo, varies, fallback (of displayColor, which is shown in place of the material), and choices.
+    """
+def read_deep(path: str) -> tuple[typing.Any, ...]:
+    """
+    Reads a deep image: names of channels, samples by pixel, and their values one after the other; RuntimeError says in one line why not.
     """
 def read_image(path: str) -> ImageData:
     """

@@ -128,6 +128,7 @@ ImageOptions optionsFrom(const py::dict& dict) {
              std::copy(window.begin(), window.end(), o.dataWindow);
          }},
         {"pixel_aspect_ratio", [&](auto& v) { o.pixelAspectRatio = v.template cast<double>(); }},
+        {"deep", [&](auto& v) { o.deep = v.template cast<bool>(); }},
         {"half", [&](auto& v) { o.half = v.template cast<bool>(); }},
         {"integer_ids", [&](auto& v) { o.integerIds = v.template cast<bool>(); }},
         {"compression", [&](auto& v) { o.compression = v.template cast<std::string>(); }},
@@ -243,6 +244,9 @@ void bindFilm(py::module_& m) {
         .def("add_color", &addColor, py::arg("x"), py::arg("y"), py::arg("radiance"),
              py::arg("alpha") = 1.0f,
              "Adds a sample of linear colour; False, and black, where it is not finite.")
+        .def_property_readonly(
+            "has_deep", [](const Film& film) { return film.deep() != nullptr; },
+            "Whether samples were kept by their depths, for deep images.")
         .def("save_checkpoint", &Film::saveCheckpoint, py::arg("file"),
              py::call_guard<py::gil_scoped_release>(),
              "Writes the samples to a file; RuntimeError says in one line why not.")
@@ -292,19 +296,32 @@ void bindFilm(py::module_& m) {
           "Why images cannot be denoised here, in one line; empty where they can.");
     m.def(
         "denoise",
-        [](Film& film, int threads) {
+        [](Film& film, int threads, bool aovs) {
             mustRest(film);
-            denoise(film, threads);
+            denoise(film, threads, aovs);
         },
-        py::arg("film"), py::arg("threads") = 0, py::call_guard<py::gil_scoped_release>(),
+        py::arg("film"), py::arg("threads") = 0, py::arg("aovs") = false,
+        py::call_guard<py::gil_scoped_release>(),
         "Replaces the film's colour by what Open Image Denoise makes of it, led by the AOVs "
         "denoisingAlbedo and denoisingNormal where both are there; the noisy one is color.noisy "
-        "then. RuntimeError says in one line why not.");
+        "then. With `aovs` likewise those of light. RuntimeError says in one line why not.");
     m.def("check_output", &checkOutput, py::arg("path"),
           "RuntimeError says early why a file could not be written; its folder is not touched.");
 
     m.def("read_image", &readImage, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
           "Reads any image; RuntimeError says in one line why not.");
+    m.def(
+        "read_deep",
+        [](const std::string& path) {
+            const DeepImage image = readDeep(path);
+            const size_t n = image.channels.size();
+            py::array_t<int> counts({image.height, image.width}, image.counts.data());
+            py::array_t<float> values({image.values.size() / n, n}, image.values.data());
+            return py::make_tuple(image.channels, counts, values);
+        },
+        py::arg("path"),
+        "Reads a deep image: names of channels, samples by pixel, and their values one after the "
+        "other; RuntimeError says in one line why not.");
     m.def("write_images", &writeFilm, py::arg("film"), py::arg("path"),
           py::arg("options") = py::dict(), py::arg("metadata") = py::dict(),
           "Writes a film: OpenEXR with all its AOVs, or an image for the screen.");

@@ -7,7 +7,10 @@ layout(location = 3) out vec4 outAlbedo;
 #endif
 #if AOV_PRIMVARS > 0
 layout(location = 4) out vec4 outPrimvars[AOV_PRIMVARS];
-layout(location = 8) uniform ivec4 aovSlots; // of the primvars asked for, -1 where there is none
+layout(location = 8) uniform ivec4 aovSlots; // of the primvars asked for, -1 where there is none; number AOV_PREF then has the own position, w -1
+#endif
+#ifdef AOV_NG
+layout(location = 4 + AOV_PRIMVARS) out vec4 outGeometricNormal;
 #endif
 
 void main() {
@@ -24,6 +27,9 @@ void main() {
 #endif
 #if AOV_PRIMVARS > 0
     for (int i = 0; i < AOV_PRIMVARS; ++i)
-        outPrimvars[i] = primvar(aovSlots[i], vec4(0.0));
+        outPrimvars[i] = primvar(aovSlots[i], i == AOV_PREF ? vec4(vObjectPosition, -1.0) : vec4(0.0));
+#endif
+#ifdef AOV_NG
+    outGeometricNormal = vec4(point.geometricNormal, 0.0);
 #endif
 }

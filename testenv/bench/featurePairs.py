@@ -42,8 +42,17 @@ def costs():
     bent = swapped(lens, "float focalLength", "custom float patina:distortionK1 = 1e-6\n        float focalLength")
     crypto = tuple(f"--aov={name}" for name in ("cryptoObject", "cryptoMaterial", "cryptoAsset"))
     raster = ("--backend", "raster")
+    seen = tuple(f"--aov={name}" for name in ("Ng", "uv", "Pref"))
+    moving, vectors = scene("motionBlur"), ("--aov=motionForward", "--aov=motionBackward")
+    smoke = scene("volume")
     return {
         "Cryptomatte, three of them": Pair(Variant(instances, crypto), Variant(instances)),
+        "AOVs Ng, uv and Pref": Pair(Variant(instances, seen), Variant(instances)),
+        "AOVs Ng, uv and Pref, rasterizer": Pair(Variant(instances, seen + raster), Variant(instances, raster), 16),
+        "vectors of motion": Pair(Variant(moving, vectors), Variant(moving)),
+        "vectors of motion, rasterizer": Pair(Variant(moving, vectors + raster), Variant(moving, raster), 16),
+        "a deep image": Pair(Variant(instances, ("--deep", "deep.exr")), Variant(instances)),
+        "a deep image of a volume": Pair(Variant(smoke, ("--deep", "deep.exr")), Variant(smoke)),
         "values per instance": Pair(Variant(values), Variant(swapped(swapped(values, "primvars:tint", "primvars:other"),
                                                                      "primvars:shine", "primvars:others"))),
         "catchers": Pair(Variant(caught), Variant(swapped(swapped(caught, "shadowCatcher = 1", "shadowCatcher = 0"),

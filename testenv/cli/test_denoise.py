@@ -181,3 +181,20 @@ def test_without_a_denoiser_nothing_is_rendered(tmp_path, monkeypatch):
     with pytest.raises(denoiser.CommandError, match="--denoise: Open Image Denoise is not found.*PATINA_OIDN_LIBRARY"):
         denoiser.prepare(Module)
     assert len(found) == 1 and (not found[0] or os.path.exists(found[0]))
+
+
+def test_aovs_of_light_on_request(library, tmp_path):
+    """Each is denoised as the colour is; that of all paths is the colour."""
+    stage = inProcess.scene("lightDome")
+    for name, more in (("noisy", ()), ("color", ("--denoise",)), ("all", ("--denoiseAovs",))):
+        record(stage, tmp_path / f"{name}.exr", "-w", WIDTH, "--samples", 4, "--aov", "diffuse", "--aov", "whole=lpe:C.*[LO]",
+               "--aov", "normal", *more)
+    noisy, color, both = (channels(tmp_path / f"{name}.exr") for name in ("noisy", "color", "all"))
+    for c in "RGB":
+        np.testing.assert_array_equal(color["diffuse." + c], noisy["diffuse." + c])
+        np.testing.assert_array_equal(both[c], color[c])
+        assert (both["diffuse." + c] != noisy["diffuse." + c]).any()
+        # The same picture through the same filter: sums of light paths differ in their rounding, and the filter is continuous.
+        np.testing.assert_allclose(both["whole." + c], both[c], rtol=1e-3, atol=1e-3)
+    for c in "XYZ":
+        np.testing.assert_array_equal(both["normal." + c], noisy["normal." + c])

@@ -102,7 +102,7 @@ def Scope "Render"
     def RenderProduct "deep"
     {
         token productName = "deep.exr"
-        token productType = "deepRaster"
+        token productType = "hologram"
     }
     def RenderVar "color"
     {

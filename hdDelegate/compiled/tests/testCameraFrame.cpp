@@ -82,7 +82,10 @@ TEST(CameraFrame, StandsStillWithoutMotionBlur) {
     RenderSettings settings;
     EXPECT_FLOAT_EQ(CameraFrame(moving, settings).timeCode(0.5f), 0.0f);
     settings.enableMotionBlur = false;
-    EXPECT_FLOAT_EQ(CameraFrame(moving, settings).timeCode(0.5f), -0.25f);
+    EXPECT_FLOAT_EQ(CameraFrame(moving, settings).timeCode(0.5f), 0.0f) << "the frame's time";
+    EXPECT_FLOAT_EQ(CameraFrame(moving, settings).shutterLength, 0.0f);
+    moving.shutterOpen = 0.125;
+    EXPECT_FLOAT_EQ(CameraFrame(moving, settings).timeCode(0.5f), 0.0f) << "not where it opens";
 }
 
 TEST(OriginNear, StaysWhereWhatIsSeenIsNotFarAway) {

@@ -167,7 +167,11 @@ VolumeScene::Collision VolumeScene::track(const vec3& origin, const vec3& direct
         Medium m = nearest->medium().at(nearest->at(nearest->distance));
         thin(m, nearest->majorant);
         const float inverse = 1.0f / nearest->majorant;
-        if (m.emission != vec3(0.0f)) result.emitted += throughput * m.emission * inverse;
+        if (m.emission != vec3(0.0f)) {
+            const vec3 glow = throughput * m.emission * inverse;
+            result.emitted += glow;
+            result.emittedFrom += mean(glow) * nearest->distance;
+        }
         const vec3 scatter = m.scattering() * inverse;
         const vec3 pass = glm::max(1.0f - m.extinction() * inverse, vec3(0.0f));
         const float toScatter = mean(throughput * scatter), toPass = mean(throughput * pass);

@@ -34,7 +34,8 @@ public:
         bool scattered = false, absorbed = false;
         float distance = 0.0f; ///< of the collision, or the end
         Medium medium;
-        vec3 emitted{0.0f}; ///< radiance that reaches the origin, times the throughput there
+        vec3 emitted{0.0f};       ///< radiance that reaches the origin, times the throughput there
+        float emittedFrom = 0.0f; ///< its mean, times distances
     };
     /// Takes light along a ray up to where it scatters, or the end.
     /// @param throughput is multiplied by what remains

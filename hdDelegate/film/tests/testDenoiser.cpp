@@ -63,6 +63,37 @@ TEST(Denoiser, FlatNoiseBecomesFlatterAndKeepsItsAlpha) {
     EXPECT_EQ(film.resolve("color"), once);
 }
 
+TEST(Denoiser, AovsOfLightAreDenoisedOnRequest) {
+    if (!denoiserMissing().empty()) GTEST_SKIP() << denoiserMissing();
+    constexpr int side = 64;
+    Film film;
+    film.reset(side, side,
+               {standardAov("diffuse"), standardAov("key=lpe:C.*<L.'key'>"), standardAov("normal")});
+    fillWithNoise(film, side);
+    std::mt19937 random(8);
+    std::exponential_distribution<float> noise(1.0f);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            for (int aov = 0; aov < 3; ++aov) {
+                const float values[3] = {noise(random), noise(random), noise(random)};
+                film.addAov(aov, x, y, values, 0.0f);
+            }
+    const std::vector<float> diffuse = film.resolve("diffuse"), normal = film.resolve("normal");
+    denoise(film);
+    EXPECT_EQ(film.resolve("diffuse"), diffuse);
+    const std::vector<float> color = film.resolve("color");
+    denoise(film, 0, true);
+    EXPECT_EQ(film.resolve("color"), color) << "the colour is the same either way";
+    EXPECT_LT(variance(film.resolve("diffuse")), 0.25 * variance(diffuse));
+    EXPECT_EQ(film.resolve("diffuse.noisy"), diffuse);
+    EXPECT_TRUE(film.denoised("key=lpe:C.*<L.'key'>"));
+    EXPECT_LT(variance(film.resolve("key")), 0.25) << "also by the name of its channels";
+    EXPECT_EQ(film.resolve("normal"), normal);
+    const std::vector<float> once = film.resolve("diffuse");
+    denoise(film, 0, true); // from the noisy ones again
+    EXPECT_EQ(film.resolve("diffuse"), once);
+}
+
 TEST(Denoiser, AnEmptyFilmIsRefused) {
     Film film;
     EXPECT_THROW(denoise(film), std::runtime_error);

@@ -103,6 +103,18 @@ TEST(Aovs, HydraAndFilmMeanDifferentDepths) {
     EXPECT_EQ(filmAovOf(TfToken("primvars:st")), "primvars:st");
     EXPECT_EQ(filmAovOf(TfToken("lpe:C.*")), "color");
     EXPECT_EQ(filmAovOf(TfToken("lpe:C<RD>L")), "lpe:C<RD>L");
+    EXPECT_EQ(filmAovOf(TfToken("motionFore")), "motionForward") << "as RenderMan has it";
+    EXPECT_EQ(filmAovOf(TfToken("__Pref")), "Pref");
+}
+
+TEST(Aovs, LayersOfCryptomatteAreBuffers) {
+    const HdPatinaShownAov second = shownAovOf(TfToken("crypto_material01"));
+    EXPECT_EQ(second.film, "cryptoMaterial");
+    EXPECT_EQ(second.layer, 1);
+    EXPECT_EQ(aovDescriptor(TfToken("crypto_object00")).format, HdFormatFloat32Vec4);
+    EXPECT_EQ(shownAovOf(TfToken("crypto_object08")).film, "") << "of more ids than are kept";
+    EXPECT_EQ(shownAovOf(TfToken("normal")).layer, -1);
+    EXPECT_EQ(shownAovOf(TfToken("primvars:t00")).film, "primvars:t00");
 }
 
 TEST(Aovs, DescriptorsFitTheFilm) {
@@ -112,6 +124,9 @@ TEST(Aovs, DescriptorsFitTheFilm) {
     EXPECT_EQ(aovDescriptor(HdAovTokens->normal).format, HdFormatFloat32Vec3);
     EXPECT_EQ(aovDescriptor(TfToken("primvars:st")).format, HdFormatFloat32Vec2);
     EXPECT_EQ(aovDescriptor(TfToken("key=lpe:C.*<L.'key'>")).format, HdFormatFloat32Vec3);
+    EXPECT_EQ(aovDescriptor(TfToken("Ng")).format, HdFormatFloat32Vec3);
+    EXPECT_EQ(aovDescriptor(TfToken("uv")).format, HdFormatFloat32Vec2);
+    EXPECT_EQ(aovDescriptor(TfToken("motionBackward")).format, HdFormatFloat32Vec2);
     EXPECT_EQ(aovDescriptor(TfToken("nonsense")).format, HdFormatInvalid);
 }
 

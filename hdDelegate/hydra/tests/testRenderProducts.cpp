@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/hydra/renderDelegate.h"
 #include "hdDelegate/hydra/renderPass.h"
 #include "hdDelegate/hydra/renderProducts.h"
@@ -8,7 +9,10 @@
 #include <pxr/imaging/hd/renderPassState.h>
 #include <pxr/imaging/hd/tokens.h>
 
+#include <chrono>
+#include <cstdio>
 #include <limits>
+#include <thread>
 
 using namespace patina;
 
@@ -78,6 +82,33 @@ TEST(RenderProducts, WindowsWithoutPixelsAreToldOf) {
     EXPECT_EQ(warningsOf(range(nan, 0.0f, 1.0f, 1.0f)), 1);
     EXPECT_EQ(warningsOf(range(0.0f, 0.0f, 1.0f, nan)), 1);
     EXPECT_EQ(warningsOf(range(0.0f, 0.0f, infinity, 1.0f)), 1);
+}
+
+TEST(RenderProducts, OfTypeDeepRasterAreDeepImages) {
+    const auto state = stateWith(GfRange2f());
+    Camera camera;
+    camera.path = "/camera";
+    state->param.set(std::shared_ptr<const Camera>(std::make_shared<Camera>(camera)));
+    auto ball = std::make_shared<Implicit>();
+    ball->path = "/ball";
+    ball->transform = dmat4(1.0);
+    ball->transform.values[0][3] = glm::dvec4(0, 0, -20, 1);
+    state->param.set(std::shared_ptr<const Geometry>(ball));
+    HdRenderSettings::RenderProduct product = state->products().front();
+    const std::string file = testing::TempDir() + "patinaDeepProduct.exr";
+    product.type = TfToken("deepRaster");
+    product.name = TfToken(file);
+    HdPatinaSettingsPrim prim;
+    prim.active = true;
+    prim.products = {product};
+    state->setSettingsPrim(SdfPath("/Render/settings"), prim);
+    HdPatinaRenderProducts products(*state);
+    while (!products.update())
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const DeepImage image = readDeep(file);
+    EXPECT_EQ(image.width, 8);
+    EXPECT_GT(image.values.size(), 0u);
+    std::remove(file.c_str());
 }
 
 TEST(RenderProducts, NoneIsStartedAfterAStop) {

@@ -4,6 +4,7 @@
 #include "hdDelegate/film/aovValues.h"
 #include "hdDelegate/parallel.h"
 #include "hdDelegate/raster/gl/deviceError.h"
+#include "hdDelegate/raster/passes/rasterMotion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,7 @@ struct PixelPoint {
 
     const RasterSeenImages& images;
     const RasterCamera& camera;
+    const RasterMotion& moving;
     const vec3& origin; ///< of positions
     int slot;           ///< of the primvar that is asked for, -1 where it was not drawn
     size_t i;
@@ -30,6 +32,7 @@ struct PixelPoint {
     float windowDepth() const { return camera.windowDepth(inCamera()); }
     vec3 position() const { return origin + vec3(images.positions[i]); }
     vec3 normal() const { return vec3(images.normals[i]); }
+    vec3 geometricNormal() const { return vec3(images.geometricNormals[i]); }
     const mat4& worldToCamera() const { return camera.worldToCamera(); }
     int primId() const { return images.ids[4 * i]; }
     int instanceId() const { return images.ids[4 * i + 1]; }
@@ -38,7 +41,16 @@ struct PixelPoint {
         return !images.albedos.empty() && put(images.albedos[i], out);
     }
     bool primvar(float out[4]) const {
+        if (slot < 0) return false;
+        const vec4& value = images.primvars[size_t(slot)][i];
+        return put(value.w < 0.0f ? vec4(0.0f) : value, out); // see aovs.frag.glsl
+    }
+    bool reference(float out[4]) const {
         return slot >= 0 && put(images.primvars[size_t(slot)][i], out);
+    }
+    bool motion(bool later, float out[4]) const {
+        return moving.way(&images.ids[4 * i], vec3(images.positions[i]),
+                          later ? ScreenMotion::After : ScreenMotion::Before, out);
     }
 
 private:
@@ -69,7 +81,8 @@ bool RasterSeen::resize(int width, int height, const GlTexture& depth) {
 void RasterSeen::makeTarget(const RasterAovRequest& request) {
     const auto make = [&] { return GlTexture(GL_TEXTURE_2D, GL_RGBA32F, _width, _height); };
     _request = request;
-    _albedo = request.albedo || !request.primvars.empty() ? make() : GlTexture();
+    const bool further = !request.primvars.empty() || request.geometricNormal;
+    _albedo = request.albedo || further ? make() : GlTexture(); // they count on from there
     _primvars.clear();
     std::vector<const GlTexture*> targets = {&_position, &_normal, &_ids};
     if (_albedo) targets.push_back(&_albedo);
@@ -77,6 +90,8 @@ void RasterSeen::makeTarget(const RasterAovRequest& request) {
         _primvars.push_back(make());
     for (const GlTexture& primvar : _primvars)
         targets.push_back(&primvar);
+    _geometricNormal = request.geometricNormal ? make() : GlTexture();
+    if (_geometricNormal) targets.push_back(&_geometricNormal);
     _target = GlFramebuffer(targets, _depth);
     _complete = _target.complete();
 }
@@ -113,7 +128,7 @@ void RasterSeen::fillTarget(const RasterScene& scene, const RasterView& view,
     gl.ClearNamedFramebufferfv(_target.id(), GL_COLOR, 0, none);
     gl.ClearNamedFramebufferfv(_target.id(), GL_COLOR, 1, none);
     gl.ClearNamedFramebufferiv(_target.id(), GL_COLOR, 2, noIds);
-    for (size_t i = 0; i < _primvars.size() + (_albedo ? 1 : 0); ++i)
+    for (size_t i = 0; i < _primvars.size() + (_albedo ? 1 : 0) + (_geometricNormal ? 1 : 0); ++i)
         gl.ClearNamedFramebufferfv(_target.id(), GL_COLOR, 3 + GLint(i), none);
     gl.ClearNamedFramebufferfv(_target.id(), GL_DEPTH, 0, &far);
     const RasterClipping clipping(block);
@@ -151,11 +166,13 @@ void RasterSeen::write(const RasterScene& scene, const RasterCamera& camera, con
     download.read(_position, _images.positions);
     if (wantsNormals(aovs)) download.read(_normal, _images.normals);
     if (_albedo) download.read(_albedo, _images.albedos);
+    if (_geometricNormal) download.read(_geometricNormal, _images.geometricNormals);
     _images.primvars.resize(_primvars.size());
     for (size_t i = 0; i < _primvars.size(); ++i)
         download.read(_primvars[i], _images.primvars[i]);
     readIds(_images.ids);
     _surfaces.timer.collect();
+    const RasterMotion moving(scene, camera, aovs);
     for (size_t a = 0; a < aovs.size(); ++a) {
         if (aovs[a].id == AovId::unknown) continue;
         const int slot = RasterAovRequest::slot(_request.primvars, aovs[a].primvar);
@@ -164,7 +181,8 @@ void RasterSeen::write(const RasterScene& scene, const RasterCamera& camera, con
                 const size_t i = size_t(_height - 1 - y) * size_t(_width) + size_t(x);
                 if (_images.positions[i].w == 0.0f) continue;
                 float out[4] = {0, 0, 0, 0};
-                if (aovValue(aovs[a].id, PixelPoint{_images, camera, scene.origin(), slot, i}, out))
+                if (aovValue(aovs[a].id,
+                             PixelPoint{_images, camera, moving, scene.origin(), slot, i}, out))
                     film.addAov(int(a), x, y, out, 0.0f);
             }
         });

@@ -11,7 +11,7 @@ namespace patina {
 /// By pixel, rows from the bottom as OpenGL counts.
 struct RasterSeenImages {
     std::vector<vec4> positions; ///< world space beside the origin, w 0 where nothing is
-    std::vector<vec4> normals, albedos;
+    std::vector<vec4> normals, geometricNormals, albedos;
     std::vector<std::vector<vec4>> primvars;
     std::vector<int> ids; ///< prim, instance, element, place of the prim
 };
@@ -54,7 +54,7 @@ private:
         {{GL_COMPUTE_SHADER, "receivers", "#include \"shaders/raster/receivers.comp.glsl\"\n"}});
     int _width = 0, _height = 0;
     const GlTexture* _depth = nullptr;
-    GlTexture _position, _normal, _ids, _albedo;
+    GlTexture _position, _normal, _ids, _albedo, _geometricNormal;
     std::vector<GlTexture> _primvars;
     GlFramebuffer _target;
     RasterAovRequest _request; ///< that _target is for

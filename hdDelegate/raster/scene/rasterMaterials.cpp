@@ -79,8 +79,7 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
         _culls = culls;
         _materials.clear();
         for (const std::string& name : _aovs.leftOut)
-            _diagnostics.warn("", "",
-                              messages::primvarAovEmpty(name, RasterAovRequest::maxPrimvars));
+            _diagnostics.warn("", "", messages::primvarAovEmpty(name, _aovs.room()));
     }
     _domeMethods.clear();
     _standIns = 0;

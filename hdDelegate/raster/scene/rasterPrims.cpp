@@ -26,15 +26,6 @@ float areaOf(const TriangleMesh& mesh, const mat4& toWorld) {
 
 constexpr size_t maxUnsortedPlaces = 32; // are drawn in the order that they have
 
-bool deforms(const Geometry& prim) {
-    switch (prim.kind) {
-    case GeometryKind::Mesh: return static_cast<const Mesh&>(prim).points.moves();
-    case GeometryKind::Curves: return static_cast<const Curves&>(prim).points.moves();
-    case GeometryKind::Points: return static_cast<const Points&>(prim).points.moves();
-    default: return false;
-    }
-}
-
 } // namespace
 
 /// @returns the row of bits of a prim in a place

@@ -180,7 +180,7 @@ void RasterScene::deform(float timeCode) {
 }
 
 bool RasterScene::moveTo(float timeCode) {
-    if (!_moves) return false;
+    if (!_moves || !(_shutterClose > _shutterOpen)) return false;
     deform(timeCode);
     RasterInstances places(_parts.placements, timeCode, _origin);
     for (const RasterGroup& group : _groups) {

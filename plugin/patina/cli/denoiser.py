@@ -20,10 +20,11 @@ def prepare(module):
         raise CommandError(f"--denoise: {missing}; `pip install pyoidn` has it, or PATINA_OIDN_LIBRARY names the library")
 
 
-def run(module, film, threads=0):
-    """:raises CommandError: in one line; the film is as before"""
+def run(module, film, threads=0, aovs=False):
+    """:param aovs: of light, too
+    :raises CommandError: in one line; the film is as before"""
     try:
-        module.denoise(film, threads)
+        module.denoise(film, threads, aovs)
     except RuntimeError as error:
         raise CommandError(f"--denoise: {error}") from None
 

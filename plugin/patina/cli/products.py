@@ -50,7 +50,7 @@ def _products(prim):
             prim.warn(prim.path, "products", "noProduct", target)
             continue
         kind = product.GetAttribute("productType").Get()
-        if kind not in (None, "raster"):
+        if kind not in (None, "raster", "deepRaster"):
             prim.warn(target, "productType", "productTypeUnknown", kind)
             continue
         found.append(product)
@@ -71,13 +71,25 @@ def _shot(prim, product, arguments, time, decimals):
     image = frames.named(image, time, decimals)
     if not arguments.image:
         image = _placed(product.GetPath(), image, arguments)
+    deep = bool(product) and str(prim_value(product.GetAttribute("productType"), None)) == "deepRaster"
     aovs, half = _aovs(prim, product)
+    if deep:
+        _check_deep(prim, product, image, aovs)
+        aovs = ()
     extra = [name for name in recordFlags.aovs_of(arguments) if name not in aovs]
-    output = shot.Output(image, tuple([*aovs, *extra]), arguments.half or half)
+    output = shot.Output(image, () if deep else tuple([*aovs, *extra]), arguments.half or half, deep)
     size = _size(prim, product, arguments)
     camera = arguments.camera or prim.target(product, "camera")
     return shot.Shot(time, [output], camera, size, _render_settings(prim, product, arguments, size),
                      prim=str(product.GetPath() if product else prim.path))
+
+
+def _check_deep(prim, product, image, aovs):
+    for aov in aovs:
+        if aov not in ("color", "alpha", "depth"):
+            prim.warn(product.GetPath(), "orderedVars", "deepVarLeftOut", aov)
+    if not image.lower().endswith(".exr"):
+        raise CommandError(f"{product.GetPath()}: deep images are OpenEXR (.exr), not {image}")
 
 
 def _placed(product, name, arguments):

@@ -73,6 +73,11 @@ class _Job:
         outputs.need_folders([a.json, a.report], a.makeOutputPath)
         if a.image:
             self.module.check_image_path(a.image, ["color", "alpha"] + recordFlags.aovs_of(a))
+        if a.deep:
+            if not a.deep.lower().endswith(".exr"):
+                raise CommandError(f"--deep {a.deep}: deep images are OpenEXR (.exr)")
+            outputs.need_folders([a.deep], a.makeOutputPath)
+        a.denoise = a.denoise or a.denoiseAovs
         if a.denoise:
             denoiser.prepare(self.module)
         outputs.check_all([a.image, a.json, a.report])
@@ -84,6 +89,7 @@ class _Job:
         if prim:
             self.arguments = a = renderSettings.applied(a, prim)
             partJob.check(a)  # once more: now with what the prim says
+            a.denoise = a.denoise or a.denoiseAovs
             if a.denoise:
                 denoiser.prepare(self.module)
         self.settings, self.purposes = recordFlags.settings_of(a), recordFlags.purposes_of(a)
@@ -96,6 +102,10 @@ class _Job:
             if not a.image:
                 for output in shot.outputs:
                     self.module.check_image_path(output.image, list(output.aovs))
+            if shot.deep and a.resume:
+                raise CommandError(f"{shot.image}: --resume continues no deep image, since a checkpoint has no depths")
+            if shot.deep:
+                a.checkpointSeconds = 0.0
         reports.plan(a, self.shots, self.stage)
         self.snapshots.check([image for shot in self.shots for image in shot.images], a.snapshotSuffix)
         for shot in self.shots:
@@ -137,7 +147,7 @@ class _Job:
         with self.statistics.phase("denoise"):
             if denoiser.takes_away(film):
                 self.statistics.warn("", "denoise", "pixelsBelowZero")
-            denoiser.run(self.module, film, self.arguments.threads)
+            denoiser.run(self.module, film, self.arguments.threads, self.arguments.denoiseAovs)
 
     @property
     def _has_checkpoint(self):
@@ -161,16 +171,17 @@ class _Job:
 
     def _info(self, shot):
         """:returns: what the reader reported; the scene holds the shot's frame as its camera sees it"""
-        if self._read is None or self._read[0] != shot.frame or not self._also_from(shot.camera):
+        moment = (shot.frame, self._blurs(shot))
+        if self._read is None or self._read[0] != moment or not self._also_from(shot.camera):
             with self.statistics.phase("translate"):
-                self._read = (shot.frame, shot.camera, self._translate(shot))
+                self._read = (moment, shot.camera, self._translate(shot))
         info = self._read[2]
         return info if shot.camera == self._read[1] else dataclasses.replace(info, camera=shot.camera)
 
     def _also_from(self, camera):
         """:returns: whether what was read looks as it would for another camera of the same frame: with an equal shutter, and
             without a headlight"""
-        frame, read_for, info = self._read
+        (frame, blurs), read_for, info = self._read
         if camera == read_for:
             return True
         if info.headlight or camera not in info.cameras:
@@ -178,18 +189,23 @@ class _Job:
         from patina.cli.products import prim_value
 
         prim = self.stage.GetPrimAtPath(camera)
-        return all((prim_value(prim.GetAttribute("shutter:" + end), frame) or 0.0) == time
+        return not blurs or all((prim_value(prim.GetAttribute("shutter:" + end), frame) or 0.0) == time
                    for end, time in zip(("open", "close"), info.shutter))
+
+    def _blurs(self, shot):
+        return dict(self.settings, **shot.settings)["enableMotionBlur"]
 
     def _translate(self, shot):
         from patina import stage as reader
 
+        wanted = [aov for shot in self.shots for aov in shot.aovs()]
         options = reader.StageOptions(
             frame=shot.frame, purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
-            headlight=not self.arguments.disableCameraLight,
+            shutter=None if self._blurs(shot) else (0.0, 0.0), headlight=not self.arguments.disableCameraLight,
+            motion=any(aov.startswith("motion") for aov in wanted),
             render_pass=self.arguments.renderPassPrimPath, rendering_color_space=self.arguments.renderingColorSpace,
             material_purpose=getattr(self.arguments, "materialPurpose", "full"),
-            matte_names=any(aov.startswith("crypto") for shot in self.shots for aov in shot.aovs()))
+            matte_names=any(aov.startswith("crypto") for aov in wanted))
         with self.scene.edit() as edit:
             edit.clear()
             return reader.read_stage(self.stage, edit, options)
@@ -202,7 +218,7 @@ class _Job:
         camera = self.scene.camera(info.camera)
         size = shots.size_of(shot, camera, settings["pixelAspectRatio"])
         shots.place(settings, size, camera, functools.partial(self.statistics.warn, shot.prim))
-        settings.update(aovs=list(wanted), timeMaterials=bool(self.arguments.report))
+        settings.update(aovs=list(wanted), timeMaterials=bool(self.arguments.report), deep=shot.deep)
         return settings
 
     def _film(self, shot, settings, info):
@@ -268,6 +284,8 @@ class _Job:
         a = self.arguments
         metadata = self.statistics.metadata(a, settings, info.camera)
         for output in shot.outputs:
+            if output.deep and not film.has_deep:
+                continue  # the back end has said so
             self.module.write_images(film, output.image, shots.image_options(a, shot, output, settings), metadata)
         self.snapshots.remove()
         if self._has_checkpoint and not self.interrupted and not a.keepCheckpoint:
@@ -276,9 +294,11 @@ class _Job:
     def _write_snapshot(self, film, shot, settings, camera):
         """:param film: a copy, which the render does not touch"""
         if self.arguments.denoise:
-            denoiser.run(self.module, film, self.arguments.threads)
+            denoiser.run(self.module, film, self.arguments.threads, self.arguments.denoiseAovs)
         metadata = statistics.of_snapshot(self.arguments, film, camera)
         for output in shot.outputs:
+            if output.deep:
+                continue  # copies of films have no depths
             path = self.snapshots.place_of(output.image, self.arguments.snapshotSuffix)
             self.module.write_images(film, path, shots.image_options(self.arguments, shot, output, settings), metadata)
             self.snapshots.wrote(path)

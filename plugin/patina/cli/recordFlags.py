@@ -74,6 +74,9 @@ def _add_denoise_flag(group):
                        help="the colour as Open Image Denoise cleans it, led by albedo and normals; OpenEXR files keep the "
                             "noisy one as color.noisy (./patina installs pyoidn for it; else $PATINA_OIDN_LIBRARY names "
                             "the library)")
+    group.add_argument("--denoiseAovs", action="store_true",
+                       help="as --denoise, and AOVs of light as well, each by itself with the same guides; they then add up to "
+                            "the colour only nearly")
 
 
 def add_tolerance_flag(group):
@@ -94,6 +97,10 @@ def _add_output_flags(group):
                        help=f"also write this (repeatable, OpenEXR only): {', '.join(ALL_AOVS)}, any primvars:NAME, "
                             f"or all; light by its paths: {', '.join(LIGHT_AOVS)}, or NAME=lpe:EXPRESSION, in which "
                             "'key' is a light group")
+    group.add_argument("--deep", metavar="FILE.exr",
+                       help="also write a deep image: the samples of each pixel front to back, with R, G, B, A, Z and ZBack, "
+                            "of surfaces, partial coverage and volumes. Flattened it is IMAGE before any denoising. Path "
+                            "tracer only")
     group.add_argument("--half", action="store_true", help="OpenEXR: colour as 16-bit floats")
     group.add_argument("--compression", default="zip", metavar="NAME",
                        choices=["none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"],
@@ -157,6 +164,7 @@ def settings_of(arguments):
     settings["samples"] = arguments.samples or (MAX_SAMPLES if endless else DEFAULT_SAMPLES)
     settings["aovs"] = list(dict.fromkeys(aovs_of(arguments) + list(denoiser.GUIDES if arguments.denoise else ())))
     settings["methods"] = methods.parse(arguments.method)
+    settings["deep"] = bool(arguments.deep)
     _check_display(arguments)
     if arguments.dataWindow:
         settings["dataWindow"] = arguments.dataWindow

@@ -195,8 +195,8 @@ def _setting(merged, prim, name, key, value):
             prim.warn(prim.path, name, "backendUnknown", value)
         merged.backend = value if value in _BACKENDS else merged.backend
         return
-    if key == "denoise":
-        merged.denoise = bool(value)
+    if key in ("denoise", "denoiseAovs"):
+        setattr(merged, key, bool(value))
         return
     if key == "outliers":
         if value not in recordFlags.OUTLIERS:

@@ -9,6 +9,7 @@ class Output:
     image: str
     aovs: tuple  # names in the file's order, color and alpha among them where it holds them
     half: bool = False  # OpenEXR: colour as 16-bit floats
+    deep: bool = False  # the film's samples by their depths
 
 
 @dataclass
@@ -30,6 +31,10 @@ class Shot:
     @property
     def images(self):
         return [output.image for output in self.outputs]
+
+    @property
+    def deep(self):
+        return any(output.deep for output in self.outputs)
 
     def aovs(self):
         """:returns: names besides color and alpha that some file holds"""

@@ -15,8 +15,11 @@ def plan(arguments, stage, settings_prim=None):
     if settings_prim is None:
         own = tuple(["color", "alpha"] + recordFlags.aovs_of(arguments))
         size = arguments.imageWidth, arguments.imageHeight
-        return [Shot(frame, [Output(image, own, arguments.half)], arguments.camera, size)
-                for frame, image in frames.plan(arguments, stage)]
+        planned = [Shot(frame, [Output(image, own, arguments.half)], arguments.camera, size)
+                   for frame, image in frames.plan(arguments, stage)]
+        if arguments.deep:
+            _add_deep(planned, arguments, stage)
+        return planned
     times, decimals = frames.times(arguments, stage)
     if arguments.image and (arguments.frames or frames.has_place(arguments.image)):
         frames.plan(arguments, stage)  # complains where the name does not fit
@@ -32,6 +35,14 @@ def plan(arguments, stage, settings_prim=None):
                     if shot.frame != known[image] else ": two products have this name"))
             known[image] = shot.frame
     return shots
+
+
+def _add_deep(planned, arguments, stage):
+    if len(planned) > 1 and not frames.has_place(arguments.deep):
+        raise UsageError(f"patina record: --deep {arguments.deep} has no place for the frame (deep.####.exr)")
+    _, decimals = frames.times(arguments, stage)
+    for shot in planned:
+        shot.outputs.append(Output(frames.named(arguments.deep, shot.frame, decimals), (), deep=True))
 
 
 def size_of(shot, camera, pixel_aspect):
@@ -76,7 +87,7 @@ def place(settings, size, camera, warn):
 def image_options(arguments, shot, output, settings):
     """:param settings: of the render
     :returns: dict of image options of a file"""
-    options = dict(recordFlags.image_options_of(arguments), aovs=list(output.aovs), half=output.half,
+    options = dict(recordFlags.image_options_of(arguments), aovs=list(output.aovs), half=output.half, deep=output.deep,
                    pixel_aspect_ratio=settings["pixelAspectRatio"])
     frame = settings.get("frameWindow")
     if frame:
@@ -92,6 +103,11 @@ def image_options(arguments, shot, output, settings):
 
 def check_usage(arguments):
     """:raises UsageError: where neither an image nor settings say what to write, or both say where"""
+    if arguments.deep and (arguments.settings or arguments.renderPassPrimPath):
+        raise UsageError("patina record: --deep is of IMAGE alone; with --settings a product of type deepRaster is such a file")
+    for flag in ("resume", "keepCheckpoint") if arguments.deep else ():
+        if getattr(arguments, flag):
+            raise UsageError(f"patina record: --deep with --{flag}: a checkpoint has no depths")
     if arguments.settings and arguments.renderPassPrimPath:
         raise UsageError("patina record: --renderPassPrimPath names its own settings; --settings cannot be beside it")
     if not arguments.image and not arguments.settings and not arguments.renderPassPrimPath:

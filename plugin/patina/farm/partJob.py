@@ -11,6 +11,8 @@ _REFUSED = (("seconds", "--seconds", "a time limit cuts every part elsewhere"),
             ("resume", "--resume", "a part is rendered whole"),
             ("keepCheckpoint", "--keepCheckpoint", "its file keeps all that it has"),
             ("snapshot", "--snapshot", "a part is no image"),
+            ("denoiseAovs", "--denoiseAovs", "merged films have their colour denoised alone"),
+            ("deep", "--deep", "its file has no depths"),
             ("report", "--report", "a report is about a whole image"))
 
 

@@ -49,8 +49,12 @@ class Context:
 
     @property
     def moving(self):
-        """Whether things move while the shutter is open."""
-        return not self.time.IsDefault() and self.shutter[1] > self.shutter[0]
+        """Whether things are read at more than one time: they move while the shutter is open, or AOVs tell their motion."""
+        return not self.time.IsDefault() and (self.shutter[1] > self.shutter[0] or self.options.motion)
+
+    def with_moments(self, offsets):
+        """:returns: the times, and those that AOVs of motion ask for"""
+        return distinct(sorted({*offsets, -1.0, 1.0})) if self.options.motion else offsets
 
     def xform_cache(self, offset=0.0):
         """:param offset: time codes from the frame"""
@@ -73,16 +77,25 @@ class Context:
         return self._cyclic
 
     def motion_offsets(self, samples):
-        """When to evaluate what has these time samples: the ends of the shutter and what is between.
+        """When to evaluate what has these time samples: the ends of the shutter, what is between, and the moments.
 
         :param samples: authored time codes inside the shutter
         :returns: ascending times relative to the frame"""
+        return self.with_moments(self._shutter_offsets(samples))
+
+    def _shutter_offsets(self, samples):
         frame, (start, end) = self.time.GetValue(), self.shutter
+        if not end > start:  # all is as at the frame's time
+            return [0.0]
         inside = sorted({float(s) - frame for s in samples if start < float(s) - frame < end})
-        if len(inside) > MAX_MOTION_SAMPLES - 2:
-            step = (end - start) / (MAX_MOTION_SAMPLES - 1)
-            inside = [start + step * i for i in range(1, MAX_MOTION_SAMPLES - 1)]
+        if len(inside) > self._most_samples - 2:
+            step = (end - start) / (self._most_samples - 1)
+            inside = [start + step * i for i in range(1, self._most_samples - 1)]
         return distinct([start, *inside, end])
+
+    @property
+    def _most_samples(self):
+        return MAX_MOTION_SAMPLES - (2 if self.options.motion else 0)
 
     def velocity_offsets(self, prim, bent):
         """When to evaluate what velocities move in the shutter: the ends, and where accelerations or angular velocities bend
@@ -93,7 +106,9 @@ class Context:
         count = 2
         if any(attribute.HasAuthoredValue() for attribute in bent):
             count = max(3, UsdGeom.MotionAPI(prim).ComputeNonlinearSampleCount(self.time))
-        return distinct(np.linspace(*self.shutter, min(count, MAX_MOTION_SAMPLES)).tolist())
+        if not self.shutter[1] > self.shutter[0]:
+            return self.with_moments([0.0])
+        return self.with_moments(distinct(np.linspace(*self.shutter, min(count, self._most_samples)).tolist()))
 
     def attribute_offsets(self, attribute):
         """:returns: motion_offsets() of an attribute, or [0] when it does not move in the shutter. Like Hydra it
@@ -101,13 +116,14 @@ class Context:
         if not self.moving or not attribute or not attribute.ValueMightBeTimeVarying():
             return [0.0]
         interval, frame = self.shutter_interval(), self.time.GetValue()
-        offsets = self.motion_offsets(attribute.GetTimeSamplesInInterval(interval))
-        before, after = (attribute.GetBracketingTimeSamples(t) for t in (interval.min, interval.max))
-        if before and before[0] <= interval.min:
-            offsets[0] = before[0] - frame
-        if after and after[1] >= interval.max:
-            offsets[-1] = after[1] - frame
-        return distinct(offsets)
+        offsets = self._shutter_offsets(attribute.GetTimeSamplesInInterval(interval))
+        if len(offsets) > 1:
+            before, after = (attribute.GetBracketingTimeSamples(t) for t in (interval.min, interval.max))
+            if before and before[0] <= interval.min:
+                offsets[0] = before[0] - frame
+            if after and after[1] >= interval.max:
+                offsets[-1] = after[1] - frame
+        return self.with_moments(distinct(offsets))
 
 
 def distinct(times):

@@ -14,6 +14,7 @@ class StageOptions:
     camera: path or name; None takes the stage's own (render settings, main_cam, the first), and
         frames the stage when there is none
     shutter: (open, close) in time codes relative to the frame; None takes the camera's
+    motion: also read where things are a frame before and after, for the AOVs of motion
     headlight: light a stage that has no lights
     rendering_color_space: linear space of the scene's colours; '' is linear Rec.709
     render_pass: path of a UsdRenderPass, whose collections say what is drawn
@@ -25,6 +26,7 @@ class StageOptions:
     complexity: object = 1.0
     camera: object = None
     shutter: object = None
+    motion: bool = False
     headlight: bool = True
     material_purpose: str = "full"
     matte_names: bool = False

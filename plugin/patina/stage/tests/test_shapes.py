@@ -95,6 +95,20 @@ def test_no_motion_without_a_shutter(read, numbers):
     assert "transform" not in read(MOVING).prim("/x/moved")  # default time
 
 
+@pytest.mark.parametrize("shutter,inside", [((-0.25, 0.25), (-0.25, 0.25)), ((0.0, 0.0), (0.0,)), ((0.5, 0.5), (0.0,))])
+def test_aovs_of_motion_ask_for_the_frames_beside(read, numbers, shutter, inside):
+    """What is seen while the shutter is open, or at the frame's time where it is not, stays as it is without them."""
+    reading = read(MOVING, frame=1.0, shutter=shutter, motion=True)
+    times = sorted({-1.0, 1.0, *inside})
+    moved, velocity = reading.prim("/x/moved"), reading.prim("/velocity")
+    assert [k for k in moved if k.startswith("transform@")] == [f"transform@{t:g}" for t in times]
+    assert [numbers(moved[f"transform@{t:g}"])[12] for t in times] == [1.0 + t for t in times]
+    assert [numbers(velocity[f"points@{t:g}"])[0] for t in times] == times
+    assert [numbers(reading.prim("/samples")[f"points@{t}"])[0] for t in (-1, 0, 1)] == [0.0, 1.0, 0.0]
+    assert "transform" not in reading.prim("/still")
+    assert "transform@1" not in read(MOVING, motion=True).prim("/x/moved")  # default time
+
+
 def test_types_that_are_newer_fall_back_as_the_stage_says(read):
     reading = read("""(fallbackPrimTypes = { token[] Globe = ["Ball", "Sphere"]
         token[] Lamp = ["SphereLight"] })

@@ -1,0 +1,402 @@
+# SPDX-License-Identifier: Apache-2.0
+"""AOVs of what is seen against closed forms, in both back ends: geometric normals, texture coordinates, reference positions and
+motion vectors; in other units, scaled, and far from the origin."""
+import json
+
+import numpy as np
+import pytest
+
+from inProcess import needs_opengl
+from rendering import record
+
+SIZE, DISTANCE = 32, 8.0
+PIXELS = SIZE / DISTANCE  # a unit across at that distance; the aperture is as wide as the focal length
+HEAD = """#usda 1.0
+(
+    upAxis = "Y"
+    metersPerUnit = %(metersPerUnit)g
+    startTimeCode = 5
+    endTimeCode = 5
+)
+def Xform "world"
+{
+    double3 xformOp:translate = (%(far)g, %(far)g, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+    def Camera "camera"
+    {
+        float focalLength = 50
+        float horizontalAperture = 50
+        float verticalAperture = 50
+        float2 clippingRange = (%(near)g, %(most)g)
+        double shutter:open = %(open)g
+        double shutter:close = %(close)g
+        %(camera)s
+    }
+%(prims)s
+}
+def DistantLight "sun"
+{
+}
+"""
+WHERE = [dict(metersPerUnit=1), dict(metersPerUnit=0.01, unit=100.0), dict(metersPerUnit=1, far=1e5)]
+places = pytest.mark.parametrize("where", WHERE, ids=["metres", "centimetres", "far"])
+backends = pytest.mark.parametrize("backend", ["embree", "raster"])
+
+
+def moving(op, keys, unit=1.0, more=""):
+    """:param keys: dict of time code -> numbers"""
+    samples = ", ".join(f"{t}: ({', '.join(repr(float(n) * unit) for n in v)})" for t, v in keys.items())
+    return (f"double3 xformOp:{op}.timeSamples = {{{samples}}}\n"
+            f'        uniform token[] xformOpOrder = ["xformOp:{op}"{more}]')
+
+
+def quad(body="", name="sheet", half=20.0, z=-DISTANCE, kind="Mesh"):
+    """A sheet across the view, in units of the stage over `unit`."""
+    h = half
+    return f'''    def {kind} "{name}"
+    {{
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [({-h}, {-h}, {z}), ({h}, {-h}, {z}), ({h}, {h}, {z}), ({-h}, {h}, {z})]
+        uniform token subdivisionScheme = "none"
+        {body}
+    }}
+'''
+
+
+def stage_text(prims, camera="", far=0.0, unit=1.0, metersPerUnit=1.0, shutter=(0.0, 0.0)):
+    return HEAD % dict(prims=prims, camera=camera, far=far, near=0.1 * unit, most=1000 * unit, open=shutter[0],
+                       close=shutter[1], metersPerUnit=metersPerUnit)
+
+
+def scaled(unit):
+    return f'double3 xformOp:scale = ({unit}, {unit}, {unit})\n        uniform token[] xformOpOrder = ["xformOp:scale"]'
+
+
+def render(tmp_path, text, aovs, backend="embree", *arguments, samples=4):
+    """:returns: dict of channel -> array, and the command's report"""
+    import _patina
+
+    needs_opengl(backend)
+    stage, image, report = tmp_path / "stage.usda", tmp_path / "image.exr", tmp_path / "report.json"
+    stage.write_text(text)
+    record(stage, image, "-w", SIZE, "--samples", samples, "--frames", 5, "--backend", backend, "--filterRadius", 0.5,
+           f"--json={report}",
+           *[a for aov in aovs for a in ("--aov", aov)], *arguments)
+    found = _patina.read_image(str(image))
+    with open(report, encoding="utf-8") as file:
+        return dict(zip(found.channels, np.moveaxis(np.array(found.pixels), -1, 0))), json.load(file)
+
+
+def vectors(channels, name, axes="XY"):
+    return np.stack([channels[f"{name}.{axis}"] for axis in axes], -1)
+
+
+def rounding(where):
+    """Pixels by which a motion vector may be off: places of hits are floats of at most 64 views from the origin of their space
+    (path tracer: seenOrigin.h), and some sixteen roundings of 2^-24 each lie on their way."""
+    return 16 * 64 * SIZE * 2.0 ** -24
+
+
+MOTION = ("motionForward", "motionBackward")
+
+
+@backends
+@places
+def test_a_camera_that_moves(tmp_path, backend, where):
+    """It goes 0.5 to the right and 0.25 up a frame: the sheet goes left and down in the image."""
+    unit = where.get("unit", 1.0)
+    camera = moving("translate", {0: (-2.5, -1.25, 0), 10: (2.5, 1.25, 0)}, unit)
+    channels, _ = render(tmp_path, stage_text(quad(scaled(unit)), camera, **where), MOTION, backend)
+    way = np.array([-0.5, 0.25]) * PIXELS
+    assert vectors(channels, "motionForward") == pytest.approx(np.broadcast_to(way, (SIZE, SIZE, 2)), abs=rounding(where))
+    assert vectors(channels, "motionBackward") == pytest.approx(np.broadcast_to(-way, (SIZE, SIZE, 2)), abs=rounding(where))
+
+
+@backends
+@places
+def test_a_prim_that_gathers_speed(tmp_path, backend, where):
+    """0, 1 and 4 quarters to the right at frames 4, 5 and 6; what is later is not what was earlier."""
+    unit = where.get("unit", 1.0)
+    body = (moving("translate", {4: (0, 0, 0), 5: (0.25, 0.5, 0), 6: (1, 0, 0)}, unit, ', "xformOp:scale"')
+            + f"\n        double3 xformOp:scale = ({unit}, {unit}, {unit})")
+    channels, _ = render(tmp_path, stage_text(quad(body), **where), MOTION, backend)
+    for name, way in (("motionForward", (0.75, 0.5)), ("motionBackward", (-0.25, 0.5))):
+        expected = np.broadcast_to(np.array(way) * PIXELS, (SIZE, SIZE, 2))
+        assert vectors(channels, name) == pytest.approx(expected, abs=rounding(where))
+
+
+@backends
+def test_what_comes_nearer_goes_outwards(tmp_path, backend):
+    """From distance 8 to 7: a place at x pixels from the middle goes to 8/7 x. Within half a pixel of the centre any may be
+    shown, whose way differs by a fourteenth."""
+    body = moving("translate", {5: (0, 0, 0), 6: (0, 0, 1)})
+    channels, _ = render(tmp_path, stage_text(quad(body)), MOTION, backend)
+    from_middle = np.arange(SIZE) + 0.5 - SIZE / 2
+    x, y = np.meshgrid(from_middle, from_middle)
+    assert np.abs(vectors(channels, "motionForward") - np.stack([x, y], -1) / 7).max() < 0.5 / 7 + rounding({})
+    assert np.abs(vectors(channels, "motionBackward")).max() < rounding({})
+
+
+@backends
+def test_instances_inside_of_instances(tmp_path, backend):
+    """The outer instancer goes right, the inner one up, and the sheet back to the left: 1, 0.5 and -0.25 a frame."""
+    def at(numbers, name="positions"):
+        x, y = numbers
+        return f'point3f[] {name}.timeSamples = {{4: [({x}, {y}, 0)], 6: [({-x}, {-y}, 0)]}}'
+
+    sheet = quad(moving("translate", {4: (0.25, 0, 0), 6: (-0.25, 0, 0)}))
+    inner = (f'    def PointInstancer "inner"\n    {{\n        int[] protoIndices = [0]\n        {at((0, -0.5))}\n'
+             f'        rel prototypes = </world/outer/inner/sheet>\n{sheet}    }}\n')
+    outer = (f'    def PointInstancer "outer"\n    {{\n        int[] protoIndices = [0]\n        {at((-1, 0))}\n'
+             f'        rel prototypes = </world/outer/inner>\n{inner}    }}\n')
+    channels, _ = render(tmp_path, stage_text(outer), MOTION, backend)
+    expected = np.broadcast_to(np.array([0.75, -0.5]) * PIXELS, (SIZE, SIZE, 2))
+    assert vectors(channels, "motionForward") == pytest.approx(expected, abs=rounding({}))
+    assert vectors(channels, "motionBackward") == pytest.approx(-expected, abs=rounding({}))
+
+
+DEFORMING = quad().replace("point3f[] points =", "point3f[] points.timeSamples = {5:").replace(
+    ")]\n        uniform", ")], 6: [(-18, -20, -8), (22, -20, -8), (22, 20, -8), (-18, 20, -8)]}\n        uniform")
+
+
+@pytest.mark.parametrize("scheme", ["none", "catmullClark"])
+def test_points_that_move(tmp_path, scheme):
+    """2 to the right in the next frame; nothing before."""
+    channels, _ = render(tmp_path, stage_text(DEFORMING.replace('"none"', f'"{scheme}"')), MOTION)
+    assert vectors(channels, "motionForward") == pytest.approx(
+        np.broadcast_to(np.array([2.0, 0.0]) * PIXELS, (SIZE, SIZE, 2)), abs=rounding({}))
+    assert np.abs(vectors(channels, "motionBackward")).max() < rounding({})
+
+
+@pytest.mark.parametrize("kind", ["curves", "points"])
+def test_curves_and_points_that_move(tmp_path, kind):
+    if kind == "points":
+        text = '''    def Points "balls"
+    {
+        point3f[] points.timeSamples = {5: [(0, 0, -8)], 6: [(0.5, 0, -8)]}
+        float[] widths = [4]
+    }
+'''
+    else:
+        text = '''    def BasisCurves "fibres"
+    {
+        uniform token type = "linear"
+        int[] curveVertexCounts = [2]
+        point3f[] points.timeSamples = {5: [(0, -9, -8), (0, 9, -8)], 6: [(0.5, -9, -8), (0.5, 9, -8)]}
+        float[] widths = [4, 4]
+    }
+'''
+    channels, _ = render(tmp_path, stage_text(text), MOTION)
+    middle = (SIZE // 2, SIZE // 2)
+    assert vectors(channels, "motionForward")[middle] == pytest.approx((0.5 * PIXELS, 0), abs=rounding({}))
+
+
+def test_the_rasterizer_says_that_it_does_not_follow_points(tmp_path):
+    channels, report = render(tmp_path, stage_text(DEFORMING), MOTION, "raster")
+    assert np.abs(vectors(channels, "motionForward")).max() < rounding({})
+    assert [w["prim"] for w in report["warnings"] if w["id"] == "motionOfPointsLeftOut"] == ["/world/sheet"]
+
+
+def test_a_film_that_is_no_plane(tmp_path):
+    text = stage_text(quad(moving("translate", {4: (0, 0, 0), 6: (1, 0, 0)})), 'token patina:projection = "spherical"')
+    channels, report = render(tmp_path, text, MOTION)
+    assert not vectors(channels, "motionForward").any()
+    assert [w["id"] for w in report["warnings"]] == ["motionAovsEmpty"]
+
+
+@backends
+@pytest.mark.parametrize("shutter", [(0.0, 0.5), (-0.25, 0.25), (0.0, 0.0)])
+def test_without_blur_prims_are_where_the_frame_has_them(tmp_path, backend, shutter):
+    """A card whose left edge crosses the view: it turns about the view's axis, which interpolated matrices do not."""
+    text = stage_text(quad('''float xformOp:rotateZ.timeSamples = {0: 0, 10: 90}
+        uniform token[] xformOpOrder = ["xformOp:rotateZ"]''', half=3.0), shutter=shutter)
+    still = text.replace("{0: 0, 10: 90}", "{0: 45}")
+    found, _ = render(tmp_path, text, ("position", *MOTION), backend, "--disableMotionBlur")
+    expected, _ = render(tmp_path, still, ("position",), backend, "--disableMotionBlur")
+    for channel, values in expected.items():
+        # The planes of one stage are interpolated between neighbours, those of the other are not: their bits may differ.
+        assert np.abs(found[channel] - values).max() < 1e-5, channel
+    # 9 degrees a frame, of a place that turns by them: the mean over a symmetric card is 0, its length the sine's.
+    seen = found["A"] == 1
+    way, place = vectors(found, "motionForward")[seen], vectors(found, "position")[seen]
+    turn = np.radians(9.0)
+    rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    moved = (place @ rotation.T - place) * PIXELS * (1, -1)
+    assert np.abs(way - moved).max() < 1e-3
+
+
+@backends
+def test_asking_for_motion_changes_no_picture(tmp_path, backend):
+    body = moving("translate", {4: (0, 0, 0), 5: (0.25, 0.5, 0), 6: (1, 0, 0)})
+    text = stage_text(quad(body, half=3.0) + DEFORMING.replace("sheet", "back").replace("-8)", "-12)"), shutter=(-0.25, 0.25))
+    alone, _ = render(tmp_path, text, (), backend)
+    beside, _ = render(tmp_path, text, MOTION, backend)
+    for channel in "RGBA":
+        assert np.array_equal(alone[channel], beside[channel]), channel
+
+
+def test_a_product_without_blur(tmp_path):
+    """The prim's own flag of UsdRender, and its name for the vectors."""
+    import _patina
+    from rendering import patina
+
+    settings = '''
+def Scope "Render"
+{
+    def RenderSettings "main"
+    {
+        int2 resolution = (32, 32)
+        rel camera = </world/camera>
+        rel products = </Render/product>
+        bool disableMotionBlur = 1
+    }
+    def RenderProduct "product"
+    {
+        token productName = "product.exr"
+        rel orderedVars = [</Render/ahead>, </Render/flat>, </Render/place>, </Render/st>, </Render/P>]
+    }
+    def RenderVar "ahead"
+    {
+        token dataType = "float2"
+        string sourceName = "motionFore"
+    }
+    def RenderVar "flat"
+    {
+        token dataType = "normal3f"
+        string sourceName = "Ngn"
+    }
+    def RenderVar "place"
+    {
+        token dataType = "point3f"
+        string sourceName = "__Pref"
+    }
+    def RenderVar "st"
+    {
+        token dataType = "texCoord2f"
+        string sourceName = "st"
+    }
+    def RenderVar "P"
+    {
+        string sourceName = "P"
+    }
+}
+'''
+    (tmp_path / "stage.usda").write_text(
+        stage_text(quad(moving("translate", {0: (-5, 0, 0), 10: (5, 0, 0)})), shutter=(0.5, 0.75)) + settings)
+    patina("record", tmp_path / "stage.usda", "--settings", "/Render/main", "--outputFolder", tmp_path, "--frames", 5,
+           "--samples", 4, "--quiet")
+    found = _patina.read_image(str(tmp_path / "product.exr"))
+    channels = dict(zip(found.channels, np.moveaxis(np.array(found.pixels), -1, 0)))
+    assert {name.split(".")[0] for name in channels} == {"motionForward", "Ng", "Pref", "uv", "position"}
+    assert vectors(channels, "motionForward") == pytest.approx(
+        np.broadcast_to((PIXELS, 0.0), (SIZE, SIZE, 2)), abs=rounding({}))
+    # At frame 5 the sheet stands in the middle, so that places in the world are those in its own space.
+    assert vectors(channels, "Pref", "XYZ") == pytest.approx(vectors(channels, "position", "XYZ"), abs=1e-5)
+
+
+@backends
+@places
+def test_geometric_normal_of_a_tilted_sheet(tmp_path, backend, where):
+    """The authored normals point elsewhere: they are the shading normal alone."""
+    unit = where.get("unit", 1.0)
+    body = f'''double xformOp:rotateX = 30
+        double3 xformOp:translate = (0, 0, {-DISTANCE * unit})
+        double3 xformOp:scale = ({unit}, {2 * unit}, {unit})
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX", "xformOp:scale"]
+        normal3f[] normals = [(0.6, 0, 0.8), (0.6, 0, 0.8), (0.6, 0, 0.8), (0.6, 0, 0.8)] (
+            interpolation = "vertex"
+        )'''
+    channels, _ = render(tmp_path, stage_text(quad(body, z=0.0, half=40), **where), ("Ng", "normal"), backend)
+    expected = np.broadcast_to((0.0, -0.5, np.sqrt(0.75)), (SIZE, SIZE, 3))
+    assert vectors(channels, "Ng", "XYZ") == pytest.approx(expected, abs=1e-5)
+    # (0.6, 0, 0.8) turned by 30 degrees about x
+    expected = np.broadcast_to((0.6, -0.4, 0.8 * np.sqrt(0.75)), (SIZE, SIZE, 3))
+    assert vectors(channels, "normal", "XYZ") == pytest.approx(expected, abs=1e-5)
+
+
+@backends
+def test_texture_coordinates(tmp_path, backend):
+    """(x + 4) / 8 over the view; a prim without them has zeros."""
+    body = '''texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (
+            interpolation = "varying"
+        )'''
+    channels, _ = render(tmp_path, stage_text(quad(body, half=4)), ("uv", "primvars:st", "Ng", "Pref"), backend)
+    across = (np.arange(SIZE) + 0.5) / SIZE
+    s, t = np.meshgrid(across, across[::-1])
+    found = vectors(channels, "uv", "UV")
+    assert np.abs(found - np.stack([s, t], -1)).max() <= 0.5 / SIZE + 1e-6  # any place of a pixel may be shown
+    assert np.array_equal(found, vectors(channels, "primvars:st"))
+    without, _ = render(tmp_path, stage_text(quad()), ("uv",), backend)
+    assert not vectors(without, "uv", "UV").any()
+
+
+@backends
+@places
+@pytest.mark.parametrize("scheme", ["none", "catmullClark", "loop"])
+def test_reference_position(tmp_path, backend, where, scheme):
+    """A mesh that a deformer has moved by (5, 0, 0): its Pref follows the same surface, at every level of subdivision. Both are
+    sums of the same corners with the same weights, so that roundings alone part them."""
+    unit = where.get("unit", 1.0)
+    grid = np.array([(x, y, -DISTANCE + 0.3 * np.sin(2 * x + y)) for y in range(-5, 6) for x in range(-5, 6)]) * unit
+
+    def text(points):
+        return "[" + ", ".join(f"({x:.9g}, {y:.9g}, {z:.9g})" for x, y, z in points) + "]"
+
+    faces = [(r * 11 + c, r * 11 + c + 1, r * 11 + c + 12, r * 11 + c + 11) for r in range(10) for c in range(10)]
+    if scheme == "loop":
+        faces = [t for a, b, c, d in faces for t in ((a, b, c), (a, c, d))]
+    move = np.array([5 * unit, 0, 0])
+    prim = f'''    def Mesh "cloth"
+    {{
+        int[] faceVertexCounts = [{", ".join(str(len(f)) for f in faces)}]
+        int[] faceVertexIndices = [{", ".join(str(i) for f in faces for i in f)}]
+        point3f[] points = {text(grid + move)}
+        point3f[] primvars:Pref = {text(grid)} (
+            interpolation = "vertex"
+        )
+        uniform token subdivisionScheme = "{scheme}"
+        double3 xformOp:translate = ({-5 * unit}, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }}
+'''
+    channels, _ = render(tmp_path, stage_text(prim, **where), ("Pref", "position"), backend)
+    seen = channels["A"] == 1
+    found = vectors(channels, "Pref", "XYZ")[seen]
+    world = vectors(channels, "position", "XYZ")[seen] - np.array([1, 1, 0]) * where.get("far", 0.0)
+    # Positions in the file are floats of the world; sums over up to 16 corners within 10 units of the origin, twice.
+    bound = 2.0 ** -23 * where.get("far", 0.0) + 32 * 10 * unit * 2.0 ** -24
+    assert np.abs(found - world).max() < bound
+
+
+@backends
+def test_reference_position_without_the_primvar(tmp_path, backend):
+    """The place in the prim's own space; and where it is asked for by the primvar's name, nothing."""
+    body = '''double3 xformOp:translate = (1, 2, 0)
+        double3 xformOp:scale = (2, 2, 1)
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]'''
+    channels, _ = render(tmp_path, stage_text(quad(body)), ("Pref", "position", "primvars:Pref"), backend)
+    own = (vectors(channels, "position", "XYZ") - (1, 2, 0)) / (2, 2, 1)
+    assert vectors(channels, "Pref", "XYZ") == pytest.approx(own, abs=1e-5)
+    assert not vectors(channels, "primvars:Pref", "XYZ").any()
+
+
+@backends
+def test_equal_spheres_that_share_their_triangles(tmp_path, backend):
+    """Twenty of them, each with ways of its own: to the right before the frame, up after it."""
+    places_ = [((i % 5 - 2) * 1.5, (i // 5 - 1.5) * 1.5) for i in range(20)]
+    prims = "".join(f'''    def Sphere "s{i:02d}"
+    {{
+        double radius = 0.7
+        {moving("translate", {4: (x - 0.1 * i, y, -8), 5: (x, y, -8), 6: (x, y + 0.05 * i, -8)})}
+    }}
+''' for i, (x, y) in enumerate(places_))
+    channels, _ = render(tmp_path, stage_text(prims), ("Pref", "position", "primId", *MOTION), backend)
+    for i, (x, y) in enumerate(places_):
+        seen = channels["primId"] == i
+        place = vectors(channels, "position", "XYZ")[seen]
+        assert len(place) > 4
+        assert vectors(channels, "Pref", "XYZ")[seen] == pytest.approx(place - (x, y, -8), abs=rounding({}) / PIXELS)
+        pixels = SIZE / -place[:, 2:]
+        assert vectors(channels, "motionForward")[seen] == pytest.approx(pixels * (0, -0.05 * i), abs=rounding({}))
+        assert vectors(channels, "motionBackward")[seen] == pytest.approx(pixels * (-0.1 * i, 0), abs=rounding({}))

@@ -34,6 +34,8 @@ void writeDeep(const DeepPixels& pixels, const std::string& path, const ImageOpt
     // What else there is does not hold deep scanlines.
     const std::string& packing = options.compression;
     spec.attribute("compression", packing == "none" || packing == "rle" ? packing : "zips");
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
+                   options.renderingSpace->chromaticities.data());
     OIIO::DeepData data(spec);
     const auto each = [&](const auto& visit) {
         for (int y = 0; y < placement.height; ++y)

@@ -10,7 +10,6 @@
 //   xEval(lobe, wo, wi) -> LobeEval: value times |cos wi|, and pdf
 //   xSample(lobe, wo, u in [0, 1)^3) -> LobeSample
 //   xAlbedo(lobe, wo) -> directional albedo
-//   xAlbedoReflect, where a lobe also transmits: the layer below is scaled by 1 minus this
 // Where a lobe differs from the default, its file overloads one of these for its struct; C++
 // looks which there are (materialNetwork/ir/lobeFacts.h):
 //   lobeFix(lobe, wo, albedo) -> the share that it keeps from the base of a layer, without tint

@@ -122,32 +122,32 @@ def check(arguments, found, kind):
         sys.exit(str(error))
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def parser_of(description, width, samples, columns):
+    """:returns: a parser of what every sheet is told"""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
     parser.add_argument("sheet")
-    parser.add_argument("--width", type=int, default=240)
-    parser.add_argument("--samples", type=int, default=32)
-    parser.add_argument("--columns", type=int, default=8)
-    parser.add_argument("--host", choices=("patina", "usdrecord"), default="patina")
-    parser.add_argument("--sceneIndex", action="store_true", help="scene indices, with usdrecord")
-    parser.add_argument("--gl", action="store_true", help="with a GL context, with usdrecord")
+    parser.add_argument("--width", type=int, default=width)
+    parser.add_argument("--samples", type=int, default=samples)
+    parser.add_argument("--columns", type=int, default=columns)
     parser.add_argument("--record", nargs=argparse.REMAINDER, default=[])
-    arguments = parser.parse_args()
-    stages = list(find(arguments.folder))
-    check(arguments, stages, "stages")
+    return parser
+
+
+def write(arguments, found, kind, draw):
+    """Renders all subjects, tells how it goes, and writes the sheet.
+
+    :param found: the subjects; `kind` is their plural
+    :param draw: subject, folder -> what render() returns, name for the terminal, name on the sheet, words below it or None
+    """
+    check(arguments, found, kind)
     images, shots = [], []
     with tempfile.TemporaryDirectory() as folder:
-        for stage in stages:
-            if arguments.host == "usdrecord":
-                found = render_hydra(stage, folder, arguments.width, arguments.sceneIndex, arguments.gl)
-            else:
-                found = render(stage, folder, arguments.width, arguments.samples, arguments.record)
-            pixels, seconds, warnings, error = found
+        for subject in found:
+            (pixels, seconds, warnings, error), name, title, below = draw(subject, folder)
             images.append(pixels)
-            name = os.path.relpath(stage, arguments.folder)
-            shots.append((pixels, name, error[0] if error else f"{seconds:.2f} s"
-                          + (f", {len(warnings)} warnings" if warnings else "")))
+            timed = f"{seconds:.2f} s" + (f", {len(warnings)} warnings" if warnings else "")
+            shots.append((pixels, title, error[0] if error else below or timed))
             print(f"{len(images) - 1:4d} {seconds:7.2f} s  {name}  {'FAILED ' + error[0] if error else ''}", flush=True)
             for warning in warnings:
                 print(f"              {warning}")
@@ -155,8 +155,27 @@ def main():
 
     if arguments.sheet.lower().endswith(".html"):
         page(arguments.sheet, os.path.basename(os.path.normpath(arguments.folder)), shots)
-        return 0
-    _patina.write_image(arguments.sheet, np.ascontiguousarray(paste(images, arguments.width, arguments.columns), np.float32))
+    else:
+        _patina.write_image(arguments.sheet,
+                            np.ascontiguousarray(paste(images, arguments.width, arguments.columns), np.float32))
+
+
+def main():
+    parser = parser_of(__doc__, 240, 32, 8)
+    parser.add_argument("--host", choices=("patina", "usdrecord"), default="patina")
+    parser.add_argument("--sceneIndex", action="store_true", help="scene indices, with usdrecord")
+    parser.add_argument("--gl", action="store_true", help="with a GL context, with usdrecord")
+    arguments = parser.parse_args()
+
+    def draw(stage, folder):
+        if arguments.host == "usdrecord":
+            found = render_hydra(stage, folder, arguments.width, arguments.sceneIndex, arguments.gl)
+        else:
+            found = render(stage, folder, arguments.width, arguments.samples, arguments.record)
+        name = os.path.relpath(stage, arguments.folder)
+        return found, name, name, None
+
+    write(arguments, list(find(arguments.folder)), "stages", draw)
     return 0
 
 

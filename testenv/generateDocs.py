@@ -25,6 +25,7 @@ from documents import read
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 FOLDER = os.path.join(ROOT, "docs", "generated")
 NODES = "materialNetwork/nodes"
+FUNCTIONS = "shaders/patterns/nodes"
 MODELS = "materialNetwork/models"
 LOBES = "materialNetwork/lobeTable.inc"
 STRING = r'"((?:[^"\\]|\\.)*)"'
@@ -63,9 +64,9 @@ def entries(text):
 
 def families():
     """:returns: for each family of nodes, the text of the file that has its rows: that of its functions, if it has one"""
-    sources = [read(f"{NODES}/{name}") for name in names_in(NODES, "Nodes.cpp")]
-    named = [re.search(r'#define PATINA_NODE_FUNCTIONS "([^"]+)"', source) for source in sources]
-    return [read(functions[1]) if functions else source for source, functions in zip(sources, named, strict=True)]
+    functions = {name.removesuffix(".glsl"): f"{FUNCTIONS}/{name}" for name in names_in(FUNCTIONS, ".glsl")}
+    files = {name.removesuffix("Nodes.cpp"): f"{NODES}/{name}" for name in names_in(NODES, "Nodes.cpp")}
+    return [read(path) for _, path in sorted({**files, **functions}.items())]
 
 
 def categories(source):

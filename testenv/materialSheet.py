@@ -5,11 +5,9 @@
 
 Prints a table: material, seconds, warnings.
 """
-import argparse
 import math
 import os
 import sys
-import tempfile
 
 if __name__ == "__main__":
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -17,9 +15,7 @@ if __name__ == "__main__":
 
     checkout.enter()
 
-import numpy as np  # noqa: E402
-
-from contactSheet import check, page, paste, render  # noqa: E402
+import contactSheet  # noqa: E402
 
 SKY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scenes", "textures", "sky.exr")
 STAGE = """#usda 1.0
@@ -129,37 +125,21 @@ def materials(document):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder")
-    parser.add_argument("sheet")
-    parser.add_argument("--width", type=int, default=200)
-    parser.add_argument("--samples", type=int, default=64)
-    parser.add_argument("--columns", type=int, default=7)
-    parser.add_argument("--record", nargs=argparse.REMAINDER, default=[])
-    arguments = parser.parse_args()
+    arguments = contactSheet.parser_of(__doc__, 200, 64, 7).parse_args()
     documents = sorted(os.path.join(root, name) for root, _, names in os.walk(arguments.folder) for name in names
                        if name.endswith(".mtlx"))
     found = [(document, name) for document in documents for name in materials(document)]
-    check(arguments, found, "materials")
-    images, shots = [], []
-    with tempfile.TemporaryDirectory() as folder:
-        for document, name in found:
-            stage = os.path.join(folder, "stage.usda")
-            with open(stage, "w", encoding="utf-8") as file:
-                file.write(stage_of(document, name))
-            pixels, seconds, warnings, error = render(stage, folder, arguments.width, arguments.samples, arguments.record)
-            images.append(pixels)
-            shots.append((pixels, name, error[0] if error else os.path.relpath(document, arguments.folder)))
-            print(f"{len(images) - 1:4d} {seconds:7.2f} s  {os.path.relpath(document, arguments.folder)}:{name}"
-                  f"  {'FAILED ' + error[0] if error else ''}", flush=True)
-            for warning in warnings:
-                print(f"              {warning}")
-    import _patina
 
-    if arguments.sheet.lower().endswith(".html"):
-        page(arguments.sheet, os.path.basename(os.path.normpath(arguments.folder)), shots)
-        return 0
-    _patina.write_image(arguments.sheet, np.ascontiguousarray(paste(images, arguments.width, arguments.columns), np.float32))
+    def draw(material, folder):
+        document, name = material
+        stage = os.path.join(folder, "stage.usda")
+        with open(stage, "w", encoding="utf-8") as file:
+            file.write(stage_of(document, name))
+        drawn = contactSheet.render(stage, folder, arguments.width, arguments.samples, arguments.record)
+        path = os.path.relpath(document, arguments.folder)
+        return drawn, f"{path}:{name}", name, path
+
+    contactSheet.write(arguments, found, "materials", draw)
     return 0
 
 

@@ -141,18 +141,16 @@ std::string glslTraits(const MaterialIr& code) {
 }
 
 std::string glslDefinitions(const MaterialIr& code) {
-    Common compensate, albedo, fresnel, film;
+    Common compensate, albedo, film;
     for (const LobeTemplate& t : code.lobes) {
         if (lobeHas(t.kind, lobe::Microfacet)) {
             compensate.add(t.compensate);
             albedo.add(t.methods.at(Choice::DirectionalAlbedo));
-            fresnel.add(t.methods.at(Choice::Fresnel));
         }
         if (t.film || t.filmDielectric) film.add(t.methods.at(Choice::ThinFilm));
     }
     return compensate.definition("PATINA_COMPENSATE(compensate)") +
            albedo.definition("PATINA_ALBEDO_METHOD(method)") +
-           fresnel.definition("PATINA_FRESNEL(model)") +
            (film.count == 0 ? "#define PATINA_FILM(present) false\n"
                             : film.definition("PATINA_FILM_METHOD(method)"));
 }

@@ -63,7 +63,7 @@ TEST(EnergyCurve, IsFineForSlowMethods) {
         lobe.dielectric =
             sh::dielectricMethods(sh::dielectricSetup(glm::vec3(1.0f), 1.5f, glm::vec2(alpha),
                                                       false, sh::SCATTER_RT, false, 1),
-                                  sh::ALBEDO_QUADRATURE, sh::SAMPLING_VNDF, sh::FRESNEL_EXACT);
+                                  sh::ALBEDO_QUADRATURE, sh::SAMPLING_VNDF);
         EnergyCurve curve;
         curve.measure(lobe);
         ASSERT_TRUE(curve.covers(0.5f) && curve.covers(-0.5f));

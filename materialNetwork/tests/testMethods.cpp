@@ -50,34 +50,7 @@ Network coated(float roughness) {
 
 } // namespace
 
-// The lobes read the place of a method as a number.
-TEST(Methods, StandWhereTheShadersExpectThem) {
-    const auto place = [](const char* point, const char* method) {
-        return chosenIndex({{point, method}}, point);
-    };
-    EXPECT_EQ(place("directionalAlbedo", "table"), sh::ALBEDO_TABLE);
-    EXPECT_EQ(place("directionalAlbedo", "fit"), sh::ALBEDO_FIT);
-    EXPECT_EQ(place("directionalAlbedo", "karis"), sh::ALBEDO_KARIS);
-    EXPECT_EQ(place("directionalAlbedo", "mirror"), sh::ALBEDO_MIRROR);
-    EXPECT_EQ(place("directionalAlbedo", "monteCarlo16"), sh::ALBEDO_SAMPLES_16);
-    EXPECT_EQ(place("directionalAlbedo", "monteCarlo64"), sh::ALBEDO_SAMPLES_64);
-    EXPECT_EQ(place("directionalAlbedo", "quadrature"), sh::ALBEDO_QUADRATURE);
-    EXPECT_EQ(place("sampling", "vndf"), sh::SAMPLING_VNDF);
-    EXPECT_EQ(place("sampling", "boundedVndf"), sh::SAMPLING_BOUNDED_VNDF);
-    EXPECT_EQ(place("sampling", "fullNdf"), sh::SAMPLING_FULL_NDF);
-    EXPECT_EQ(place("fresnel", "exact"), sh::FRESNEL_EXACT);
-    EXPECT_EQ(place("fresnel", "schlick"), sh::FRESNEL_SCHLICK);
-    EXPECT_EQ(place("fresnel", "f82"), sh::FRESNEL_F82);
-    EXPECT_EQ(place("diffuse", "lambert"), sh::DIFFUSE_LAMBERT);
-    EXPECT_EQ(place("diffuse", "qualitative"), sh::DIFFUSE_QUALITATIVE);
-    EXPECT_EQ(place("diffuse", "fujii"), sh::DIFFUSE_FUJII);
-    EXPECT_EQ(place("diffuse", "eon"), sh::DIFFUSE_EON);
-    EXPECT_EQ(place("sheen", "table"), sh::SHEEN_TABLED);
-    EXPECT_EQ(place("sheen", "fit"), sh::SHEEN_FITTED);
-    EXPECT_EQ(place("sheen", "quadrature"), sh::SHEEN_QUADRATURE);
-}
-
-TEST(Methods, SheenFindsItsAlbedoInThreeWays) {
+TEST(Methods, SheenFindsItsAlbedoByTableAsByQuadrature) {
     for (const float roughness : {0.02f, 0.1f, 0.3f, 1.0f})
         for (const float degrees : {0.0f, 60.0f, 80.0f, 89.0f}) {
             const auto of = [&](const char* method) {
@@ -95,7 +68,6 @@ TEST(Methods, SheenFindsItsAlbedoInThreeWays) {
             };
             const float truth = of("quadrature");
             EXPECT_NEAR(of("table"), truth, 4e-3f) << roughness << " " << degrees;
-            EXPECT_NEAR(of("fit"), truth, 6e-3f) << roughness << " " << degrees;
         }
 }
 
@@ -123,22 +95,13 @@ TEST(Methods, DirectionalAlbedoDecidesWhatALayerTakes) {
     const float truth = of("quadrature");
     EXPECT_NEAR(of("table"), truth, 1e-3f);
     EXPECT_NEAR(of("fit"), truth, 1e-3f);
-    for (const char* method : {"karis", "mirror", "monteCarlo16"}) {
+    for (const char* method : {"karis", "monteCarlo16"}) {
         EXPECT_NEAR(of(method), truth, 3e-2f) << method;
         EXPECT_GT(std::fabs(of(method) - truth), 1e-5f) << method;
     }
 }
 
-TEST(Methods, FresnelAndDiffuse) {
-    const NetworkNode metal = makeNode("bsdf", "ND_conductor_bsdf",
-                                       {{"ior", color(1.1f, 1.1f, 1.1f)},
-                                        {"extinction", color(2.3f, 2.3f, 2.3f)},
-                                        {"roughness", pair(0.4f)}});
-    const auto metals = [&](const char* method) {
-        return measure(bsdfNetwork({metal}), {{"fresnel", method}}).albedo.x;
-    };
-    EXPECT_NEAR(metals("f82"), metals("exact"), 2e-3f);
-    EXPECT_GT(std::fabs(metals("schlick") - metals("exact")), 1e-4f);
+TEST(Methods, Diffuse) {
     const NetworkNode rough = makeNode("bsdf", "ND_oren_nayar_diffuse_bsdf",
                                        {{"color", grey(1.0f)}, {"roughness", number(1.0f)}});
     const auto diffuse = [&](const char* method) {
@@ -146,7 +109,6 @@ TEST(Methods, FresnelAndDiffuse) {
     };
     EXPECT_NEAR(diffuse("eon"), 1.0f, 1e-4f);
     EXPECT_NEAR(diffuse("lambert"), 1.0f, 1e-4f);
-    EXPECT_LT(diffuse("fujii"), 0.95f);
     EXPECT_EQ(diffuse("authored"), diffuse("qualitative"));
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fits the directional albedo of the Conty-Kulla sheen lobe: `sheenFit.py OUT.glsl`.
+"""Fits the directional albedo of the Conty-Kulla sheen lobe: `sheenFit.py OUT.h`.
 
 Its logarithm is nearly a polynomial in the root of the cosine and the logarithm of the roughness. Fitted by
 Levenberg and Marquardt's method to quadrature of the lobe as shaders/lib/contyKulla.glsl has it; above 1, where the
@@ -16,13 +16,19 @@ SIDE = 40             # cells along both axes
 ROUGHNESS_MIN = 0.01  # SHEEN_ROUGHNESS_MIN
 
 HEAD = """\
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shaders/shaders.h"
+
 // The directional albedo of the Conty-Kulla sheen lobe before it is bounded, as a polynomial in the
 // root of the cosine and the logarithm of the roughness.
 // Written by shaders/bake/sheenFit.py. Over {side} x {side} cell centres: RMSE {rms:.1e}, largest
-// error {largest:.1e}.
+// error {largest:.1e}. Only measured: the renderer has the table.
 
 // mu in [0, 1], roughness in [SHEEN_ROUGHNESS_MIN, 1].
-PATINA_FN float sheenAlbedoFit(float mu, float roughness) {{
+inline float sheenAlbedoFit(float mu, float roughness) {{
+    using namespace patina::sh;
     float x = sqrt(mu);
     float y = log2(roughness);
 """

@@ -18,7 +18,7 @@ PATINA_FN Slab slabOf(vec3 once, vec3 tint, bool twoFaces, bool reflects) {
 
 // What does not pass is what that lobe sends back, not what a rough guess tells layers of it.
 PATINA_FN int slabMethod(int albedo) {
-    return select(ALBEDO_TABLE, albedo, albedo == ALBEDO_MIRROR || albedo == ALBEDO_KARIS);
+    return select(ALBEDO_TABLE, albedo, albedo == ALBEDO_KARIS);
 }
 
 // Of a lobe beneath a reflecting one all passes, for that has taken its share. A lobe of mode RT

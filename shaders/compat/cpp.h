@@ -18,7 +18,6 @@
 #define PATINA_ENERGY_KNOWN(known) (known)
 #define PATINA_COMPENSATE(compensate) (compensate)
 #define PATINA_ALBEDO_METHOD(method) (method)
-#define PATINA_FRESNEL(model) (model)
 #define PATINA_FILM(present) (present)
 #define PATINA_FILM_METHOD(method) (method)
 

@@ -23,10 +23,6 @@
 #ifndef PATINA_ALBEDO_METHOD
 #define PATINA_ALBEDO_METHOD(method) (method)
 #endif
-// One of FRESNEL_*.
-#ifndef PATINA_FRESNEL
-#define PATINA_FRESNEL(model) (model)
-#endif
 // Whether a lobe has a film.
 #ifndef PATINA_FILM
 #define PATINA_FILM(present) (present)

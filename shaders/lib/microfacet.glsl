@@ -43,7 +43,6 @@ struct MicrofacetPair {
     float value;
     float pdf;
     float c;
-    float z; // of the facet
 };
 
 // eta: ior of i's side over that of o's for refraction, 1 for reflection. The Jacobian eta^2 |i.h|
@@ -82,7 +81,6 @@ PATINA_FN MicrofacetPair microfacetPair(vec3 o, vec3 i, vec2 alpha, float eta, i
     p.pdf = shape * 2.0f / max(oz + lo, TINY);
     float len = sqrt(max(dot(h, h), TINY));
     p.c = clamp(oh / len, 0.0f, 1.0f);
-    p.z = min(h.z / len, 1.0f);
     return p;
 }
 

@@ -14,8 +14,6 @@ struct ConductorLobe {
     int ndf;      // NDF_GGX, NDF_BECKMANN
     int albedo;   // ALBEDO_*, by conductorMethods as the next
     int sampling; // SAMPLING_VNDF and others
-    int fresnel;  // FRESNEL_*, by conductorFresnel
-    SchlickFresnel curve;
     bool known; // k is that of the wo at hand (conductorAt)
     vec3 k;     // factor for multiple scattering
 };
@@ -35,8 +33,6 @@ PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness
     l.ndf = NDF_GGX;
     l.albedo = ALBEDO_TABLE;
     l.sampling = SAMPLING_VNDF;
-    l.fresnel = FRESNEL_EXACT;
-    l.curve = schlickFresnel(vec3(1.0f), vec3(1.0f), vec3(1.0f), 5.0f);
     l.known = false;
     l.k = vec3(1.0f);
     return l;
@@ -50,17 +46,7 @@ PATINA_FN ConductorLobe conductorMethods(ConductorLobe l, int albedo, int sampli
     return l;
 }
 
-// The lobe with a curve in place of the exact reflectance.
-PATINA_FN ConductorLobe conductorFresnel(ConductorLobe l, int model) {
-    l.fresnel = model;
-    if (model == FRESNEL_EXACT || filmIsThere(l.film)) return l;
-    l.curve = fresnelCurve(model, fresnelConductor(1.0f, l.ior, l.extinction),
-                           fresnelConductor(1.0f / 7.0f, l.ior, l.extinction));
-    l.favg = fresnelSchlickAverage(l.curve);
-    return l;
-}
-
-// The lobe under a film (makeFilm), whose reflectance is exact whatever the model.
+// The lobe under a film (makeFilm).
 PATINA_FN ConductorLobe conductorFilm(ConductorLobe l, float thickness, float ior) {
     l.film = makeFilm(thickness, ior);
     if (filmIsThere(l.film)) l.favg = filmAverage(l.film, l.ior, l.extinction);
@@ -69,7 +55,6 @@ PATINA_FN ConductorLobe conductorFilm(ConductorLobe l, float thickness, float io
 
 PATINA_FN vec3 conductorReflectance(ConductorLobe l, float c) {
     if (filmIsThere(l.film)) return filmReflectance(l.film, c, l.ior, l.extinction);
-    if (l.fresnel != FRESNEL_EXACT) return min(fresnelSchlick(c, l.curve), vec3(1.0f));
     return fresnelConductor(c, l.ior, l.extinction);
 }
 
@@ -96,7 +81,7 @@ PATINA_FN LobeEval conductorEval(ConductorLobe l, vec3 wo, vec3 wi) {
     LobeEval e;
     e.value = conductorReflectance(l, p.c) * l.k * p.value;
     int sampling = microfacetSampling(l.sampling, l.ndf, SCATTER_R);
-    e.pdf = p.pdf * microfacetDensity(wo, l.alpha, p.z, p.c, l.ndf, sampling);
+    e.pdf = p.pdf * microfacetDensity(wo, l.alpha, l.ndf, sampling);
     if (!conductorAdds(l)) return e;
     float ess = albedoWhite(wo, l.alpha, l.ndf, l.albedo);
     return multiAdd(multiLobe(l.favg, ess, l.alpha, l.ndf), e, i.z,
@@ -125,9 +110,8 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
     if (!PATINA_ENERGY_KNOWN(l.known)) l = conductorAt(l, wo);
     LobeSample s;
     s.wi = vec3(b.wi.x * l.retro, b.wi.y * l.retro, b.wi.z);
-    if (sampling == SAMPLING_FULL_NDF && c <= 0.0f) return lobeSampleNone();
     float density = 1.0f;
-    if (!mirror) density = microfacetDensity(wo, l.alpha, m.z, c, l.ndf, sampling);
+    if (!mirror) density = microfacetDensity(wo, l.alpha, l.ndf, sampling);
     s.weight = conductorReflectance(l, c) * l.k * (b.ratio / density);
     s.pdf = b.pdf * density;
     s.event = select(LOBE_REFLECT + LOBE_DELTA, LOBE_REFLECT, mirror);
@@ -135,15 +119,9 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
     return s;
 }
 
-PATINA_FN bool conductorSteep(ConductorLobe l) {
-    return (l.fresnel == FRESNEL_EXACT || filmIsThere(l.film)) &&
-           conductorSteepIor(l.ior, l.extinction);
-}
-
 PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
-    if (l.alpha.x == 0.0f || l.albedo == ALBEDO_MIRROR)
-        return conductorReflectance(l, min(wo.z, 1.0f));
+    if (l.alpha.x == 0.0f) return conductorReflectance(l, min(wo.z, 1.0f));
     int method = albedoMethod(l.albedo, l.alpha, l.ndf, 1.0f);
     float ess = albedoWhite(wo, l.alpha, l.ndf, l.albedo);
     vec3 k = conductorAt(l, wo).k;
@@ -154,10 +132,10 @@ PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
         vec3 er = conductorReflectance(l, 1.0f) * ab.x + vec3(ab.y);
         return min(er, vec3(ess)) * k + extra;
     }
-    bool steep = method == ALBEDO_TABLE && conductorSteep(l);
+    bool steep = method == ALBEDO_TABLE && conductorSteepIor(l.ior, l.extinction);
     if (albedoHasMicrofacets(method) || steep) {
-        AlbedoMicrofacets a =
-            albedoMicrofacets(wo, l.alpha, l.ndf, select(ALBEDO_SAMPLES_64, method, steep));
+        AlbedoMicrofacets a = albedoMicrofacets(wo, l.alpha, l.ndf, method);
+        if (steep) a.count = ALBEDO_STEEP_FACETS;
         vec3 er = vec3(0.0f);
         float white = 0.0f;
         for (int j = 0; j < a.count; ++j) {
@@ -169,10 +147,7 @@ PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     }
     MicrofacetPlace p = microfacetPlace(wo, l.alpha, l.ndf);
     vec3 mean = conductorMean(p, l.ior, l.extinction);
-    if (filmIsThere(l.film))
-        mean = filmMean(p, l.film, l.ior, l.extinction);
-    else if (l.fresnel != FRESNEL_EXACT)
-        mean = schlickMean(p, l.curve);
+    if (filmIsThere(l.film)) mean = filmMean(p, l.film, l.ior, l.extinction);
     return mean * ess * k + extra;
 }
 

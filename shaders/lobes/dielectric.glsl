@@ -19,9 +19,8 @@ struct DielectricLobe {
     int mode;
     int compensate;
     int ndf;      // NDF_GGX, NDF_BECKMANN
-    int albedo;   // ALBEDO_*, by dielectricMethods as the next two
+    int albedo;   // ALBEDO_*, by dielectricMethods as the next
     int sampling; // SAMPLING_VNDF and others
-    int fresnel;  // FRESNEL_*
     bool sharedInterface;
     bool full;    // Fresnel off, reflects everything
     bool matched; // no interface
@@ -53,7 +52,6 @@ PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, b
     l.ndf = NDF_GGX;
     l.albedo = ALBEDO_TABLE;
     l.sampling = SAMPLING_VNDF;
-    l.fresnel = FRESNEL_EXACT;
     l.sharedInterface = sharedInterface && scatterMode == SCATTER_T;
     l.deltaT = min(l.alpha.x, l.alpha.y) * abs(l.ior - 1.0f) < REFRACTION_DELTA * max(l.ior, 1.0f);
     l.known = false;
@@ -62,13 +60,10 @@ PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, b
     return l;
 }
 
-// The lobe with other methods (ALBEDO_*, SAMPLING_VNDF and others, FRESNEL_*). Where there is no interface no
-// curve rises at grazing angles.
-PATINA_FN DielectricLobe dielectricMethods(DielectricLobe l, int albedo, int sampling,
-                                           int fresnel) {
+// The lobe with other methods (ALBEDO_*, SAMPLING_VNDF and others).
+PATINA_FN DielectricLobe dielectricMethods(DielectricLobe l, int albedo, int sampling) {
     l.albedo = albedo;
     l.sampling = sampling;
-    l.fresnel = select(FRESNEL_EXACT, fresnel, l.matched);
     return l;
 }
 
@@ -77,7 +72,7 @@ PATINA_FN float dielectricEta(DielectricLobe l, float z) {
 }
 
 PATINA_FN float dielectricFresnel(DielectricLobe l, float c, float eta) {
-    return select(1.0f, fresnelModelled(l.fresnel, c, eta), l.full);
+    return select(1.0f, fresnelDielectric(c, eta), l.full);
 }
 
 PATINA_FN bool dielectricAdds(DielectricLobe l, float z) {
@@ -104,24 +99,6 @@ PATINA_FN vec2 dielectricChosen(DielectricLobe l, vec3 wo, float eta, int method
     return vec2(e.x, min(e.x, e.y));
 }
 
-const int CURVE_FACETS = 16;
-
-// What a Fresnel curve in place of the exact equations lets through, over what those do: of all facets seen. 1 where
-// these few facets all reflect, for rarer ones let light through.
-PATINA_FN_RARE float dielectricPasses(DielectricLobe l, vec3 wo, float eta) {
-    vec3 o = vec3(wo.x, wo.y, min(abs(wo.z), 1.0f));
-    float curve = 0.0f;
-    float exact = 0.0f;
-    for (int j = 0; j < CURVE_FACETS; ++j) {
-        vec3 m = visibleMicrofacet(o, l.alpha, l.ndf, j, CURVE_FACETS);
-        float c = clamp(dot(o, m), 0.0f, 1.0f);
-        curve += 1.0f - fresnelModelled(l.fresnel, c, eta);
-        exact += 1.0f - fresnelDielectric(c, eta);
-    }
-    bool passes = exact > ALBEDO_MIN * float(CURVE_FACETS);
-    return select(curve / max(exact, ALBEDO_MIN), 1.0f, passes);
-}
-
 struct DielectricEnergy {
     float kr; // factor on R
     float kt; // factor on T
@@ -129,7 +106,7 @@ struct DielectricEnergy {
     float t;
 };
 
-PATINA_FN DielectricEnergy dielectricRough(DielectricLobe l, vec3 wo) {
+PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, vec3 wo) {
     DielectricEnergy e;
     float z = wo.z;
     float mu = abs(z);
@@ -153,12 +130,6 @@ PATINA_FN DielectricEnergy dielectricRough(DielectricLobe l, vec3 wo) {
         MicrofacetPlace p = microfacetPlace(wo, l.alpha, l.ndf);
         vec2 a = microfacetInterface(p, eta);
         float white = microfacetAlbedo0(p);
-        if (PATINA_FRESNEL(l.fresnel) != FRESNEL_EXACT && !l.full) {
-            float passes = dielectricPasses(l, wo, eta);
-            a.y *= passes;
-            a.x = max(1.0f - (1.0f - a.x) * passes, 0.0f);
-            if (eta >= 1.0f) a.x = schlickMean(p, fresnelDielectricCurve(l.fresnel, eta)).x;
-        }
         et = white * select(0.0f, a.y, l.full);
         ess = select(white, ess, method == ALBEDO_TABLE);
         er = select(white * select(1.0f, a.x, l.full), er, method == ALBEDO_TABLE);
@@ -178,17 +149,6 @@ PATINA_FN DielectricEnergy dielectricRough(DielectricLobe l, vec3 wo) {
     e.r = er * e.kr;
     e.kt *= sharedInterfaceScale(e.r, l.sharedInterface);
     e.t = et * e.kt;
-    return e;
-}
-
-PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, vec3 wo) {
-    DielectricEnergy e = dielectricRough(l, wo);
-    if (l.albedo != ALBEDO_MIRROR) return e;
-    float f = dielectricFresnel(l, min(abs(wo.z), 1.0f), dielectricEta(l, wo.z));
-    float scale = sharedInterfaceScale(f, l.sharedInterface);
-    e.kt *= scale / sharedInterfaceScale(e.r, l.sharedInterface);
-    e.r = f;
-    e.t = (1.0f - f) * scale;
     return e;
 }
 
@@ -228,7 +188,7 @@ PATINA_FN LobeEval dielectricEval(DielectricLobe l, vec3 wo, vec3 wi) {
     e.value = l.tint * (p.value * share * select(l.kr, l.kt, reflects));
     int sampling = microfacetSampling(l.sampling, l.ndf, l.mode);
     e.pdf = p.pdf * select(share, 1.0f, l.mode == SCATTER_RT) *
-            microfacetDensity(o, l.alpha, p.z, p.c, l.ndf, sampling);
+            microfacetDensity(o, l.alpha, l.ndf, sampling);
     if (!dielectricAdds(l, wo.z)) return e;
     float ess = albedoWhite(o, l.alpha, l.ndf, l.albedo);
     MultiLobe second = multiLobe(vec3(l.favg), ess, l.alpha, l.ndf);
@@ -263,11 +223,10 @@ PATINA_FN LobeSample dielectricSample(DielectricLobe l, vec3 wo, vec3 u) {
     MicrofacetBounce b = microfacetBounce(o, m, c, l.alpha, eta, reflects, l.ndf);
     float share = select(f, 1.0f - f, reflects);
     float density = 1.0f;
-    if (!mirror) density = microfacetDensity(o, l.alpha, m.z, c, l.ndf, sampling);
+    if (!mirror) density = microfacetDensity(o, l.alpha, l.ndf, sampling);
     bool both = l.mode == SCATTER_RT;
     bool never = both && share <= 0.0f; // R or T alone is drawn with its whole density, where it is 0 too
-    if (!b.valid || never || (sampling == SAMPLING_FULL_NDF && c <= 0.0f))
-        return lobeSampleNone();
+    if (!b.valid || never) return lobeSampleNone();
     if (!PATINA_ENERGY_KNOWN(l.known)) l = dielectricAt(l, wo);
     bool isDelta = mirror || (!reflects && l.deltaT);
     float ratio = select(1.0f, b.ratio / density, l.matched);
@@ -279,10 +238,6 @@ PATINA_FN LobeSample dielectricSample(DielectricLobe l, vec3 wo, vec3 u) {
     s.event = select(LOBE_REFLECT, LOBE_TRANSMIT, reflects) + select(LOBE_DELTA, 0, isDelta);
     s.eta = select(1.0f, 1.0f / eta, reflects);
     return s;
-}
-
-PATINA_FN vec3 dielectricAlbedoReflect(DielectricLobe l, vec3 wo) {
-    return l.tint * select(dielectricEnergy(l, wo).r, 0.0f, (l.mode & SCATTER_R) != 0);
 }
 
 PATINA_FN vec3 dielectricAlbedo(DielectricLobe l, vec3 wo) {

@@ -151,7 +151,7 @@ PATINA_FN vec4 schlickChosen(SchlickLobe l, vec3 wo, float eta, int method) {
 
 // How T's albedo follows from the dielectric tables: the kernel of T is that of the dielectric with
 // the same ior, and its mean reflectance is taken as that of R where the curve is much like it.
-PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
+PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     SchlickEnergy e;
     float z = wo.z;
     float mu = abs(z);
@@ -219,24 +219,6 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     return e;
 }
 
-PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
-    SchlickEnergy e = schlickRough(l, wo);
-    if (l.albedo != ALBEDO_MIRROR) return e;
-    float eta = schlickEta(l, wo.z);
-    float mu = min(abs(wo.z), 1.0f);
-    vec3 f = schlickReflectance(l, mu, eta);
-    // A curve that falls, or dips, sends more back from rough facets, which light meets less slanted.
-    SchlickLobe rises = l;
-    rises.fresnel.dip = vec3(0.0f);
-    bool plain = l.alpha.x > 0.0f && !PATINA_FILM(l.exact) && !filmIsThere(l.film);
-    f = select(max(schlickReflectance(rises, mu, eta), l.fresnel.f0), f, plain);
-    vec3 scale = schlickSharedInterfaceScale(f, l.sharedInterface);
-    e.kt *= scale / schlickSharedInterfaceScale(e.r, l.sharedInterface);
-    e.r = f;
-    e.t = (vec3(1.0f) - f) * scale;
-    return e;
-}
-
 // The lobe with its energy factors for one wo, as dielectricAt.
 PATINA_FN SchlickLobe schlickAt(SchlickLobe l, vec3 wo) {
     l.known = true;
@@ -274,7 +256,7 @@ PATINA_FN LobeEval schlickEval(SchlickLobe l, vec3 wo, vec3 wi) {
     e.value = l.tint * select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * p.value;
     int sampling = microfacetSampling(l.sampling, l.ndf, l.mode);
     e.pdf = p.pdf * select(chance, 1.0f - chance, reflects) *
-            microfacetDensity(o, l.alpha, p.z, p.c, l.ndf, sampling);
+            microfacetDensity(o, l.alpha, l.ndf, sampling);
     if (!schlickAdds(l, wo.z)) return e;
     float ess = albedoWhite(o, l.alpha, l.ndf, l.albedo);
     MultiLobe second = multiLobe(l.favg, ess, l.alpha, l.ndf);
@@ -308,10 +290,9 @@ PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
     bool reflects = u.z < chance;
     MicrofacetBounce b = microfacetBounce(o, m, c, l.alpha, eta, reflects, l.ndf);
     float p = select(chance, 1.0f - chance, reflects);
-    if (!b.valid || p <= 0.0f || (sampling == SAMPLING_FULL_NDF && c <= 0.0f))
-        return lobeSampleNone();
+    if (!b.valid || p <= 0.0f) return lobeSampleNone();
     float density = 1.0f;
-    if (!mirror) density = microfacetDensity(o, l.alpha, m.z, c, l.ndf, sampling);
+    if (!mirror) density = microfacetDensity(o, l.alpha, l.ndf, sampling);
     if (!PATINA_ENERGY_KNOWN(l.known)) l = schlickAt(l, wo);
     bool isDelta = mirror || (!reflects && l.deltaT);
     float turn = select(l.retro, 1.0f, reflects);
@@ -323,10 +304,6 @@ PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
     s.event = select(LOBE_REFLECT, LOBE_TRANSMIT, reflects) + select(LOBE_DELTA, 0, isDelta);
     s.eta = select(1.0f, 1.0f / eta, reflects);
     return s;
-}
-
-PATINA_FN vec3 schlickAlbedoReflect(SchlickLobe l, vec3 wo) {
-    return l.tint * select(schlickEnergy(l, wo).r, vec3(0.0f), (l.mode & SCATTER_R) != 0);
 }
 
 PATINA_FN vec3 schlickAlbedo(SchlickLobe l, vec3 wo) {

@@ -43,16 +43,12 @@ PATINA_FN OrenNayarLobe orenNayarSetup(vec3 color, float roughness, bool energyC
 const int DIFFUSE_AUTHORED = 0;
 const int DIFFUSE_LAMBERT = 1;
 const int DIFFUSE_QUALITATIVE = 2;
-const int DIFFUSE_FUJII = 3;
-const int DIFFUSE_EON = 4;
+const int DIFFUSE_EON = 3;
 
 PATINA_FN OrenNayarLobe orenNayarModel(vec3 color, float roughness, bool energyCompensation,
                                        int model) {
-    bool fujii = model == DIFFUSE_FUJII || model == DIFFUSE_EON;
-    bool eon = (model == DIFFUSE_AUTHORED && energyCompensation) || fujii;
-    OrenNayarLobe l = orenNayarSetup(color, select(0.0f, roughness, model == DIFFUSE_LAMBERT), eon);
-    l.multi = select(vec3(0.0f), l.multi, model == DIFFUSE_FUJII);
-    return l;
+    bool eon = (model == DIFFUSE_AUTHORED && energyCompensation) || model == DIFFUSE_EON;
+    return orenNayarSetup(color, select(0.0f, roughness, model == DIFFUSE_LAMBERT), eon);
 }
 
 // Integral of s / t over the cosine hemisphere, divided by what remains in PI: G(mu) of Fujii's

@@ -10,9 +10,20 @@ constexpr int gridSide = 32;
 constexpr int spreadCount = 300;
 constexpr int quadraturePoints = 96;
 
-const char* const methodNames[] = {"table",        "fit",          "karis",     "mirror",
-                                   "monteCarlo16", "monteCarlo64", "quadrature"};
-constexpr int evaluationsPerBatch[] = {1024, 1024, 1024, 1024, 256, 64, 8}; // in a batch
+/// ALBEDO_* of the lobes, or one that is only measured.
+constexpr int mirror = -1; ///< the reflectance at the view's own cosine, as if the lobe were smooth
+constexpr int facets = -2; ///< the mean over ALBEDO_STEEP_FACETS visible facets, stratified
+const struct {
+    const char* name;
+    int method;
+    int evaluations; ///< in a batch
+} methods[] = {{"table", sh::ALBEDO_TABLE, 1024},
+               {"fit", sh::ALBEDO_FIT, 1024},
+               {"karis", sh::ALBEDO_KARIS, 1024},
+               {"mirror", mirror, 1024},
+               {"monteCarlo16", sh::ALBEDO_SAMPLES_16, 256},
+               {"monteCarlo64", facets, 64},
+               {"quadrature", sh::ALBEDO_QUADRATURE, 8}};
 
 /// A reflectance, exact and as a lobe.
 struct Subject {
@@ -23,10 +34,23 @@ struct Subject {
     std::function<double(int evaluations, int method)> batch;   ///< many of them
 };
 
+template <typename Lobe, typename Albedo, typename Reflectance>
+float albedoBy(int method, const Lobe& l, sh::vec3 wo, Albedo albedo, Reflectance reflectance) {
+    if (method >= 0) return albedo(l, wo).x;
+    if (method == mirror || l.alpha.x == 0.0f) return reflectance(l, std::min(wo.z, 1.0f));
+    float sum = 0.0f;
+    for (int j = 0; j < sh::ALBEDO_STEEP_FACETS; ++j) {
+        const sh::vec2 facet =
+            sh::sampledMicrofacet(wo, l.alpha, l.ndf, sh::ALBEDO_STEEP_FACETS, j);
+        sum += reflectance(l, facet.x) * facet.y;
+    }
+    return sum;
+}
+
 /// Setting a lobe up is no part of what is timed.
-template <typename Make, typename Albedo> Subject subject(std::string name, std::string kind,
-                                                          std::function<double(double)> exact,
-                                                          Make make, Albedo albedo) {
+template <typename Make, typename Albedo, typename Reflectance>
+Subject subject(std::string name, std::string kind, std::function<double(double)> exact, Make make,
+                Albedo albedo, Reflectance reflectance) {
     Subject s;
     s.name = std::move(name);
     s.kind = std::move(kind);
@@ -34,7 +58,7 @@ template <typename Make, typename Albedo> Subject subject(std::string name, std:
     s.lobe = [=](const Place& p, int method) {
         auto l = make(float(p.alpha));
         l.albedo = method;
-        return double(albedo(l, sh::vec3(p.wo)).x);
+        return double(albedoBy(method, l, sh::vec3(p.wo), albedo, reflectance));
     };
     s.batch = [=](int evaluations, int method) {
         static const std::vector<Place> grid = places(gridSide);
@@ -50,7 +74,8 @@ template <typename Make, typename Albedo> Subject subject(std::string name, std:
         for (int i = 0; i < evaluations; ++i) {
             // Steps that share no factor with the grid: a few evaluations are spread over it.
             const size_t j = size_t(i) * 37;
-            sum += albedo(lobes[j / gridSide % gridSide], directions[j % gridSide]).x;
+            sum += albedoBy(method, lobes[j / gridSide % gridSide], directions[j % gridSide],
+                            albedo, reflectance);
         }
         return double(sum);
     };
@@ -64,7 +89,8 @@ Subject dielectric(double ior, const char* name) {
             return sh::dielectricSetup(sh::vec3(1.0f), float(ior), sh::vec2(alpha), false,
                                        sh::SCATTER_R, false, sh::COMPENSATE_NONE);
         },
-        [](const sh::DielectricLobe& l, sh::vec3 wo) { return sh::dielectricAlbedo(l, wo); });
+        sh::dielectricAlbedo,
+        [](const sh::DielectricLobe& l, float c) { return sh::dielectricFresnel(l, c, l.ior); });
 }
 
 Subject conductor(const Metal& metal) {
@@ -75,7 +101,8 @@ Subject conductor(const Metal& metal) {
             return sh::conductorSetup(sh::vec3(float(n)), sh::vec3(float(k)), sh::vec2(alpha),
                                       false, sh::COMPENSATE_NONE);
         },
-        [](const sh::ConductorLobe& l, sh::vec3 wo) { return sh::conductorAlbedo(l, wo); });
+        sh::conductorAlbedo,
+        [](const sh::ConductorLobe& l, float c) { return sh::conductorReflectance(l, c).x; });
 }
 
 Subject schlick() {
@@ -86,7 +113,8 @@ Subject schlick() {
                                     sh::vec2(alpha), false, sh::SCATTER_R, false,
                                     sh::COMPENSATE_NONE);
         },
-        [](const sh::SchlickLobe& l, sh::vec3 wo) { return sh::schlickAlbedo(l, wo); });
+        sh::schlickAlbedo,
+        [](const sh::SchlickLobe& l, float c) { return sh::schlickReflectance(l, c, l.ior).x; });
 }
 
 } // namespace
@@ -98,8 +126,8 @@ std::vector<Row> directionalAlbedo(bool timed) {
         subjects.push_back(conductor(metal));
     subjects.push_back(schlick());
 
-    constexpr size_t methods = std::size(methodNames);
-    std::vector<Errors> errors(subjects.size() * methods);
+    constexpr size_t count = std::size(methods);
+    std::vector<Errors> errors(subjects.size() * count);
     bake::InterfaceQuadrature quadrature(quadraturePoints, sh::NDF_GGX);
     double light[spreadCount], cosine[spreadCount];
     for (const Place& p : places(gridSide)) {
@@ -109,25 +137,25 @@ std::vector<Row> directionalAlbedo(bool timed) {
             double truth = 0.0;
             for (int i = 0; i < spreadCount; ++i)
                 if (light[i] > 0.0) truth += light[i] * subjects[s].exact(cosine[i]);
-            for (size_t m = 0; m < methods; ++m)
-                errors[s * methods + m].add(subjects[s].lobe(p, int(m)) - truth, truth,
-                                            std::sqrt(p.alpha), p.wo.z);
+            for (size_t m = 0; m < count; ++m)
+                errors[s * count + m].add(subjects[s].lobe(p, methods[m].method) - truth, truth,
+                                          std::sqrt(p.alpha), p.wo.z);
         }
     }
     std::vector<Row> rows;
     for (size_t s = 0; s < subjects.size(); ++s)
-        for (size_t m = 0; m < methods; ++m) {
+        for (size_t m = 0; m < count; ++m) {
             Row row;
             row.point = "directionalAlbedo";
-            row.method = methodNames[m];
+            row.method = methods[m].name;
             row.subject = subjects[s].name;
             row.error = "albedo";
             row.kind = subjects[s].kind;
             row.reflectance = subjects[s].exact(1.0);
-            errors[s * methods + m].into(row);
+            errors[s * count + m].into(row);
             if (timed)
-                time([&](int n) { return subjects[s].batch(n, int(m)); }, evaluationsPerBatch[m],
-                     row);
+                time([&](int n) { return subjects[s].batch(n, methods[m].method); },
+                     methods[m].evaluations, row);
             rows.push_back(row);
         }
     return rows;

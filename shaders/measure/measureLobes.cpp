@@ -10,6 +10,7 @@ namespace {
 constexpr int gridSide = 16;
 constexpr int walkCount = 6000;
 constexpr int sampleCount = 256;
+constexpr int cosines = 256; ///< of a reflectance
 
 /// Point i of a sequence that fills the unit cube (Roberts 2018, generalized golden ratio).
 sh::vec3 point(int i) {
@@ -80,6 +81,21 @@ std::vector<sh::ConductorLobe> metalLobes(const std::vector<Place>& grid, const 
     return lobes;
 }
 
+/// Draws from all facets by their density (Walter et al. 2007): a method that is only measured.
+sh::LobeSample conductorSampleAll(sh::ConductorLobe l, sh::vec3 wo, sh::vec3 u) {
+    if (l.alpha.x == 0.0f) return sh::conductorSample(l, wo, u);
+    const float r = std::sqrt(u.y / std::max(1.0f - u.y, sh::TINY)), phi = sh::TWO_PI * u.x;
+    const sh::vec3 m =
+        sh::normalize(sh::vec3(l.alpha.x * r * std::cos(phi), l.alpha.y * r * std::sin(phi), 1.0f));
+    const float c = sh::clamp(sh::dot(wo, m), 0.0f, 1.0f);
+    const sh::MicrofacetBounce b = sh::microfacetBounce(wo, m, c, l.alpha, 1.0f, true, l.ndf);
+    sh::LobeSample s = sh::lobeSampleNone();
+    if (!b.valid || c <= 0.0f) return s;
+    const float visible = wo.z + sh::microfacetLength(wo, l.alpha, l.ndf);
+    s.weight = sh::conductorReflectance(l, c) * (b.ratio * c / (0.5f * m.z * visible));
+    return s;
+}
+
 } // namespace
 
 std::vector<Row> energyCompensation(bool timed) {
@@ -144,20 +160,26 @@ std::vector<Row> energyCompensation(bool timed) {
 // The error of a sampler is its noise: the standard deviation of one sample's weight, for a mirror
 // that reflects all, at every place.
 std::vector<Row> sampling(bool timed) {
-    const char* const names[] = {"vndf", "boundedVndf", "fullNdf"};
+    const struct {
+        const char* name;
+        int sampling;
+        sh::LobeSample (*sample)(sh::ConductorLobe, sh::vec3, sh::vec3);
+    } methods[] = {{"vndf", sh::SAMPLING_VNDF, sh::conductorSample},
+                   {"boundedVndf", sh::SAMPLING_BOUNDED_VNDF, sh::conductorSample},
+                   {"fullNdf", sh::SAMPLING_VNDF, conductorSampleAll}};
     const std::vector<Place> grid = places(gridSide);
     const Metal white = {"white metal", 0.0, 10.0};
     std::vector<Row> rows;
-    for (int m = sh::SAMPLING_VNDF; m <= sh::SAMPLING_FULL_NDF; ++m) {
-        Row row = named("sampling", names[m], "white metal", "noise");
+    for (const auto& method : methods) {
+        Row row = named("sampling", method.name, "white metal", "noise");
         auto lobes = metalLobes(grid, white, sh::COMPENSATE_NONE);
         Errors errors;
         for (size_t i = 0; i < grid.size(); ++i) {
-            lobes[i].sampling = m;
+            lobes[i].sampling = method.sampling;
             double sum = 0.0, squares = 0.0;
             for (int k = 0; k < sampleCount; ++k) {
                 const double w =
-                    double(sh::conductorSample(lobes[i], sh::vec3(grid[i].wo), point(k)).weight.x);
+                    double(method.sample(lobes[i], sh::vec3(grid[i].wo), point(k)).weight.x);
                 sum += w / sampleCount;
                 squares += w * w / sampleCount;
             }
@@ -169,8 +191,9 @@ std::vector<Row> sampling(bool timed) {
                 [&](int n) {
                     float sum = 0.0f;
                     for (int i = 0; i < n; ++i)
-                        sum += sh::conductorSample(lobes[size_t(i)], sh::vec3(grid[size_t(i)].wo),
-                                                   point(i & 63))
+                        sum += method
+                                   .sample(lobes[size_t(i)], sh::vec3(grid[size_t(i)].wo),
+                                           point(i & 63))
                                    .weight.x;
                     return double(sum);
                 },
@@ -180,77 +203,72 @@ std::vector<Row> sampling(bool timed) {
     return rows;
 }
 
+// Curves through few values of the exact reflectance, which are only measured: the renderer has
+// them as generalized_schlick_bsdf.
 std::vector<Row> fresnel(bool timed) {
-    const char* const names[] = {"exact", "schlick", "f82"};
-    constexpr int places = 256;
     std::vector<Row> rows;
+    const auto add = [&](const char* method, const char* subject, const char* kind, const auto& at,
+                         const std::function<double(double)>& exact) {
+        Row row = named("fresnel", method, subject, "reflectance");
+        const auto cosine = [](int i) { return (i + 0.5) / cosines; };
+        Errors errors;
+        for (int i = 0; i < cosines; ++i)
+            addAt(errors, double(at(float(cosine(i)))), exact(cosine(i)), cosine(i));
+        row.kind = kind;
+        row.reflectance = exact(1.0);
+        errors.into(row);
+        if (timed)
+            time(
+                [&](int n) {
+                    float sum = 0.0f;
+                    for (int i = 0; i < n; ++i)
+                        sum += at(float(cosine(i)));
+                    return double(sum);
+                },
+                cosines, row);
+        rows.push_back(row);
+    };
+    const auto addAll = [&](const char* subject, const char* kind, const auto& reflectance,
+                            const std::function<double(double)>& exact) {
+        add("exact", subject, kind, reflectance, exact);
+        const float f0 = reflectance(1.0f);
+        const sh::SchlickFresnel rises =
+            sh::schlickFresnel(sh::vec3(f0), sh::vec3(1.0f), sh::vec3(1.0f), 5.0f);
+        // With a dip that meets the exact value at 82 degrees (Kutz et al. 2021).
+        const float at82 = 1.0f / 7.0f, dip = reflectance(at82) / sh::fresnelSchlick(at82, rises).x;
+        const sh::SchlickFresnel dips =
+            sh::schlickFresnel(sh::vec3(f0), sh::vec3(dip), sh::vec3(1.0f), 5.0f);
+        for (const auto& [name, curve] : {std::pair("schlick", rises), {"f82", dips}})
+            add(
+                name, subject, kind,
+                [&c = curve](float z) { return std::min(sh::fresnelSchlick(z, c).x, 1.0f); },
+                exact);
+    };
     for (const auto& [ior, subject] :
-         {std::pair(1.05, "ior 1.05"), {1.5, "ior 1.5"}, {3.0, "ior 3"}})
-        for (int m = sh::FRESNEL_EXACT; m <= sh::FRESNEL_F82; ++m) {
-            Row row = named("fresnel", names[m], subject, "reflectance");
-            sh::DielectricLobe lobe =
-                sh::dielectricSetup(sh::vec3(1.0f), float(ior), sh::vec2(0.0f), false,
-                                    sh::SCATTER_R, false, sh::COMPENSATE_NONE);
-            lobe.fresnel = m;
-            const auto at = [&](int i) {
-                return sh::dielectricFresnel(lobe, (float(i) + 0.5f) / float(places), float(ior));
-            };
-            Errors errors;
-            for (int i = 0; i < places; ++i)
-                addAt(errors, double(at(i)), sh64::fresnelDielectric((i + 0.5) / places, ior),
-                      (i + 0.5) / places);
-            row.kind = "dielectric";
-            row.reflectance = sh64::fresnelDielectric(1.0, ior);
-            errors.into(row);
-            if (timed)
-                time(
-                    [&](int n) {
-                        float sum = 0.0f;
-                        for (int i = 0; i < n; ++i)
-                            sum += at(i);
-                        return double(sum);
-                    },
-                    places, row);
-            rows.push_back(row);
-        }
-    for (const Metal& metal : measuredMetals)
-        for (int m = sh::FRESNEL_EXACT; m <= sh::FRESNEL_F82; ++m) {
-            Row row = named("fresnel", names[m], metal.name, "reflectance");
-            const sh::ConductorLobe lobe = sh::conductorFresnel(
-                metalLobe(metal, {sh64::vec3(0.0, 0.0, 1.0), 0.0}, sh::COMPENSATE_NONE), m);
-            const auto at = [&](int i) {
-                return sh::conductorReflectance(lobe, (float(i) + 0.5f) / float(places)).x;
-            };
-            Errors errors;
-            for (int i = 0; i < places; ++i)
-                addAt(errors, double(at(i)),
-                      sh64::fresnelConductorChannel((i + 0.5) / places, metal.n, metal.k),
-                      (i + 0.5) / places);
-            row.kind = "conductor";
-            row.reflectance = sh64::fresnelConductorChannel(1.0, metal.n, metal.k);
-            errors.into(row);
-            if (timed)
-                time(
-                    [&](int n) {
-                        float sum = 0.0f;
-                        for (int i = 0; i < n; ++i)
-                            sum += at(i);
-                        return double(sum);
-                    },
-                    places, row);
-            rows.push_back(row);
-        }
+         {std::pair(1.05, "ior 1.05"), {1.5, "ior 1.5"}, {3.0, "ior 3"}}) {
+        const float eta = float(ior);
+        addAll(
+            subject, "dielectric", [=](float c) { return sh::fresnelDielectric(c, eta); },
+            [ior = ior](double c) { return sh64::fresnelDielectric(c, ior); });
+    }
+    for (const Metal& metal : measuredMetals) {
+        const sh::vec3 n{float(metal.n)}, k{float(metal.k)};
+        addAll(
+            metal.name, "conductor", [=](float c) { return sh::fresnelConductor(c, n, k).x; },
+            [&](double c) { return sh64::fresnelConductorChannel(c, metal.n, metal.k); });
+    }
     return rows;
 }
 
 // Models of their own rather than approximations of one: the error is what a white surface loses.
+// Fujii's is EON's without its second term.
 std::vector<Row> diffuse(bool timed) {
     const struct {
         const char* name;
         int model;
     } models[] = {{"lambert", sh::DIFFUSE_LAMBERT},
                   {"qualitative", sh::DIFFUSE_QUALITATIVE},
-                  {"fujii", sh::DIFFUSE_FUJII},
+                  {"fujii", sh::DIFFUSE_EON},
                   {"eon", sh::DIFFUSE_EON}};
     const std::vector<Place> grid = places(gridSide);
     std::vector<Row> rows;
@@ -261,6 +279,7 @@ std::vector<Row> diffuse(bool timed) {
         for (const Place& p : grid) {
             lobes.push_back(
                 sh::orenNayarModel(sh::vec3(1.0f), float(std::sqrt(p.alpha)), false, model.model));
+            if (row.method == "fujii") lobes.back().multi = sh::vec3(0.0f);
             addAt(errors, double(sh::orenNayarAlbedo(lobes.back(), sh::vec3(p.wo)).x), 1.0, p);
         }
         errors.into(row);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/measure/measure.h"
 #include "shaders/measure/places.h"
+#include "shaders/measure/sheenFit.h"
 
 namespace patina::measure {
 
@@ -8,13 +9,23 @@ namespace {
 
 constexpr int gridSide = 32;
 
+float byFit(sh::SheenLobe l, float mu) {
+    return std::min(sheenAlbedoFit(mu, l.roughness), 1.0f);
+}
+
 } // namespace
 
 // The total reflection of the Conty-Kulla lobe, against a sum in double over four times as many
 // directions as its quadrature has.
 std::vector<Row> sheen(bool timed) {
-    const char* const names[] = {"table", "fit", "quadrature"};
-    const int evaluations[] = {1024, 1024, 8};
+    const struct {
+        const char* name;
+        int method;
+        float (*albedo)(sh::SheenLobe, float);
+        int evaluations;
+    } methods[] = {{"table", sh::SHEEN_TABLED, sh::sheenWhiteAlbedo, 1024},
+                   {"fit", sh::SHEEN_TABLED, byFit, 1024},
+                   {"quadrature", sh::SHEEN_QUADRATURE, sh::sheenWhiteAlbedo, 8}};
     constexpr int fineSteps = 2;
     const std::vector<Place> grid = places(gridSide);
     const auto roughnessAt = [](const Place& p) {
@@ -36,10 +47,10 @@ std::vector<Row> sheen(bool timed) {
         truth.push_back(std::min(sum * 4.0 * 3.141592653589793 / (heights * azimuths), 1.0));
     }
     std::vector<Row> rows;
-    for (int m = sh::SHEEN_TABLED; m <= sh::SHEEN_QUADRATURE; ++m) {
+    for (const auto& method : methods) {
         Row row;
         row.point = "sheen";
-        row.method = names[m];
+        row.method = method.name;
         row.subject = "conty_kulla";
         row.error = "albedo";
         row.kind = "sheen";
@@ -48,8 +59,8 @@ std::vector<Row> sheen(bool timed) {
         for (size_t i = 0; i < grid.size(); ++i) {
             lobes.push_back(sh::sheenMethods(
                 sh::sheenSetup(sh::vec3(1.0f), float(roughnessAt(grid[i])), sh::SHEEN_CONTY_KULLA),
-                m));
-            errors.add(double(sh::sheenWhiteAlbedo(lobes.back(), float(grid[i].wo.z))) - truth[i],
+                method.method));
+            errors.add(double(method.albedo(lobes.back(), float(grid[i].wo.z))) - truth[i],
                        truth[i], std::sqrt(roughnessAt(grid[i])), grid[i].wo.z);
         }
         errors.into(row);
@@ -59,11 +70,11 @@ std::vector<Row> sheen(bool timed) {
                     float sum = 0.0f;
                     for (int i = 0; i < n; ++i) {
                         const size_t j = size_t(i) * 37 % grid.size();
-                        sum += sh::sheenWhiteAlbedo(lobes[j], float(grid[j].wo.z));
+                        sum += method.albedo(lobes[j], float(grid[j].wo.z));
                     }
                     return double(sum);
                 },
-                evaluations[m], row);
+                method.evaluations, row);
         rows.push_back(row);
     }
     return rows;

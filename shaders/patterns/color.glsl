@@ -6,13 +6,6 @@ PATINA_FN float patternLuminance(vec3 color, vec3 coefficients) {
     return dot(color, coefficients);
 }
 
-// One channel of the sRGB transfer function (IEC 61966-2-1), to linear.
-PATINA_FN float srgbToLinear(float x) {
-    float low = x * (1.0f / 12.92f);
-    float high = pow(max(x + 0.055f, 0.0f) * (1.0f / 1.055f), 2.4f);
-    return select(low, high, x <= 0.04045f);
-}
-
 // Hue, saturation, value; hue in [0, 1).
 PATINA_FN vec3 patternRgbToHsv(vec3 c) {
     float high = max(c.x, max(c.y, c.z));

@@ -143,26 +143,20 @@ TEST(AlbedoFit, GeneralizedSchlick) {
         EXPECT_LE(rms(c, sh::ALBEDO_FIT), referenceBound) << c.name;
 }
 
-// Known figures of others, so that the scale is the same as theirs; 3 % for reading them off.
-TEST(AlbedoFit, MirrorAndKarisErrAsKnown) {
-    EXPECT_NEAR(rms(dielectric(1.5), sh::ALBEDO_MIRROR), 12981.0, 0.03 * 12981.0);
+// A known figure of others, so that the scale is the same as theirs; 3 % for reading it off.
+TEST(AlbedoFit, KarisErrsAsKnown) {
     EXPECT_NEAR(rms(dielectric(1.5), sh::ALBEDO_KARIS), 1545.0, 0.03 * 1545.0);
 }
 
 TEST(AlbedoMethods, MoreWorkIsLessError) {
     for (const Curve& c : {dielectric(1.5), conductor(0.2, 3.9), schlick(0.04, 1.0, 1.0, 5.0)}) {
-        const double mirror = rms(c, sh::ALBEDO_MIRROR);
         const double few = rms(c, sh::ALBEDO_SAMPLES_16);
-        const double many = rms(c, sh::ALBEDO_SAMPLES_64);
         const double truth = rms(c, sh::ALBEDO_QUADRATURE);
-        EXPECT_LT(few, mirror) << c.name;
-        EXPECT_LT(many, 0.7 * few) << c.name;
         EXPECT_LT(truth, 5.0) << c.name;
+        EXPECT_LT(truth, 0.1 * few) << c.name;
         EXPECT_LT(rms(c, sh::ALBEDO_TABLE), 150.0) << c.name;
-        std::printf(
-            "%s: mirror %.0f, karis %.0f, 16 samples %.0f, 64 samples %.0f, table %.1f, fit "
-            "%.1f, quadrature %.2f\n",
-            c.name.c_str(), mirror, rms(c, sh::ALBEDO_KARIS), few, many, rms(c, sh::ALBEDO_TABLE),
-            rms(c, sh::ALBEDO_FIT), truth);
+        std::printf("%s: karis %.0f, 16 samples %.0f, table %.1f, fit %.1f, quadrature %.2f\n",
+                    c.name.c_str(), rms(c, sh::ALBEDO_KARIS), few, rms(c, sh::ALBEDO_TABLE),
+                    rms(c, sh::ALBEDO_FIT), truth);
     }
 }

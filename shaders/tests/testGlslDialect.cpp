@@ -109,7 +109,7 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
            lobeRoughness(s);
     if (lobeIsDelta(c) || lobeIsDelta(d) || lobeIsDelta(s)) sum = vec3(0.0);
     sum += edfSchlick(wo, wi, 5.0, u.x) * edfConical(60.0, 90.0, wo.z);
-    return sum + dielectricAlbedoReflect(d, wo) + schlickAlbedoReflect(s, wo);
+    return sum;
 }
 )";
 

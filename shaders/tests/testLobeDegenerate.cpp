@@ -255,7 +255,7 @@ TEST(LobeDegenerate, MatchedIorIsNotThere) {
             EXPECT_NEAR(sh64::length(s.wi + wo), 0.0, 1e-12);
             EXPECT_NEAR(s.weight.x, 0.5, 1e-12);
             EXPECT_NEAR(sh64::dielectricAlbedo(l, wo).x, 0.5, 1e-12);
-            EXPECT_EQ(sh64::dielectricAlbedoReflect(l, wo).x, 0.0);
+            EXPECT_EQ(sh64::dielectricEnergy(l, wo).r, 0.0);
         }
 }
 

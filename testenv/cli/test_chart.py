@@ -2,6 +2,7 @@
 """patina chart --lobes, and what --method list says of what it measured."""
 import csv
 import json
+import os
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from patina.chart import lobes, measurePaths, measureSubdivision
 from patina.cli import compiled, main
 
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse", "sheen",
             "subsurface", "areaLight", "domeLight")
 
@@ -33,12 +35,17 @@ def test_rows_csv_and_charts(capsys, tmp_path):
 
 
 def test_errors_are_those_of_the_table():
-    """The compiled-in table is the one measured now; times are the machine's, errors are not."""
+    """The compiled-in table is the one measured now; times are the machine's, errors are not. Methods that the renderer does
+    not have are in the chart's table alone."""
     patina = compiled.load()
     table = {(r["point"], r["method"], r["subject"]): r for r in patina.method_table()}
     rows = patina.measure_methods("", False)
     assert {r["point"] for r in rows} == set(MEASURED)
-    assert len(rows) == sum(point in MEASURED for point, _, _ in table)
+    assert len(lobes.of_renderer(rows, patina.choice_points())) == sum(point in MEASURED for point, _, _ in table)
+    with open(os.path.join(ROOT, "docs", "charts", "lobes.csv"), newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            table.setdefault((row["point"], row["method"], row["subject"]),
+                             {name: float(row[name]) for name in ("mean", "largest", "rms")})
     for row in rows:
         known = table[row["point"], row["method"], row["subject"]]
         for figure in ("mean", "largest", "rms"):
@@ -105,6 +112,15 @@ def test_costs_of_counts_are_over_the_default_without_one():
                              ("b", "y", 3.0))]
     costs = [row["cost"] for row in lobes.with_cost(rows, [("p", [("a", ""), ("b", "")])])]
     assert costs == [1.0, 1.0, 0.5, 1.0]
+
+
+def test_methods_that_are_only_measured_stand_last_and_are_not_in_the_table():
+    points = [("p", [("a", "")])]
+    rows = [{"point": p, "method": m, "subject": "x", "ns": ns}
+            for p, m, ns in (("q", "c", 2.0), ("q", "d", 4.0), ("p", "b", 3.0), ("p", "a", 1.0))]
+    rows = lobes.with_cost(rows, points)
+    assert [(row["method"], row["cost"]) for row in rows] == [("a", 1.0), ("b", 3.0), ("c", 1.0), ("d", 2.0)]
+    assert [row["method"] for row in lobes.of_renderer(rows, points)] == ["a"]
 
 
 def test_table_text(tmp_path):

@@ -123,7 +123,7 @@ def test_references_are_kept(charted, capsys):
     (["x.usda", "--lobes"], "say what to chart"), (["x.usda", "y.usda", "--reference", "r.exr"], "--reference"),
     (["x.usda", "--tolerances", "0"], "--tolerances"), (["x.usda", "--tolerances", "0.1,nan"], "--tolerances"),
     (["x.usda", "--reference", "none.exr"], "there is no file none.exr"),
-    (["x.usda", "--method", "fresnel=guess"], "--method"), (["x.usda", "--out", "/dev/null/x"], "cannot make")])
+    (["x.usda", "--method", "thinFilm=guess"], "--method"), (["x.usda", "--out", "/dev/null/x"], "cannot make")])
 def test_wrong_usage(arguments, words, capsys):
     assert main.main(["chart", *arguments]) in (1, 2)
     error = capsys.readouterr().err
@@ -327,7 +327,7 @@ def test_time_is_kept(tmp_path, capsys):
 
 def test_methods_of_the_reference():
     """A forced approximation is judged; a choice of meaning is that of the reference, too."""
-    assert sceneCommand.truth({"fresnel": "schlick", "thinWalled": "auto"}) == {"thinWalled": "auto"}
+    assert sceneCommand.truth({"thinFilm": "table", "thinWalled": "auto"}) == {"thinWalled": "auto"}
 
 
 def test_file_names():

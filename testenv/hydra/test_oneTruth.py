@@ -135,7 +135,7 @@ LENSES = {
 @MODES
 @pytest.mark.parametrize("lens", LENSES)
 def test_lenses(tmp_path, lens, scene_index):
-    with open(os.path.join(stages.SCENES, "lightRect.usda"), encoding="utf-8") as file:
+    with open(os.path.join(stages.SCENES, "lightSphere.usda"), encoding="utf-8") as file:
         text = file.read()
     line = "        float2 clippingRange = (0.01, 10000)\n"
     assert line in text
@@ -143,7 +143,7 @@ def test_lenses(tmp_path, lens, scene_index):
     stage.write_text(text.replace(line, line + "".join(f"        {attribute}\n" for attribute in LENSES[lens])))
     shot = stages.Shot(str(stage), tmp_path)
     image, dump = render_with_hydra(shot, tmp_path, scene_index)
-    plain = stages.Shot(os.path.join(stages.SCENES, "lightRect.usda"), tmp_path)
+    plain = stages.Shot(os.path.join(stages.SCENES, "lightSphere.usda"), tmp_path)
     assert sceneText.difference(dump, plain.scene.dump(), native_shapes=scene_index) != ""
     assert sceneText.difference(dump, shot.scene.dump(), native_shapes=scene_index) == ""
     compare(shot, image, scene_index)

@@ -4,7 +4,8 @@ import os
 
 import numpy as np
 
-STAGE = """#usda 1.0
+# A world that a camera looks down on; prims of one's own follow.
+WORLD = """#usda 1.0
 (
     defaultPrim = "World"
     upAxis = "Y"
@@ -21,7 +22,10 @@ def Xform "World"
         matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0.6, -0.8, 0), (0, 0.8, 0.6, 0), (0, 5.6, 4.2, 1))
         uniform token[] xformOpOrder = ["xformOp:transform"]
     }
-    def Mesh "floor"
+%s
+}
+"""
+STAGE = WORLD % """    def Mesh "floor"
     {
         int[] faceVertexCounts = [4]
         int[] faceVertexIndices = [0, 1, 2, 3]
@@ -36,9 +40,7 @@ def Xform "World"
         uniform token[] xformOpOrder = ["xformOp:translate"]
         color3f[] primvars:displayColor = [(0.6, 0.3, 0.2)]
     }
-%s
-}
-"""
+%s"""
 
 PROFILE = """IESNA:LM-63-1995
 TILT=NONE

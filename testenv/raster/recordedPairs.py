@@ -25,9 +25,10 @@ def load():
 
 
 def save(recorded):
+    """A line for each scene."""
+    scenes = ",\n".join(f" {json.dumps(name)}: {json.dumps(entry)}" for name, entry in recorded["scenes"].items())
     with open(FILE, "w", encoding="utf-8") as file:
-        json.dump(recorded, file, indent=1)
-        file.write("\n")
+        file.write(f'{{"settings": {json.dumps(recorded["settings"])},\n"scenes": {{\n{scenes}\n}}}}\n')
 
 
 def rounded(value):

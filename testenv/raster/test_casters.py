@@ -7,30 +7,12 @@ import pytest
 
 pytest.importorskip("scipy.stats", reason="SciPy is not installed")
 
+import floorLights  # noqa: E402
 import sameImage  # noqa: E402
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
-STAGE = """#usda 1.0
-(
-    defaultPrim = "World"
-    upAxis = "Y"
-    metersPerUnit = 1
-)
-def Xform "World"
-{
-    def Camera "camera"
-    {
-        float2 clippingRange = (0.01, 1000)
-        float focalLength = 24
-        float horizontalAperture = 20.955
-        float verticalAperture = 20.955
-        matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0.6, -0.8, 0), (0, 0.8, 0.6, 0), (0, 5.6, 4.2, 1))
-        uniform token[] xformOpOrder = ["xformOp:transform"]
-    }
-%s
-}
-"""
+STAGE = floorLights.WORLD
 # The panel shows its back to the camera, which looks through it.
 PANEL = """    def DomeLight "sky"
     {

@@ -52,7 +52,7 @@ UNKNOWN = 1.0
 # How far methods that estimate an albedo are off: the largest errors of Schlick lobes on the grid of guessedAlbedos.py, rounded
 # up; a finer grid may find larger ones. Karis's curve knows one roughness alone, and GGX. Samples send back too much where they
 # miss brighter facets.
-GUESSES = {"karis": 0.55, "monteCarlo16": 0.5, "monteCarlo64": 0.18}
+GUESSES = {"karis": 0.55, "monteCarlo16": 0.5}
 # Lobes whose values are the same when both directions are exchanged, whatever their inputs.
 RECIPROCAL = {"oren_nayar_diffuse_bsdf", "burley_diffuse_bsdf", "translucent_bsdf", "subsurface_bsdf", "patina_lambert_bsdf",
               "patina_phong_bsdf", "patina_blinn_phong_bsdf", "patina_ward_bsdf", "patina_cook_torrance_bsdf"}

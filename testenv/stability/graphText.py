@@ -52,8 +52,7 @@ BURLEY_GAIN = 1.56  # of a white lobe of roughness 1 at grazing angles: the mode
 MORE = ("dielectric_btdf", "thin_film_bsdf", "patina_dispersed_ior")
 # Methods that cost a graph tens to thousands of times the usual.
 SLOW = {("energyCompensation", "randomWalk"), ("layering", "positionFree"), ("directionalAlbedo", "quadrature"),
-        ("directionalAlbedo", "monteCarlo16"), ("directionalAlbedo", "monteCarlo64"), ("thinFilm", "spectral"),
-        ("sheen", "quadrature")}
+        ("directionalAlbedo", "monteCarlo16"), ("thinFilm", "spectral"), ("sheen", "quadrature")}
 SIZES = {"float": 1, "vector2": 2, "vector3": 3, "color3": 3}
 
 

@@ -101,10 +101,10 @@ def test_every_closure_is_tried():
 
 def test_kept_graphs_come_back(tmp_path):
     graph = graphText.Graph(5)
-    kept.write(tmp_path / "a.mtlx", graph.text(), graph, {"fresnel": "f82"}, ["f: nan -- at x"])
+    kept.write(tmp_path / "a.mtlx", graph.text(), graph, {"thinFilm": "table"}, ["f: nan -- at x"])
     text, expected, methods = kept.read(tmp_path / "a.mtlx")
     assert (expected.bound, expected.loses, expected.thin, methods) == (graph.bound, graph.loses, graph.thin,
-                                                                        {"fresnel": "f82"})
+                                                                        {"thinFilm": "table"})
     assert randomGraphs.load(_patina, text).path.endswith("graph5")
 
 

@@ -148,4 +148,4 @@ def test_keyboard_and_screen_readers(shown, scheme):
     for _ in range(60):
         shown.press("Tab")
         named.add(shown.evaluate("return document.activeElement.ariaLabel"))
-    assert {"draw: directionalAlbedo fit", "draw: sampling fullNdf"} <= named
+    assert {"draw: directionalAlbedo fit", "draw: sampling boundedVndf"} <= named

@@ -1,55 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/tests/builtScene.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 using namespace patina;
+using namespace patina::test;
 
 namespace {
 
-std::shared_ptr<Mesh> makeQuad(const std::string& path, const std::string& group = "") {
-    auto mesh = std::make_shared<Mesh>();
-    mesh->path = path;
-    mesh->group = group;
-    mesh->points = std::vector<vec3>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    mesh->faceVertexCounts = {4};
-    mesh->faceVertexIndices = {0, 1, 2, 3};
-    return mesh;
-}
-
-std::shared_ptr<Instancer> makeInstancer(const std::string& path, const std::string& group,
-                                         const std::string& prototype,
-                                         const std::vector<mat4>& transforms) {
-    auto instancer = std::make_shared<Instancer>();
-    instancer->path = path;
-    instancer->group = group;
-    instancer->prototypes = {prototype};
-    for (const mat4& m : transforms) {
-        instancer->transforms.push_back(m);
-        instancer->prototypeIndices.push_back(0);
-    }
-    return instancer;
-}
-
-struct Built {
-    std::shared_ptr<Scene> owner = std::make_shared<Scene>();
-    Scene& scene = *owner;
-    Camera camera;
-    RenderSettings settings;
-    CompiledScene compiled{owner};
-    EmbreeScene embree{compiled};
-    std::atomic<bool> stop{false};
-
-    void update() { embree.update(*scene.snapshot(), camera, settings, stop); }
+struct Built : BuiltScene {
     bool hit(const vec3& origin, const vec3& direction, Hit& out, float time = 0.0f) {
         return embree.intersect(origin, direction, 0, INFINITY, time, RayCamera, out);
     }
 };
-
-mat4 translate(float x, float y, float z) {
-    return glm::translate(mat4(1.0f), vec3(x, y, z));
-}
 
 } // namespace
 

@@ -2,10 +2,9 @@
 // Updates of a scene that run out of memory anywhere: the next one makes whole what they did not.
 
 #include "hdDelegate/compiled/compiledScene.h"
-#include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/tests/builtScene.h"
 #include "hdDelegate/renderer/renderLoop.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,13 +34,8 @@ using namespace patina;
 namespace {
 
 std::shared_ptr<Mesh> square(const std::string& path, float x, const std::string& group = "") {
-    auto mesh = std::make_shared<Mesh>();
-    mesh->path = path;
-    mesh->group = group;
-    mesh->points = std::vector<vec3>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    mesh->faceVertexCounts = {4};
-    mesh->faceVertexIndices = {0, 1, 2, 3};
-    mesh->transform = glm::translate(mat4(1.0f), vec3(x, 0, 0));
+    auto mesh = test::makeQuad(path, group);
+    mesh->transform = test::translate(x, 0, 0);
     return mesh;
 }
 

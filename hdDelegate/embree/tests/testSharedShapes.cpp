@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/cameraRays.h"
-#include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/tests/builtScene.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 using namespace patina;
+using namespace patina::test;
 
 namespace {
 
 constexpr size_t trianglesOfSphere = 2 * 128 * 63; // 64 rings of 128 cells, those at the poles half
-
-struct Built {
-    std::shared_ptr<Scene> owner = std::make_shared<Scene>();
-    Scene& scene = *owner;
-    Camera camera;
-    RenderSettings settings;
-    CompiledScene compiled{owner};
-    EmbreeScene embree{compiled};
-    std::atomic<bool> stop{false};
-
-    void update() { embree.update(*scene.snapshot(), camera, settings, stop); }
-};
 
 mat4 placeOf(int i) {
     const mat4 moved = glm::translate(mat4(1.0f), vec3(float(i) - 10.0f, 0.1f * float(i % 3), -6));
@@ -53,7 +41,7 @@ std::shared_ptr<Implicit> makePrim(int i, ImplicitShape shape, bool shrinks) {
     return prim;
 }
 
-void fill(Built& built, ImplicitShape shape, bool shrinks) {
+void fill(BuiltScene& built, ImplicitShape shape, bool shrinks) {
     SceneEdit edit = built.scene.edit();
     for (int i = 0; i < 40; ++i)
         edit.set(std::shared_ptr<const Geometry>(makePrim(i, shape, shrinks)));
@@ -70,7 +58,7 @@ void expectNear(const vec3& a, const vec3& b, float tolerance, const char* what)
 TEST(SharedShapes, HitsAreThoseOfPrimsThatAreDrawnAlone) {
     for (ImplicitShape shape : {ImplicitShape::Sphere, ImplicitShape::Cube, ImplicitShape::Cylinder,
                                 ImplicitShape::Capsule}) {
-        Built together, alone;
+        BuiltScene together, alone;
         fill(together, shape, false);
         fill(alone, shape, true);
         EXPECT_LT(together.embree.trianglesStored(), alone.embree.trianglesStored() / 10);
@@ -114,7 +102,7 @@ TEST(SharedShapes, HitsAreThoseOfPrimsThatAreDrawnAlone) {
 }
 
 TEST(SharedShapes, ThousandsOfSpheresAreTheTrianglesOfOne) {
-    Built built;
+    BuiltScene built;
     SceneEdit edit = built.scene.edit();
     constexpr int count = 3000;
     for (int i = 0; i < count; ++i) {
@@ -134,7 +122,7 @@ TEST(SharedShapes, ThousandsOfSpheresAreTheTrianglesOfOne) {
 
 TEST(SharedShapes, ShapesAreAsFineAsTheirSizeOnScreen) {
     const auto stored = [](float away) {
-        Built built;
+        BuiltScene built;
         auto prim = std::make_shared<Implicit>();
         prim->path = "/ball";
         prim->transform = glm::translate(mat4(1.0f), vec3(0, 0, -away));
@@ -148,7 +136,7 @@ TEST(SharedShapes, ShapesAreAsFineAsTheirSizeOnScreen) {
 }
 
 TEST(SharedShapes, DistinctShapesAreAsCoarseAsPixelsAllow) {
-    Built built;
+    BuiltScene built;
     built.settings.width = built.settings.height = 16;
     const float pixel = CameraRays(built.camera, built.settings, dvec3(0.0)).pixelSpread();
     SceneEdit edit = built.scene.edit();
@@ -170,7 +158,7 @@ TEST(SharedShapes, DistinctShapesAreAsCoarseAsPixelsAllow) {
 }
 
 TEST(SharedShapes, PrimsThatMoveBetweenBothWaysOfBeingDrawn) {
-    Built built;
+    BuiltScene built;
     const auto hits = [&](int prims) {
         int found = 0;
         for (int i = 0; i < prims; ++i) {
@@ -193,7 +181,7 @@ TEST(SharedShapes, PrimsThatMoveBetweenBothWaysOfBeingDrawn) {
 }
 
 TEST(SharedShapes, FlatPrimsAreDrawnAlone) {
-    Built built;
+    BuiltScene built;
     SceneEdit edit = built.scene.edit();
     for (int i = 0; i < 20; ++i) {
         auto prim = makePrim(i, ImplicitShape::Sphere, false);

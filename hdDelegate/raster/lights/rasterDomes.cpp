@@ -57,20 +57,18 @@ int RasterDomes::layer(const std::shared_ptr<const EnvironmentMap>& map) {
     return int(_wanted.size()) - 1;
 }
 
-const SkyHarmonics& RasterDomes::harmonics(const std::shared_ptr<const EnvironmentMap>& map,
-                                           bool bare) {
-    const auto found = _harmonics.find({map, bare});
+const SkyHarmonics& RasterDomes::harmonics(const std::shared_ptr<const EnvironmentMap>& map) {
+    const auto found = _harmonics.find(map);
     if (found != _harmonics.end()) return found->second;
     return _harmonics
-        .emplace(std::make_pair(map, bare),
-                 makeSkyHarmonics([&](const vec3& d) { return map->radiance(d); }, !bare, !bare))
+        .emplace(map, makeSkyHarmonics([&](const vec3& d) { return map->radiance(d); }))
         .first->second;
 }
 
 void RasterDomes::upload(bool prefiltered) {
     if (prefiltered && _filtered != _wanted) uploadPrefiltered();
     for (auto it = _harmonics.begin(); it != _harmonics.end();)
-        it = std::find(_wanted.begin(), _wanted.end(), it->first.first) == _wanted.end()
+        it = std::find(_wanted.begin(), _wanted.end(), it->first) == _wanted.end()
                  ? _harmonics.erase(it)
                  : std::next(it);
     if (_uploaded == _wanted) return;

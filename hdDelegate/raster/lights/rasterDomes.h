@@ -22,8 +22,7 @@ public:
     void begin() { _wanted.clear(); }
     /// @returns the layer of an image; -1: there are maxImages already
     int layer(const std::shared_ptr<const EnvironmentMap>& map);
-    /// @param bare all of the image in harmonics without a window, which ring
-    const SkyHarmonics& harmonics(const std::shared_ptr<const EnvironmentMap>& map, bool bare);
+    const SkyHarmonics& harmonics(const std::shared_ptr<const EnvironmentMap>& map);
     /// Makes the textures of all layers since begin().
     /// @param prefiltered those of PrefilteredSky too
     void upload(bool prefiltered);
@@ -37,7 +36,7 @@ private:
 
     using Maps = std::vector<std::shared_ptr<const EnvironmentMap>>;
     Maps _wanted, _uploaded, _filtered;
-    std::map<std::pair<std::shared_ptr<const EnvironmentMap>, bool>, SkyHarmonics> _harmonics;
+    std::map<std::shared_ptr<const EnvironmentMap>, SkyHarmonics> _harmonics;
     GlTexture _maps, _densities, _prefiltered;
 };
 

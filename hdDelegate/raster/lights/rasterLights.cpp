@@ -108,7 +108,7 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
 /// Harmonics and prefiltered maps are of a sky that is the same at every point.
 void RasterLights::warnOfDomeMethods(const Light& light, Diagnostics& diagnostics) const {
     if (light.type != LightType::Dome || light.filters.empty()) return;
-    for (const char* method : {"prefiltered", "harmonics", "harmonicsUnwindowed"})
+    for (const char* method : {"prefiltered", "harmonics"})
         if (_domeMethods.count(method) > 0)
             diagnostics.warn(light.path, "light:filters", messages::domeMethodUnfiltered(method));
 }
@@ -202,9 +202,8 @@ bool RasterLights::addDome(RasterLightSource& s, const Light& light, LightImages
                                            "inputs:texture:file");
         layer = domes.layer(s.environment);
         if (layer < 0) return false;
-        const bool bare = _domeMethods.count("harmonicsUnwindowed") > 0;
-        if (bare || _domeMethods.count("harmonics") > 0 || _domeMethods.count("prefiltered") > 0) {
-            const SkyHarmonics& sky = domes.harmonics(s.environment, bare);
+        if (_domeMethods.count("harmonics") > 0 || _domeMethods.count("prefiltered") > 0) {
+            const SkyHarmonics& sky = domes.harmonics(s.environment);
             std::vector<vec4> values;
             for (const vec3& c : sky.irradiance)
                 values.emplace_back(c, 0.0f);

@@ -33,9 +33,8 @@ constexpr double mostStandInSeconds = 0.2;
 std::string lightingText(const std::string& dome, const std::string& area) {
     const std::string text = dome == "filtered"      ? "#define DOME_METHOD DOME_FILTERED\n"
                              : dome == "prefiltered" ? "#define DOME_METHOD DOME_PREFILTERED\n"
-                             : dome == "harmonics" || dome == "harmonicsUnwindowed"
-                                 ? "#define DOME_METHOD DOME_HARMONICS\n"
-                                 : "";
+                             : dome == "harmonics"   ? "#define DOME_METHOD DOME_HARMONICS\n"
+                                                     : "";
     return text + (area == "linearlyTransformedCosines" ? "#define AREA_OUTLINES\n" : "");
 }
 

@@ -21,8 +21,6 @@ struct AgreementRow {
     BoundLobe (*f32)(const float* parameters) = nullptr;
     BoundLobe (*f64)(const float* parameters) = nullptr;
     std::vector<std::vector<float>> sets; ///< of parameters
-    /// Another row has the same sets and the rest of the lobe.
-    bool albedoAlone = false;
 
     /// Whether the lobe has energy factors of its wo (`PATINA_ENERGY_KNOWN`).
     bool hasEnergy() const {

@@ -38,7 +38,7 @@ const Options exponent{1.0f, 8.0f, 100.0f, 2000.0f};
 const Options schlickExponent{5.0f, 1.0f, 3.0f, 5.0f};
 const Options thickness{0.0f, 100.0f, 400.0f, 1000.0f};
 const Options three{0.0f, 1.0f, 2.0f};
-const Options albedo{0.0f, 1.0f, 2.0f, 3.0f};
+const Options albedo{0.0f, 1.0f, 2.0f};
 const Options filmIor{1.0f, 1.3f, 1.6f, 2.0f};
 
 // The instances of a lobe: __VA_ARGS__ is one expression of three languages.
@@ -57,11 +57,6 @@ const Options filmIor{1.0f, 1.3f, 1.6f, 2.0f};
     AgreementRow {                                                                                 \
         NAME, #__VA_ARGS__, #PREFIX, #ALBEDO, PATINA_INSTANCE(sh, PREFIX, ALBEDO, __VA_ARGS__),    \
             PATINA_INSTANCE(sh64, PREFIX, ALBEDO, __VA_ARGS__), SETS                               \
-    }
-#define PATINA_ALBEDO_ROW(NAME, PREFIX, ALBEDO, SETS, ...)                                         \
-    AgreementRow {                                                                                 \
-        NAME, #__VA_ARGS__, #PREFIX, #ALBEDO, PATINA_INSTANCE(sh, PREFIX, ALBEDO, __VA_ARGS__),    \
-            PATINA_INSTANCE(sh64, PREFIX, ALBEDO, __VA_ARGS__), SETS, true                         \
     }
 
 // An EDF is a value at wo and nothing else.
@@ -104,23 +99,21 @@ std::vector<AgreementRow> agreementRows() {
                    conductorSetup(p3(0), p3(3), p2(6), pb(8), pn(9))),
         // Methods at choice points, but for those that add up many facets.
         PATINA_ROW("methods of conductor", conductor, conductorAlbedo,
-                   mixed({index, extinction, alpha, alpha, three, albedo, three, three}, 96),
-                   conductorFresnel(conductorMethods(conductorSetup(vec3(p1(0)), vec3(p1(1)), p2(2),
-                                                                    false, pn(4)),
-                                                     pn(5), pn(6), 0),
-                                    pn(7))),
+                   mixed({index, extinction, alpha, alpha, three, albedo, flag}, 96),
+                   conductorMethods(conductorSetup(vec3(p1(0)), vec3(p1(1)), p2(2), false, pn(4)),
+                                    pn(5), pn(6), 0)),
         PATINA_ROW("methods of dielectric", dielectric, dielectricAlbedo,
-                   mixed({color, ior, alpha, alpha, mode, three, albedo, three, three}, 160),
+                   mixed({color, ior, alpha, alpha, mode, three, albedo, flag}, 160),
                    dielectricMethods(
                        dielectricSetup(vec3(p1(0)), p1(1), p2(2), false, pn(4), false, pn(5)),
-                       pn(6), pn(7), pn(8))),
+                       pn(6), pn(7))),
         PATINA_ROW("methods of schlick", schlick, schlickAlbedo,
-                   mixed({color, color, alpha, alpha, mode, three, albedo, three}, 96),
+                   mixed({color, color, alpha, alpha, mode, three, albedo, flag}, 96),
                    schlickMethods(schlickSetup(vec3(p1(0)), vec3(1.0f), vec3(p1(1)), 5.0f, p2(2),
                                                false, pn(4), false, pn(5)),
                                   pn(6), pn(7), 0)),
         PATINA_ROW("models of orenNayar", orenNayar, orenNayarAlbedo,
-                   mixed({color, roughness, flag, {0, 1, 2, 3, 4}}),
+                   mixed({color, roughness, flag, {0, 1, 2, 3}}),
                    orenNayarModel(vec3(p1(0)), p1(1), pb(2), pn(3))),
         PATINA_ROW("methods of film", conductor, conductorAlbedo,
                    mixed({index, extinction, alpha, thickness, filmIor, three}, 48),
@@ -132,32 +125,8 @@ std::vector<AgreementRow> agreementRows() {
             "dielectric", dielectric, dielectricAlbedo,
             mixed({color, color, color, ior, alpha, alpha, {0, 0, 0, 1}, mode, flag, flag}, 120),
             dielectricSetup(p3(0), p1(3), p2(4), pb(6), pn(7), pb(8), pn(9))),
-        PATINA_ALBEDO_ROW(
-            "dielectric top", dielectric, dielectricAlbedoReflect,
-            mixed({color, color, color, ior, alpha, alpha, {0, 0, 0, 1}, mode, flag, flag}, 120),
-            dielectricSetup(p3(0), p1(3), p2(4), pb(6), pn(7), pb(8), pn(9))),
         PATINA_ROW(
             "schlick", schlick, schlickAlbedo,
-            mixed({color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   schlickExponent,
-                   alpha,
-                   alpha,
-                   {0, 0, 0, 1},
-                   mode,
-                   flag,
-                   flag},
-                  120),
-            schlickSetup(p3(0), p3(3), p3(6), p1(9), p2(10), pb(12), pn(13), pb(14), pn(15))),
-        PATINA_ALBEDO_ROW(
-            "schlick top", schlick, schlickAlbedoReflect,
             mixed({color,
                    color,
                    color,
@@ -194,7 +163,7 @@ std::vector<AgreementRow> agreementRows() {
             filmDielectricSetup(p3(0), p1(3), p2(4), p1(6), p1(7), false, pn(8), pb(9), pn(10))),
         PATINA_ROW("sheen", sheen, sheenAlbedo, mixed({color, color, color, roughness, flag}),
                    sheenSetup(p3(0), p1(3), pn(4))),
-        PATINA_ROW("methods of sheen", sheen, sheenAlbedo, mixed({color, roughness, three}, 24),
+        PATINA_ROW("methods of sheen", sheen, sheenAlbedo, mixed({color, roughness, flag}, 24),
                    sheenMethods(sheenSetup(vec3(p1(0)), p1(1), 0), pn(2))),
         PATINA_ROW("phong", phong, phongAlbedo, mixed({color, color, color, exponent}),
                    phongSetup(p3(0), p1(3))),

@@ -23,8 +23,7 @@ std::string knownOf(const AgreementRow& row) {
     if (row.setup.find("ilm") == std::string::npos) text += "#define PATINA_FILM(present) false\n";
     if (row.hasEnergy()) text += "#define PATINA_ENERGY_KNOWN(known) true\n";
     if (row.name.compare(0, 7, "methods") != 0)
-        text += "#define PATINA_ALBEDO_METHOD(method) 0\n#define PATINA_FRESNEL(model) 0\n"
-                "#define PATINA_FILM_METHOD(method) 0\n";
+        text += "#define PATINA_ALBEDO_METHOD(method) 0\n#define PATINA_FILM_METHOD(method) 0\n";
     return text;
 }
 
@@ -68,10 +67,9 @@ void main() {
         std::string type = f;
         type[0] = char(type[0] - 'a' + 'A');
         text += "    " + type + "Lobe l = " + row.setup + ";\n";
-        if (!row.albedoAlone) {
-            if (row.hasEnergy()) text += "    l = " + f + "At(l, wo);\n";
-            text += "    LobeEval e = " + f + "Eval(l, wo, wi);\n    LobeSample s = " + f +
-                    "Sample(l, wo, u);\n" + R"(
+        if (row.hasEnergy()) text += "    l = " + f + "At(l, wo);\n";
+        text += "    LobeEval e = " + f + "Eval(l, wo, wi);\n    LobeSample s = " + f +
+                "Sample(l, wo, u);\n" + R"(
     put(o, e.value);
     answers[o + 3] = e.pdf;
     put(o + 4, s.wi);
@@ -80,7 +78,6 @@ void main() {
     answers[o + 11] = float(s.event);
     answers[o + 12] = s.eta;
 )";
-        }
         text += "    put(o + 13, " + row.albedo + "(l, wo));\n}\n";
     }
     const std::string key = "PARAMETERS";
@@ -234,13 +231,13 @@ TEST_P(Agreement, OfLobeWithOracle) {
             double d[PartCount], f[PartCount];
             differences(fromDriver(row, &answers[(s * points.size() + i) * 20]), oracle, d);
             differences(answerOf(f32, points[i]), oracle, f);
-            for (int part = row.albedoAlone ? PartAlbedo : 0; part < PartCount; ++part) {
+            for (int part = 0; part < PartCount; ++part) {
                 driver[part].add(d[part], s, i);
                 single[part].add(f[part], s, i);
             }
         }
     }
-    for (int part = row.albedoAlone ? PartAlbedo : 0; part < PartCount; ++part) {
+    for (int part = 0; part < PartCount; ++part) {
         const Tally &d = driver[part], &f = single[part];
         const char* name = agreementPartNames[part];
         const char* reason = d.above4 > 0 ? reasonFor(row.name) : "";

@@ -107,8 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Materials, GlslText,
                          ::testing::Values("coatedPlastic", "texturedBumps", "flakesUnderGlass"));
 
 TEST(GlslDefinitions, SayWhatAllLobesHaveInCommon) {
-    const std::string exact =
-        "#define PATINA_ALBEDO_METHOD(method) 0\n#define PATINA_FRESNEL(model) 0\n";
+    const std::string exact = "#define PATINA_ALBEDO_METHOD(method) 0\n";
     const std::string none = exact + "#define PATINA_FILM(present) false\n";
     const auto definitions = [](float thickness, const MethodChoices& methods) {
         const Network network = bsdfNetwork(

@@ -47,13 +47,15 @@ def measure(point, timed=True):
 
 
 def with_cost(rows, points):
-    """Adds `cost`, the time over that of the point's default method on the same subject, and orders rows.
+    """Adds `cost`, the time over that of the point's default method on the same subject, and orders rows: those that are
+    only measured stand behind the renderer's.
 
     :param points: choice points with their methods, as _patina.choice_points() gives them
     """
-    order = {(point, name): (i, k) for i, (point, methods) in enumerate(points)
-             for k, (name, _) in enumerate(methods)}
-    default = {point: methods[0][0] for point, methods in points}
+    places = {point: i for i, (point, _) in enumerate(points)}
+    order = {(point, name): k for point, methods in points for k, (name, _) in enumerate(methods)}
+    default = {row["point"]: row["method"] for row in reversed(rows)}
+    default.update((point, methods[0][0]) for point, methods in points)
     reference = {(row["point"], row["subject"]): row["ns"] for row in rows if row["method"] == default[row["point"]]}
     for row in rows:
         # Counts of samples or passes are told after the subject, which the default has without one too.
@@ -62,7 +64,14 @@ def with_cost(rows, points):
         first = next(r["ns"] for r in rows if r["point"] == row["point"] and r["subject"] == row["subject"])
         base = reference.get((row["point"], row["subject"]), reference.get((row["point"], alone), first))
         row["cost"] = row["ns"] / base if base > 0.0 else 1.0
-    return sorted(rows, key=lambda row: order[row["point"], row["method"]])
+    return sorted(rows, key=lambda row: (places.get(row["point"], len(places)),
+                                         order.get((row["point"], row["method"]), len(order))))
+
+
+def of_renderer(rows, points):
+    """:returns: the rows without methods that are only measured: what the planner's table has"""
+    names = {(point, name) for point, methods in points for name, _ in methods}
+    return [row for row in rows if (row["point"], row["method"]) in names]
 
 
 def merged(rows, table, point):

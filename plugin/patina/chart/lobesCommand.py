@@ -22,11 +22,11 @@ def run(arguments):
     patina = compiled.load()
     points = patina.choice_points()
     names = [point for point, _ in points]
-    if arguments.point and arguments.point not in names:
-        raise UsageError(f"patina chart: there is no choice point '{arguments.point}' (there are: {', '.join(names)})")
     outputs.check_all([arguments.table, arguments.json])
     outputs.make_folder(arguments.out)
     rows = lobes.measure(arguments.point, not arguments.errors)
+    if not rows and arguments.point not in names:
+        raise UsageError(f"patina chart: there is no choice point '{arguments.point}' (there are: {', '.join(names)})")
     if not rows:
         raise CommandError(f"nothing is measured at '{arguments.point}': its methods differ in meaning, not in accuracy")
     if arguments.errors:
@@ -34,7 +34,9 @@ def run(arguments):
     rows = lobes.with_cost(rows, points)
     try:
         if arguments.table:
-            table = lobes.merged(rows, patina.method_table(), arguments.point) if arguments.point else rows
+            table = lobes.of_renderer(rows, points)
+            if arguments.point:
+                table = lobes.merged(table, patina.method_table(), arguments.point)
             lobes.write_table(table, arguments.table)
         if arguments.out:
             lobes.write_csv(rows, os.path.join(arguments.out, "lobes.csv"))

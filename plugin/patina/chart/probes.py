@@ -52,11 +52,15 @@ def albedo(probe, wo, channel=0):
     return float(probe.albedo(wo)[0][channel])
 
 
-def samples(probe, wo, count):
-    """:returns: what sample() gives for `count` points of a fixed sequence that fills the unit cube evenly"""
+def points(count):
+    """:returns: points of a fixed sequence that fills the unit cube evenly, count x 4"""
     steps = np.array([0.8566748838545029, 0.733891856627126, 0.6287067210378087, 0.5385972572236101])
-    u = (0.5 + np.arange(1, count + 1)[:, None] * steps) % 1.0
-    return probe.sample(np.repeat(wo, count, axis=0), np.minimum(u, 1.0 - 2.0 ** -24).astype(np.float32))
+    return np.minimum((0.5 + np.arange(1, count + 1)[:, None] * steps) % 1.0, 1.0 - 2.0 ** -24)
+
+
+def samples(probe, wo, count):
+    """:returns: what sample() gives for the first of points()"""
+    return probe.sample(np.repeat(wo, count, axis=0), points(count).astype(np.float32))
 
 
 def sampled(probe, wo, count=4096, channel=0):

@@ -7,6 +7,27 @@ from patina.chart.sweeps import Sweep, always
 from patina.chart.sweepsEnergy import reciprocity
 
 MODELS = ("eon", "qualitative", "fujii", "lambert")
+FUJII_LOSS = 0.5 - 2.0 / (3.0 * np.pi)
+
+
+def fujii(roughness, wo, wi):
+    """f of white by Fujii's model, whose first term EON has too: A + B s / t."""
+    s = float(wo[0] @ wi[0] - wo[0, 2] * wi[0, 2])
+    t = max(wo[0, 2], wi[0, 2]) if s > 0.0 else 1.0
+    return (1.0 + roughness * s / t) / (1.0 + FUJII_LOSS * roughness) / np.pi
+
+
+def fujii_albedo(roughness, mu):
+    """What it reflects of light from a cosine, in closed form."""
+    sine = np.sqrt(1.0 - mu * mu)
+    g = sine * (np.arccos(mu) - sine * mu) + 2.0 / 3.0 * (sine / mu * (1.0 - sine ** 3) - sine)
+    return (1.0 + roughness * g / np.pi) / (1.0 + FUJII_LOSS * roughness)
+
+
+def _albedo(roughness, model, cosine):
+    if model == "fujii":
+        return float(fujii_albedo(roughness, cosine))
+    return probes.albedo(_diffuse(roughness, model), probes.towards(cosine))
 
 
 def _diffuse(roughness, model):
@@ -20,7 +41,7 @@ def _burley(roughness):
 def _furnace(count):
     x = list(np.linspace(0.0, 1.0, count))
     wo = probes.towards(0.2)
-    curves = {m: [probes.albedo(_diffuse(r, m), wo) for r in x] for m in MODELS}
+    curves = {m: [_albedo(r, m, 0.2) for r in x] for m in MODELS}
     curves["burley"] = [probes.albedo(_burley(r), wo) for r in x]
     return Sweep("rough white diffuse", "diffuse",
                  "The qualitative model and Fujii's lose light between the facets; Burley's gains it where rough.", "roughness",
@@ -29,7 +50,7 @@ def _furnace(count):
 
 def _grazing(count):
     x = list(np.logspace(-3, 0, count))
-    curves = {m: [probes.albedo(_diffuse(1.0, m), probes.towards(c)) for c in x] for m in MODELS}
+    curves = {m: [_albedo(1.0, m, c) for c in x] for m in MODELS}
     curves["burley"] = [probes.albedo(_burley(1.0), probes.towards(c)) for c in x]
     return Sweep("diffuse at grazing views", "diffuse",
                  "Burley's model of roughness 1 gains half again of the light at the horizon.", "cosine", x,
@@ -41,8 +62,10 @@ def _ring(count):
     x = list(np.linspace(60.0, 120.0, 2 * (count // 2) + 1))  # 90 is among them
     step, wo = 0.5, probes.towards(0.9)
     def bend(model):
-        probe = _diffuse(1.0, model)
-        f = lambda degrees: float(probe.eval(wo, probes.towards(0.3, np.radians(degrees)))[0][0, 0])
+        probe = None if model == "fujii" else _diffuse(1.0, model)
+        def f(degrees):
+            wi = probes.towards(0.3, np.radians(degrees))
+            return fujii(1.0, wo, wi) if model == "fujii" else float(probe.eval(wo, wi)[0][0, 0])
         return [abs(f(d + step) - 2.0 * f(d) + f(d - step)) / np.radians(step) for d in x]
     curves = {m: bend(m) for m in ("eon", "qualitative", "fujii")}
     return Sweep("ring of the qualitative model", "diffuse", "The slope jumps where the minimum of its two terms switches.",

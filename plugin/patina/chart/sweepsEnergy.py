@@ -10,9 +10,22 @@ ALBEDOS = ("table", "fit", "karis", "mirror", "monteCarlo16", "monteCarlo64", "q
 COMPENSATIONS = ("turquin", "kullaConty", "none")
 
 
-def _albedos(name, fails, label, x, make, wo, bound, failing, chosen="fit", methods=ALBEDOS, **more):
-    curves = {m: [probes.albedo(make(v, {"energyCompensation": "none", "directionalAlbedo": m}), wo(v)) for v in x]
-              for m in methods}
+def _albedo(method, make, wo):
+    """Of a method of the renderer, or of one that is only compared: by the lobe as if smooth, or by 64 of its samples."""
+    if method == "monteCarlo64":
+        return probes.sampled(make({"energyCompensation": "none"}), wo, 64)
+    if method == "mirror":
+        return probes.albedo(make({}, 0.0), wo)
+    return probes.albedo(make({"energyCompensation": "none", "directionalAlbedo": method}), wo)
+
+
+def _albedos(name, fails, label, x, place, bound, failing, chosen="fit", methods=ALBEDOS, **more):
+    """:param place: x -> (ior, alpha, cosine) of a coat"""
+    def at(v, method):
+        ior, alpha, cosine = place(v)
+        return _albedo(method, lambda methods, alpha=alpha: _coat(ior, alpha, methods), probes.towards(cosine))
+
+    curves = {m: [at(v, m) for v in x] for m in methods}
     return Sweep(name, "energy", fails, label, x, "albedo", curves, curves["quadrature"], always(chosen, x), bound, failing,
                  **more)
 
@@ -29,15 +42,15 @@ def _karis(count):
     return [
         _albedos("albedo of a smooth coat at grazing views",
                  "Karis's fit loses energy where the lobe is narrow and the view flat.",
-                 "cosine", grazing, lambda v, m: _coat(1.5, 0.05, m), probes.towards, 5e-3, "karis", log_x=True,
+                 "cosine", grazing, lambda v: (1.5, 0.05, v), 5e-3, "karis", log_x=True,
                  methods=("table", "fit", "karis", "mirror", "quadrature"), shows=3),
         _albedos("albedo of a coat over roughness", "The reflectance at the view's own cosine knows nothing of roughness.",
-                 "alpha", rough, lambda v, m: _coat(1.5, v, m), lambda v: probes.towards(0.3), 2e-3, "mirror", shows=3),
+                 "alpha", rough, lambda v: (1.5, v, 0.3), 2e-3, "mirror", shows=3),
         _albedos("albedo near ior 1", "Karis's curve rises to white at grazing views, as Schlick's does.", "ior", ior,
-                 lambda v, m: _coat(v, 0.3, m), lambda v: probes.towards(0.2), 2e-3, "karis", methods=few, shows=3),
+                 lambda v: (v, 0.3, 0.2), 2e-3, "karis", methods=few, shows=3),
         _albedos("corners of the table", "Linear cells cannot follow a narrow lobe near the horizon; the fit can.", "cosine",
-                 list(np.logspace(-3.5, -0.5, count)), lambda v, m: _coat(1.5, 0.011, m), probes.towards, 2e-3, "karis",
-                 methods=few, log_x=True, shows=3)]
+                 list(np.logspace(-3.5, -0.5, count)), lambda v: (1.5, 0.011, v), 2e-3, "karis", methods=few, log_x=True,
+                 shows=3)]
 
 
 def _white(count):

@@ -96,11 +96,12 @@ def _rough(count):
     wo = probes.towards(0.7)
     found, truth, smooth = [], [], []
     for d in x:
-        made = lambda m: probes.lobe("dielectric_bsdf", {"energyCompensation": "none", "directionalAlbedo": m}, ior=1.5,
-                                     roughness=(0.6, 0.6), thinfilm_thickness=float(d), thinfilm_ior=1.8)
+        made = lambda m, alpha=0.6: probes.lobe("dielectric_bsdf", {"energyCompensation": "none", "directionalAlbedo": m},
+                                                ior=1.5, roughness=(alpha, alpha), thinfilm_thickness=float(d),
+                                                thinfilm_ior=1.8)
         found.append(probes.albedo(made("table"), wo, 1))
         truth.append(probes.albedo(made("quadrature"), wo, 1))
-        smooth.append(probes.albedo(made("mirror"), wo, 1))
+        smooth.append(probes.albedo(made("table", 0.0), wo, 1))
     return Sweep("film on a rough interface", "thin film",
                  "The reflectance at the view's own cosine is not the mean over facets.",
                  "thickness in nm", x, "albedo, green", {"table": found, "mirror": smooth}, truth, always("table", x), 1e-2,

@@ -5,7 +5,6 @@ import numpy as np
 from patina.chart import probes
 from patina.chart.sweeps import Sweep, always
 
-MODELS = ("exact", "schlick", "f82")
 GOLD = ((0.18, 0.42, 1.37), (3.42, 2.35, 1.77))
 ALUMINIUM = ((1.5, 0.98, 0.6), (7.6, 6.6, 5.4))
 
@@ -44,12 +43,29 @@ def conductor_unguarded(cosine, n, k):
         return float(np.float32(0.5) * (s + p))
 
 
-def _by_model(make, wo, x):
-    return {m: [probes.albedo(make(v, {"fresnel": m}), wo(v)) for v in x] for m in MODELS}
+def _by_model(make, exact, wo, x):
+    """The lobe itself, Schlick's curve of its reflectance at normal incidence, and that with a dip which meets the exact
+    reflectance at 82 degrees (Kutz et al. 2021).
+
+    :param exact: (x, cosine) -> reflectance per channel
+    """
+    curves = {"exact": [probes.albedo(make(v), wo(v)) for v in x], "schlick": [], "f82": []}
+    for v in x:
+        f0, at82 = np.array(exact(v, 1.0)), np.array(exact(v, 1.0 / 7.0))
+        dip = at82 / (f0 + (1.0 - f0) * (6.0 / 7.0) ** 5)
+        for name, color82 in (("schlick", np.ones(3)), ("f82", dip)):
+            probe = probes.lobe("generalized_schlick_bsdf", color0=tuple(map(float, f0)), color82=tuple(map(float, color82)),
+                                roughness=(0.0, 0.0))
+            curves[name].append(probes.albedo(probe, wo(v)))
+    return curves
 
 
-def _glass(ior, methods, mode="R"):
-    return probes.lobe("dielectric_bsdf", methods, ior=float(ior), roughness=(0.0, 0.0), scatter_mode=mode)
+def _glass(ior, mode="R"):
+    return probes.lobe("dielectric_bsdf", ior=float(ior), roughness=(0.0, 0.0), scatter_mode=mode)
+
+
+def _of_glass(ior, cosine):
+    return [dielectric(cosine, ior)] * 3
 
 
 def sweeps(count):
@@ -59,19 +75,20 @@ def sweeps(count):
     x = list(1.0 + np.logspace(-4, -0.3, count))
     found.append(Sweep(
         "Fresnel, ior near 1", "Fresnel", "Schlick's curve rises to 1 at grazing angles however weak the interface is.",
-        "ior", x, f"reflectance at cosine {cosine}", _by_model(_glass, lambda v: probes.towards(cosine), x),
+        "ior", x, f"reflectance at cosine {cosine}", _by_model(_glass, _of_glass, lambda v: probes.towards(cosine), x),
         [dielectric(cosine, v) for v in x], always("exact", x), 1e-5, "schlick", shows=1000))
     x = list(np.linspace(1.6, 5.0, count))
     found.append(Sweep(
         "Fresnel, ior above 2", "Fresnel", "Schlick's curve has no Brewster angle, whose dip grows with the ior.",
-        "ior", x, "reflectance at cosine 0.3", _by_model(_glass, lambda v: probes.towards(0.3), x),
+        "ior", x, "reflectance at cosine 0.3", _by_model(_glass, _of_glass, lambda v: probes.towards(0.3), x),
         [dielectric(0.3, v) for v in x], always("exact", x), 1e-5, "schlick", shows=1000))
     x = list(np.linspace(50.0, 89.9, count))
-    metal = lambda v, m: probes.lobe("conductor_bsdf", m, ior=ALUMINIUM[0], extinction=ALUMINIUM[1], roughness=(0.0, 0.0))
+    metal = lambda v: probes.lobe("conductor_bsdf", ior=ALUMINIUM[0], extinction=ALUMINIUM[1], roughness=(0.0, 0.0))
+    of_metal = lambda v, cosine: [conductor(cosine, n, k) for n, k in zip(*ALUMINIUM)]
     found.append(Sweep(
         "Fresnel, aluminium near 82 degrees", "Fresnel",
         "The reflectance of metals dips before it rises; Schlick's curve does not, f82 meets the dip at one angle.",
-        "degrees", x, "reflectance", _by_model(metal, probes.at_degrees, x),
+        "degrees", x, "reflectance", _by_model(metal, of_metal, probes.at_degrees, x),
         [conductor(np.cos(np.radians(v)), ALUMINIUM[0][0], ALUMINIUM[1][0]) for v in x], always("exact", x), 1e-5,
         "schlick", shows=1000))
     x = list(np.linspace(30.0, 60.0, count))
@@ -80,7 +97,7 @@ def sweeps(count):
         "Fresnel, total internal reflection", "Fresnel",
         "From inside, Schlick's curve over the incident cosine misses that all is reflected beyond the critical angle.",
         "degrees inside", x, "reflectance",
-        {"exact": [1.0 - probes.albedo(_glass(1.5, {}, "T"), inside(v)) for v in x],
+        {"exact": [1.0 - probes.albedo(_glass(1.5, "T"), inside(v)) for v in x],
          "schlick, incident cosine": [0.04 + 0.96 * (1.0 - np.cos(np.radians(v))) ** 5 for v in x]},
         [dielectric(np.cos(np.radians(v)), 1.0 / 1.5) for v in x], always("exact", x), 1e-4, "schlick, incident cosine",
         switch=float(np.degrees(np.arcsin(1.0 / 1.5))), shows=1000))
@@ -89,7 +106,7 @@ def sweeps(count):
         "Fresnel, ior below 1", "Fresnel",
         "Where the far side is thinner, total reflection begins; Schlick's curve knows none.",
         "ior", x, "reflectance at cosine 0.5",
-        {"exact": [probes.albedo(_glass(v, {}), probes.towards(0.5)) for v in x],
+        {"exact": [probes.albedo(_glass(v), probes.towards(0.5)) for v in x],
          "schlick, incident cosine": [((v - 1) / (v + 1)) ** 2 * (1 - 0.5 ** 5) + 0.5 ** 5 for v in x]},
         [dielectric(0.5, v) for v in x], always("exact", x), 1e-4, "schlick, incident cosine",
         switch=float(np.sqrt(0.75)), shows=1000))

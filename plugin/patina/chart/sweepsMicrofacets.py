@@ -102,11 +102,35 @@ def _grazing(count):
                  "by slopes", log_x=True)
 
 
+def all_facets(alpha, wo, count):
+    """:returns: weights of samples of a white metal that draw from all facets by their density (Walter et al. 2007), 0 where
+    one is lost; of the points that probes.samples() takes"""
+    u, v = probes.points(count).T[:2]
+    r, phi = alpha * np.sqrt(v / (1.0 - v)), 2.0 * np.pi * u
+    m = np.stack([r * np.cos(phi), r * np.sin(phi), np.ones(count)], 1)
+    m /= np.linalg.norm(m, axis=1, keepdims=True)
+    c = m @ wo[0].astype(float)
+    z = 2.0 * c * m[:, 2] - wo[0, 2]  # of the light
+    def length(z):
+        return np.sqrt(alpha ** 2 + (1.0 - alpha ** 2) * z * z)
+    lit = (c > 0.0) & (z > 0.0)
+    shadowed = 2.0 * wo[0, 2] * np.where(lit, z, 1.0) / (wo[0, 2] * length(z) + np.where(lit, z, 1.0) * length(wo[0, 2]))
+    return np.where(lit, shadowed * c / (wo[0, 2] * m[:, 2]), 0.0)
+
+
+def _weights(alpha, method, wo, count):
+    if method == "fullNdf":
+        return all_facets(alpha, wo, count)
+    return probes.samples(white_metal(alpha, {**SINGLE, "sampling": method}), wo, count)["weight"][:, 0].astype(np.float64)
+
+
+SAMPLERS = ("vndf", "boundedVndf", "fullNdf")
+
+
 def _samplers(count):
     x = list(np.linspace(0.05, 1.0, count))
     wo = probes.towards(0.05)
-    names = ("vndf", "boundedVndf", "fullNdf")
-    curves = {m: [probes.noise(white_metal(a, {**SINGLE, "sampling": m}), wo, 2048) for a in x] for m in names}
+    curves = {m: [float(_weights(a, m, wo, 2048).std()) for a in x] for m in SAMPLERS}
     return Sweep("noise of samplers at grazing views", "facets",
                  "Drawing all facets by their density leaves a weight without bound; seen facets leave at most 1.", "alpha", x,
                  "deviation of a sample's weight, cosine 0.05", curves, [0.0] * len(x), always("boundedVndf", x), 0.5,
@@ -116,9 +140,7 @@ def _samplers(count):
 def _lost(count):
     x = list(np.linspace(0.05, 1.0, count))
     wo = probes.towards(0.05)
-    def lost(a, m):
-        return float((probes.samples(white_metal(a, {**SINGLE, "sampling": m}), wo, 2048)["event"] == 0).mean())
-    curves = {m: [lost(a, m) for a in x] for m in ("vndf", "boundedVndf", "fullNdf")}
+    curves = {m: [float((_weights(a, m, wo, 2048) == 0.0).mean()) for a in x] for m in SAMPLERS}
     return Sweep("samples lost below the horizon", "facets",
                  "Facets that are seen, but reflect downwards, are drawn for nothing; bounded caps leave most of them out.",
                  "alpha", x, "share of samples, cosine 0.05", curves, [0.0] * len(x), always("boundedVndf", x), 0.25, "fullNdf",

@@ -36,14 +36,11 @@ def sweeps(count):
     """Tolerance 1 %: errors of albedos stay below it, wherever what is cheapest is taken."""
     wo = probes.towards(0.4)
     return [
-        _sweep("planned Fresnel over ior", "Schlick's curve is taken near ior 1.5 alone, if at all.", "ior",
-               _grid(1.05, 3.0, count), "fresnel", ("exact", "schlick", "f82"), "exact", "schlick",
-               lambda v: ("dielectric_bsdf", {"ior": float(v), "roughness": (0.3, 0.3)}), wo),
         _sweep("planned compensation over alpha", "Without compensation what is lost grows with alpha.", "alpha",
                _grid(0.02, 0.9, count), "energyCompensation", ("turquin", "kullaConty", "none"), "turquin", "none",
                lambda v: ("conductor_bsdf", {"roughness": (float(v),) * 2}), wo),
-        _sweep("planned albedo over alpha", "A mirror's albedo does while the lobe is narrow.", "alpha",
+        _sweep("planned albedo over alpha", "Karis's curve is too dark while the lobe is narrow.", "alpha",
                _grid(0.02, 0.9, count),
-               "directionalAlbedo", ("table", "fit", "karis", "mirror", "quadrature"), "quadrature", "mirror",
+               "directionalAlbedo", ("table", "fit", "karis", "quadrature"), "quadrature", "karis",
                lambda v: ("dielectric_bsdf", {"ior": 1.5, "roughness": (float(v),) * 2}), probes.towards(0.15)),
     ]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes what Houdini reads beside the plugin, from the table of settings: `./patina python -m patina.cli.houdiniFiles`.
+"""Writes what Houdini reads beside the plugin, from the table of settings: `python -m patina.cli.houdiniFiles FOLDER`, as the
+build of the plugin does.
 
 UsdRenderers.json names the renderer in Solaris' menus; in soho/parameters RENDERER_Viewport.ds holds the settings of the
 viewport and RENDERER_Global.ds those of the node Render Settings (HDK, "USD Hydra: Customizing for Houdini"). All are found on
@@ -7,10 +8,10 @@ HOUDINI_PATH.
 """
 import json
 import os
+import sys
 
-from patina.cli import hostSettings, rows
+from patina.cli import hostSettings
 
-FOLDER = os.path.join(rows.ROOT, "plugin", "houdini")
 _RENDERERS = {"HdPatinaRendererPlugin": ("Patina", 50), "HdPatinaRasterRendererPlugin": ("Patina GL", 49)}
 _STATISTICS = {"percentDone": "percentDone", "totalClockTime": "totalClockTime",
                "renderProgressAnnotation": "renderProgressAnnotation"}
@@ -91,7 +92,7 @@ def _global():
 
 
 def texts():
-    """:returns: dict from a file's name below FOLDER to its text"""
+    """:returns: dict from a file's name to its text"""
     found = {"UsdRenderers.json": _renderers()}
     for name, (label, _) in _RENDERERS.items():
         viewport = [line for setting in _settings() for line in _parameter(setting, setting["key"])]
@@ -100,13 +101,13 @@ def texts():
     return found
 
 
-def main():
+def main(folder):
     for name, text in texts().items():
-        path = os.path.join(FOLDER, name)
+        path = os.path.join(folder, name)
         os.makedirs(os.path.dirname(path), exist_ok=True)
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1])

@@ -5,21 +5,19 @@
 const int ALBEDO_TABLE = 0;      // albedoTable.glsl and what reads it
 const int ALBEDO_FIT = 1;        // albedoFit.glsl: three facets
 const int ALBEDO_KARIS = 2;      // methods/albedoKaris.glsl
-const int ALBEDO_MIRROR = 3;     // the reflectance at the view's own cosine, as if smooth: layers
-                                 // see that, while the lobe keeps the tables' energy factors
-const int ALBEDO_SAMPLES_16 = 4; // methods/albedoSampled.glsl
-const int ALBEDO_SAMPLES_64 = 5; // the same
-const int ALBEDO_QUADRATURE = 6; // the same: truth
+const int ALBEDO_SAMPLES_16 = 3; // methods/albedoSampled.glsl
+const int ALBEDO_QUADRATURE = 4; // the same: truth
+
+const int ALBEDO_STEEP_FACETS = 64; // of metals whose curve no table follows (conductorSteepIor)
 
 // The abilities of a method at an interface; the tables do the rest. eta: as in
 // fresnelDielectric, 1 for conductors. The fit knows isotropic GGX from the thinner side, and
-// Karis's curve the thinner side. A mirror's albedo is set where it is asked for.
+// Karis's curve the thinner side.
 PATINA_FN int albedoMethod(int asked, vec2 alpha, int ndf, float eta) {
     int method = PATINA_ALBEDO_METHOD(asked);
     bool thinner = eta >= 1.0f;
     bool plain = alpha.x == alpha.y && ndf == NDF_GGX && thinner;
-    bool can = (method != ALBEDO_FIT || plain) && (method != ALBEDO_KARIS || thinner) &&
-               method != ALBEDO_MIRROR;
+    bool can = (method != ALBEDO_FIT || plain) && (method != ALBEDO_KARIS || thinner);
     return select(method, ALBEDO_TABLE, can);
 }
 
@@ -34,7 +32,6 @@ struct AlbedoMicrofacets {
     vec3 wo;
     vec2 alpha;
     int ndf;
-    int method;
     int count;
 };
 
@@ -44,9 +41,7 @@ PATINA_FN AlbedoMicrofacets albedoMicrofacets(vec3 wo, vec2 alpha, int ndf, int 
     a.wo = vec3(wo.x, wo.y, min(abs(wo.z), 1.0f));
     a.alpha = alpha;
     a.ndf = ndf;
-    a.method = method;
     a.count = select(16, 3, method == ALBEDO_SAMPLES_16);
-    a.count = select(64, a.count, method == ALBEDO_SAMPLES_64);
     a.count = select(ALBEDO_QUADRATURE_NORMALS, a.count, method == ALBEDO_QUADRATURE);
     a.rule.c = vec3(0.0f);
     a.rule.w = vec3(0.0f);

@@ -3,7 +3,6 @@
 
 const int SAMPLING_VNDF = 0;         // what wo sees (microfacetSampleVisible)
 const int SAMPLING_BOUNDED_VNDF = 1; // of those, what can reflect upwards
-const int SAMPLING_FULL_NDF = 2;     // all, by their density
 
 // Bounded visible normals of GGX (Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX
 // Reflections"): the cap that facets are drawn from ends lower by this factor.
@@ -23,34 +22,21 @@ PATINA_FN vec3 microfacetSampleBounded(vec3 wo, vec2 alpha, vec2 u) {
     return normalize(vec3(alpha.x * h.x, alpha.y * h.y, max(h.z, NORMAL_Z_MIN)));
 }
 
-PATINA_FN vec3 microfacetSampleAll(vec2 alpha, vec2 u, int ndf) {
-    float left = max(1.0f - u.y, TINY);
-    float ggx = sqrt(u.y / left);
-    float beckmann = sqrt(-log2(left) * 0.693147181f);
-    float r = select(beckmann, ggx, ndf == NDF_BECKMANN);
-    float phi = TWO_PI * u.x;
-    return normalize(vec3(alpha.x * r * cos(phi), alpha.y * r * sin(phi), 1.0f));
-}
-
 // The abilities of a method: bounds are those of reflection on GGX.
 PATINA_FN int microfacetSampling(int sampling, int ndf, int mode) {
     bool can = sampling != SAMPLING_BOUNDED_VNDF || (ndf == NDF_GGX && mode == SCATTER_R);
     return select(sampling, SAMPLING_VNDF, can);
 }
 
-// Draws a facet for wo above the surface. Facets that wo cannot see come out too, of
-// SAMPLING_FULL_NDF.
+// Draws a facet for wo above the surface.
 PATINA_FN vec3 microfacetSample(vec3 wo, vec2 alpha, vec2 u, int ndf, int sampling) {
     if (sampling == SAMPLING_BOUNDED_VNDF) return microfacetSampleBounded(wo, alpha, u);
-    if (sampling == SAMPLING_FULL_NDF) return microfacetSampleAll(alpha, u, ndf);
     return microfacetSampleVisible(wo, alpha, u, ndf);
 }
 
-// Density over that of the visible normals. mz: z of the facet, c: wo.m.
-PATINA_FN float microfacetDensity(vec3 wo, vec2 alpha, float mz, float c, int ndf, int sampling) {
+// Density over that of the visible normals.
+PATINA_FN float microfacetDensity(vec3 wo, vec2 alpha, int ndf, int sampling) {
     if (sampling == SAMPLING_VNDF) return 1.0f;
     float length = microfacetLength(wo, alpha, ndf);
-    float visible = wo.z + length;
-    if (sampling == SAMPLING_FULL_NDF) return 0.5f * mz * visible / max(c, TINY);
-    return visible / max(microfacetBound(wo, alpha) * wo.z + length, TINY);
+    return (wo.z + length) / max(microfacetBound(wo, alpha) * wo.z + length, TINY);
 }

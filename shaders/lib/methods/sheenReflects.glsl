@@ -3,8 +3,7 @@
 // it is bounded. The lobe is divided by it, and layers take it from their base.
 
 const int SHEEN_TABLED = 0;     // sheenAlbedo.glsl
-const int SHEEN_FITTED = 1;     // sheenFit.glsl
-const int SHEEN_QUADRATURE = 2; // midpoints: truth, within 2e-4
+const int SHEEN_QUADRATURE = 1; // midpoints: truth, within 2e-4
 
 const int SHEEN_HEIGHTS = 64;  // evenly spaced in the root of the cosine
 const int SHEEN_AZIMUTHS = 32; // over half of the circle
@@ -26,7 +25,6 @@ PATINA_FN_RARE float sheenQuadrature(float mu, float roughness) {
 
 // mu in [0, 1], roughness in [SHEEN_ROUGHNESS_MIN, 1].
 PATINA_FN float sheenReflects(float mu, float roughness, int method) {
-    if (method == SHEEN_FITTED) return sheenAlbedoFit(mu, roughness);
     if (method == SHEEN_QUADRATURE) return sheenQuadrature(mu, roughness);
     return sheenAlbedoTable(mu, roughness);
 }

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shaders/shaders.h"
+
 // The directional albedo of the Conty-Kulla sheen lobe before it is bounded, as a polynomial in the
 // root of the cosine and the logarithm of the roughness.
 // Written by shaders/bake/sheenFit.py. Over 40 x 40 cell centres: RMSE 6.3e-04, largest
-// error 3.4e-03.
+// error 3.4e-03. Only measured: the renderer has the table.
 
 // mu in [0, 1], roughness in [SHEEN_ROUGHNESS_MIN, 1].
-PATINA_FN float sheenAlbedoFit(float mu, float roughness) {
+inline float sheenAlbedoFit(float mu, float roughness) {
+    using namespace patina::sh;
     float x = sqrt(mu);
     float y = log2(roughness);
     float c0 = (((0.00052008755f * y + 0.0090404944f) * y + 0.065809131f) * y - 0.20965652f) * y -

@@ -62,7 +62,12 @@ struct Marked {
 };
 
 enum class SubdivisionScheme { None, CatmullClark, Loop, Bilinear };
-enum class GeometryKind { Mesh, Curves, Points, Implicit, Volume };
+enum class GeometryKind { Mesh, Curves, Points, Implicit, Volume, Splats };
+
+/// Whether prims of a kind have surfaces that rays meet. The others fill the space.
+inline bool isSurface(GeometryKind kind) {
+    return kind != GeometryKind::Volume && kind != GeometryKind::Splats;
+}
 
 /// The members of every gprim.
 struct Geometry : Marked {

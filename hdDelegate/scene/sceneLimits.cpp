@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/scene/sceneLimits.h"
 
+#include "hdDelegate/scene/splats.h"
+
 #include <algorithm>
 
 namespace patina {
@@ -35,6 +37,7 @@ uint64_t trianglesOf(const Geometry& prim) {
     case GeometryKind::Mesh: return trianglesOf(static_cast<const Mesh&>(prim));
     case GeometryKind::Curves: return sizeOf(static_cast<const Curves&>(prim).points);
     case GeometryKind::Points: return sizeOf(static_cast<const Points&>(prim).points);
+    case GeometryKind::Splats: return static_cast<const Splats&>(prim).cloud->positions.size();
     default: return 0;
     }
 }

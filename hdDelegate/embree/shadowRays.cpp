@@ -36,8 +36,8 @@ vec3 Integrator::visibility(Path& path, const MediumStack& media, const vec3& or
     if (!light.castsShadows || !_settings.enableShadows) return left(media, distance);
     const auto volumes = [&] {
         return _scene.fillsSpace()
-                   ? _scene.transmittance(
-                         {origin, direction, 0.0f, distance, path.time, RayShadow}, path.sampler)
+                   ? _scene.transmittance({origin, direction, 0.0f, distance, path.time, RayShadow},
+                                          path.sampler)
                    : vec3(1.0f);
     };
     float far = distance * (1.0f - 1e-4f);

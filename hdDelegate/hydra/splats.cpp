@@ -14,9 +14,9 @@ constexpr char degreeName[] = "radiance:sphericalHarmonicsDegree";
 constexpr int noDegree = -1;
 
 /// Puts numbers into elements of as many components.
-template <class T>
-void takeNumbers(const VtValue& value, int components, HdPatinaRenderParam& param, const SdfPath& id,
-          const TfToken& name, std::vector<T>& out) {
+template <class T> void takeNumbers(const VtValue& value, int components,
+                                    HdPatinaRenderParam& param, const SdfPath& id,
+                                    const TfToken& name, std::vector<T>& out) {
     int found = 0;
     const std::vector<float> numbers = floatsOf(value, found);
     if (found != components) {

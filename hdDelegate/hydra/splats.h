@@ -2,7 +2,6 @@
 #pragma once
 
 #include "hdDelegate/hydra/gprim.h"
-#include "hdDelegate/scene/splats.h"
 
 namespace patina {
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/scene/sceneDump.h"
 
-#include "hdDelegate/scene/splats.h"
-
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

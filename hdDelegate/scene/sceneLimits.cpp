@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/scene/sceneLimits.h"
 
-#include "hdDelegate/scene/splats.h"
-
 #include <algorithm>
 
 namespace patina {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/scene/splats.h"
-
+#include "base/diagnostics.h"
 #include "hdDelegate/scene/instancerCheck.h"
 
 #include <algorithm>
@@ -11,9 +10,9 @@ namespace patina {
 namespace {
 
 constexpr int highestDegree = 3;
-constexpr int largestDegree = 64;    // beyond it a number is no degree
-constexpr float thinnest = 1e-4f;    // of a kernel's largest scale: rays are traced in floats
-constexpr float smallest = 1e-15f;   // scale, so that its inverse is within largestPlace
+constexpr int largestDegree = 64;  // beyond it a number is no degree
+constexpr float thinnest = 1e-4f;  // of a kernel's largest scale: rays are traced in floats
+constexpr float smallest = 1e-15f; // scale, so that its inverse is within largestPlace
 
 bool isPlain(const vec3& v) {
     return std::abs(v.x) <= largestPlace && std::abs(v.y) <= largestPlace &&
@@ -148,7 +147,8 @@ private:
 
 void setCloud(Splats& prim, SplatCloud cloud, Diagnostics& diagnostics) {
     Checker(cloud, prim.path, diagnostics).run();
-    if (!prim.material.empty()) diagnostics.warn(prim.path, "", messages::splatsMaterial(prim.material));
+    if (!prim.material.empty())
+        diagnostics.warn(prim.path, "", messages::splatsMaterial(prim.material));
     prim.cloud = std::make_shared<const SplatCloud>(std::move(cloud));
 }
 

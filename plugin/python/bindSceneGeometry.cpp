@@ -5,7 +5,6 @@
 #include "hdDelegate/geometry/curveForms.h"
 #include "hdDelegate/geometry/nurbs.h"
 #include "hdDelegate/geometry/tetSurface.h"
-#include "hdDelegate/scene/splats.h"
 #include "plugin/python/fields.h"
 
 namespace py = pybind11;

@@ -389,8 +389,8 @@ def test_broken_arrays_are_told_and_drawn_as_the_schema_says(tmp_path):
     prim.GetAttribute("radiance:sphericalHarmonicsDegree").Set(2)
     images, rendered = sharp_image(stage, tmp_path, 9)
     told = "\n".join(rendered.warnings())
-    for words in ("5 values where 4", "4 values where 36", "2 are outside of 0..1", "1 have no length", "3 particles have sizes",
-                  "1 particles have no size", "1 particles have a value that is not finite"):
+    for words in ("5 values where 4", "4 values where 36", "2 are outside of 0..1", "1 have no length",
+                  "3 particles have sizes", "1 particles have no size", "1 particles have a value that is not finite"):
         assert words in told, told
     assert told.count("/splats: ") == len(told.split("\n"))
     # The first is opaque and grey, as coefficients of the wrong number are left out.

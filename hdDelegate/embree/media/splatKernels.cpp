@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/media/splatKernels.h"
 
+#include "hdDelegate/geometry/mortonOrder.h"
 #include "hdDelegate/parallel.h"
 
 #include <algorithm>
@@ -69,9 +70,14 @@ SplatKernels::SplatKernels(RTCDevice device, std::shared_ptr<const SplatCloud> c
     }
     if (shown.empty()) return;
     _middle = 0.5 * (dvec3(lower) + dvec3(upper));
+    std::vector<vec3> centers;
+    for (const uint32_t i : shown)
+        centers.push_back(vec3(dvec3(_cloud->positions[i]) - _middle));
+    // Rays then find neighbours near each other in memory, too.
+    const std::vector<uint32_t> order = mortonOrder(centers);
     _kernels.resize(shown.size());
     parallelFor(size_t(0), shown.size(),
-                [&](size_t i) { _kernels[i] = kernelOf(*_cloud, _middle, shown[i]); });
+                [&](size_t i) { _kernels[i] = kernelOf(*_cloud, _middle, shown[order[i]]); });
 
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, unsigned(_kernels.size()));
@@ -108,8 +114,8 @@ void SplatKernels::boundsOf(const RTCBoundsFunctionArguments* args) {
     const Kernel& kernel = self._kernels[args->primID];
     const SplatCloud& cloud = *self._cloud;
     const vec3 scale = cloud.scales.empty() ? vec3(1.0f) : cloud.scales[kernel.particle];
-    const mat3 axes = cloud.orientations.empty() ? mat3(1.0f)
-                                                 : rotationOf(cloud.orientations[kernel.particle]);
+    const mat3 axes =
+        cloud.orientations.empty() ? mat3(1.0f) : rotationOf(cloud.orientations[kernel.particle]);
     // Wider by what rounding of a ray may take: the point that is densest has to be inside.
     const float radius = std::sqrt(kernel.reach) * (1.0f + 1e-4f);
     vec3 half;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hdDelegate/embree/compat.h"
-#include "hdDelegate/scene/splats.h"
+#include "hdDelegate/scene/geometry.h"
 
 #include <atomic>
 #include <cstdint>
@@ -37,7 +37,7 @@ struct SplatQuery {
 
     static constexpr int most = 16;
     static constexpr float slack = 1e-5f; ///< of distances, for rounding
-    SplatHit after; ///< hits up to this one are known
+    SplatHit after;                       ///< hits up to this one are known
     SplatHit hits[most];
     int count = 0; ///< of the nearest hits, in their order
 
@@ -52,7 +52,7 @@ struct SplatQuery {
 /// to its middle.
 class SplatKernels {
 public:
-    struct Kernel {
+    struct alignas(64) Kernel { ///< a line of the cache
         vec3 center;
         float opacity;
         mat3 toUnit; ///< into the space where the kernel is exp(-r²/2)

@@ -103,10 +103,9 @@ void SplatScene::place(const Prim& prim, const std::shared_ptr<const SplatKernel
     if (unusable) diagnostics.warn(splats.path, "transform", messages::splatsWithoutInverse);
 }
 
-void SplatScene::update(RTCDevice device, const std::vector<Prim>& prims,
-                        const PlacesOf& placesOf, float open, float close, const dvec3& origin,
-                        const RenderingSpace& space, const std::atomic<bool>& stop,
-                        Diagnostics& diagnostics) {
+void SplatScene::update(RTCDevice device, const std::vector<Prim>& prims, const PlacesOf& placesOf,
+                        float open, float close, const dvec3& origin, const RenderingSpace& space,
+                        const std::atomic<bool>& stop, Diagnostics& diagnostics) {
     auto known = std::move(_kernels), used = decltype(_kernels)();
     clear();
     for (const Prim& prim : prims) {
@@ -195,13 +194,21 @@ void SplatScene::trace(const Ray& ray, SplatQuery& query) const {
     const float near =
         std::max(ray.near, query.after.distance * (1.0f - SplatQuery::slack)); // -inf at first
     RTCRayHit rayHit;
-    rayHit.ray = {ray.origin.x,    ray.origin.y,    ray.origin.z, near,    ray.direction.x,
-                  ray.direction.y, ray.direction.z, ray.time,     ray.far, ray.rays,
-                  0,               0};
+    rayHit.ray = {ray.origin.x,
+                  ray.origin.y,
+                  ray.origin.z,
+                  near,
+                  ray.direction.x,
+                  ray.direction.y,
+                  ray.direction.z,
+                  ray.time,
+                  ray.far,
+                  ray.rays,
+                  0,
+                  0};
     rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    if (isTraceable(rayHit.ray, largestTraced))
-        embreeIntersect(_scene, &query.base, &rayHit);
+    if (isTraceable(rayHit.ray, largestTraced)) embreeIntersect(_scene, &query.base, &rayHit);
 }
 
 void SplatScene::gather(const Ray& ray, SplatQuery& query) const {

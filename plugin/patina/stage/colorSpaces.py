@@ -27,7 +27,8 @@ class ColorSpaces:
             name = attribute.GetColorSpace()
         else:
             type_ = attribute.GetTypeName()
-            if not is_color and str(type_.scalarType) not in _COLORS and not (reads_colors and type_ == Sdf.ValueTypeNames.Asset):
+            if not is_color and str(type_.scalarType) not in _COLORS and not (
+                    reads_colors and type_ == Sdf.ValueTypeNames.Asset):
                 return ""
         return defined.get(name, name)
 

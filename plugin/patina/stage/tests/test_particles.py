@@ -73,7 +73,8 @@ def test_messages_name_prim_and_input(read, attribute, message):
 def test_colour_spaces(read):
     space = 'uniform token colorSpace:name = "srgb_rec709_scene"'
     text = SPLATS % space
-    assert read(text.replace('"s" {', '"s" (prepend apiSchemas = ["ColorSpaceAPI"]) {')).prim("/s")["colorSpace"] == '"srgb_rec709_scene"'
+    text = text.replace('"s" {', '"s" (prepend apiSchemas = ["ColorSpaceAPI"]) {')
+    assert read(text).prim("/s")["colorSpace"] == '"srgb_rec709_scene"'
     own = "float3[] radiance:sphericalHarmonicsCoefficients = [] (colorSpace = \"lin_ap1_scene\")"
     assert read(SPLATS % own).prim("/s")["colorSpace"] == '"lin_ap1_scene"'
 

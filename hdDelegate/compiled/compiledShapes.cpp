@@ -66,7 +66,8 @@ PrimShape makeShape(const ShapeRequest& request, Diagnostics& diagnostics) {
         shape.points =
             buildPoints(static_cast<const Points&>(*request.prim), request.options, diagnostics);
         break;
-    case GeometryKind::Volume: break; // no surface, see CompiledVolumes
+    case GeometryKind::Volume:
+    case GeometryKind::Splats: break; // no surface
     }
     return shape;
 }

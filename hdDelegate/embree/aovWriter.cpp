@@ -63,10 +63,6 @@ private:
     vec3 _inCamera;
 };
 
-} // namespace
-
-namespace {
-
 /// For the AOVs of Cryptomatte.
 std::string matteOf(AovId id, const SurfacePoint& point) {
     const Hit& hit = *point.hit;
@@ -91,6 +87,27 @@ void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target, const 
         hit.primvarName = &aovs[i].primvar;
         if (aovValue(aovs[i].id, hit, out))
             target.film.addAov(int(i), target.x, target.y, out, target.distance);
+    }
+}
+
+void writeScreenAovs(const std::vector<AovSpec>& aovs, const AovTarget& target,
+                     const CameraRays& camera, const vec3& position, const vec3& origin,
+                     int primId) {
+    const vec3 inCamera = vec3(camera.worldToCamera() * vec4(position, 1.0f));
+    for (size_t i = 0; i < aovs.size(); ++i) {
+        float out[4] = {0, 0, 0, 0};
+        switch (aovs[i].id) {
+        case AovId::depth: out[0] = camera.depthOf(inCamera); break;
+        case AovId::cameraDepth: out[0] = glm::length(inCamera); break;
+        case AovId::deviceDepth: out[0] = camera.windowDepth(inCamera); break;
+        case AovId::position:
+            for (int c = 0; c < 3; ++c)
+                out[c] = position[c] + origin[c];
+            break;
+        case AovId::primId: out[0] = glm::intBitsToFloat(primId); break;
+        default: continue;
+        }
+        target.film.addAov(int(i), target.x, target.y, out, target.distance);
     }
 }
 

@@ -18,4 +18,10 @@ struct AovTarget {
 void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target, const CameraRays& camera,
                const SurfacePoint& point, const Bsdf& bsdf);
 
+/// Writes depths, place and prim where splats have taken half of the light. They have no surface to
+/// show more of.
+void writeScreenAovs(const std::vector<AovSpec>& aovs, const AovTarget& target,
+                     const CameraRays& camera, const vec3& position, const vec3& origin,
+                     int primId);
+
 } // namespace patina

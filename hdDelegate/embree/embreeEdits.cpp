@@ -37,8 +37,8 @@ std::optional<std::vector<EmbreeScene::Work>> EmbreeScene::touchedWork(View& vie
         const auto& prim = view.state.geometry.at(path);
         const bool draws = isDrawn(*prim, view.settings);
         const auto known = _surfaces.find(path);
-        // Volumes are no surfaces: what is not drawn now may have been one.
-        if (prim->kind == GeometryKind::Volume || (known == _surfaces.end() && !_volumes.empty()) ||
+        // What is not drawn now may have been a volume or splats.
+        if (!isSurface(prim->kind) || (known == _surfaces.end() && _fillsSpace) ||
             draws != (known != _surfaces.end()))
             return std::nullopt;
         if (!draws) continue;

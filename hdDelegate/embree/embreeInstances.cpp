@@ -144,6 +144,38 @@ std::vector<mat4> EmbreeScene::groupTransforms(const std::string& group) const {
     return result;
 }
 
+void EmbreeScene::updateVolumes(const View& view,
+                                const std::vector<std::shared_ptr<const Volume>>& prims) {
+    const auto mediumOf = [&](const std::shared_ptr<const Volume>& prim) {
+        if (view.state.materials.count(prim->material)) program(prim->material, prim->path, view);
+        return _compiled.volumes().medium(prim, view.state, view.settings);
+    };
+    _volumes.update(
+        prims, mediumOf, [&](const std::string& group) { return groupTransforms(group); },
+        _shutterOpen, _origin, _diagnostics);
+}
+
+void EmbreeScene::updateSplats(const View& view, const std::vector<SplatScene::Prim>& prims) {
+    const auto placesOf = [&](const std::string& group) {
+        std::vector<MovingPlace> places;
+        _parts.placements->forPlaces(
+            group, MovingPlace(),
+            [&](const Instancer& instancer, uint32_t i, int, MovingPlace& place) {
+                place.enter(resample(instancer.transforms[i], _shutterOpen, _shutterClose,
+                                     originOf(instancer.group)));
+                place.mask &= instancer.visibility.mask();
+                if (instancer.marks.empty()) return true;
+                place.mask &= instancer.marks[i].visibility.mask();
+                place.matte |= instancer.marks[i].catching.matte;
+                return true;
+            },
+            [&](const MovingPlace& place) { places.push_back(place); });
+        return places;
+    };
+    _splats.update(_device, prims, placesOf, _shutterOpen, _shutterClose, _origin,
+                   *view.state.renderingSpace, view.stop, _diagnostics);
+}
+
 std::vector<GroupPlace> EmbreeScene::groupPlaces(const std::string& group) const {
     std::vector<GroupPlace> result;
     _parts.placements->forPlaces(

@@ -81,6 +81,7 @@ EmbreeScene::~EmbreeScene() {
     _groups.clear();
     _surfaces.clear();
     _shapes.clear();
+    _splats.clear();
     rtcSetDeviceMemoryMonitorFunction(_device, nullptr, nullptr);
     rtcReleaseDevice(_device);
 }
@@ -114,6 +115,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
         _emitting.clear();
         _surfaces.clear();
         _shapes.clear();
+        _splats.clear();
         throw std::bad_alloc();
     }
     _ranksMedia = _instancesRank || _withPriority > 0;
@@ -213,6 +215,7 @@ void EmbreeScene::updateAll(View& view) {
     std::map<ShapeKey, int> uses;
     std::map<ShapeKey, const Implicit*> examples;
     std::vector<std::shared_ptr<const Volume>> volumes;
+    std::vector<SplatScene::Prim> splats;
     std::set<std::string> drawn;
     int rank = 0;
     for (const auto& item : state.geometry) {
@@ -221,6 +224,11 @@ void EmbreeScene::updateAll(View& view) {
         if (!isDrawn(*prim, view.settings)) continue;
         if (prim->kind == GeometryKind::Volume) {
             volumes.push_back(std::static_pointer_cast<const Volume>(prim));
+            continue;
+        }
+        if (prim->kind == GeometryKind::Splats) {
+            const int id = prim->id >= 0 ? prim->id : own;
+            splats.push_back({std::static_pointer_cast<const Splats>(prim), id});
             continue;
         }
         drawn.insert(item.first);
@@ -259,13 +267,9 @@ void EmbreeScene::updateAll(View& view) {
         for (const auto& instancer : _parts.placements->in(group))
             _instanceCount += instancer->transforms.size();
 
-    const auto mediumOf = [&](const std::shared_ptr<const Volume>& prim) {
-        if (state.materials.count(prim->material)) program(prim->material, prim->path, view);
-        return _compiled.volumes().medium(prim, state, view.settings);
-    };
-    _volumes.update(
-        volumes, mediumOf, [&](const std::string& group) { return groupTransforms(group); },
-        _shutterOpen, _origin, _diagnostics);
+    updateVolumes(view, volumes);
+    updateSplats(view, splats);
+    _fillsSpace = !_volumes.empty() || !_splats.empty();
     takeBounds();
     collectEmissive();
 }
@@ -275,9 +279,9 @@ void EmbreeScene::takeBounds() {
     rtcGetSceneBounds(_world->scene, &bounds);
     _boundsMin = vec3(bounds.lower_x, bounds.lower_y, bounds.lower_z);
     _boundsMax = vec3(bounds.upper_x, bounds.upper_y, bounds.upper_z);
-    if (_volumes.empty()) return;
-    _boundsMin = glm::min(_boundsMin, _volumes.boundsMin());
-    _boundsMax = glm::max(_boundsMax, _volumes.boundsMax());
+    if (!_fillsSpace) return;
+    _boundsMin = glm::min(glm::min(_boundsMin, _volumes.boundsMin()), _splats.boundsMin());
+    _boundsMax = glm::max(glm::max(_boundsMax, _volumes.boundsMax()), _splats.boundsMax());
 }
 
 void EmbreeScene::collectEmissive() {
@@ -319,7 +323,8 @@ std::map<const MaterialProgram*, std::string> EmbreeScene::materialNames() const
 }
 
 size_t EmbreeScene::bytes() const {
-    return size_t(std::max<int64_t>(0, _embreeBytes)) + _shapes.bytes() + _surfaceBytes;
+    return size_t(std::max<int64_t>(0, _embreeBytes)) + _shapes.bytes() + _surfaceBytes +
+           _splats.bytes();
 }
 
 } // namespace patina

@@ -4,6 +4,7 @@
 #include "hdDelegate/compiled/compiledScene.h"
 #include "hdDelegate/embree/embreeGroup.h"
 #include "hdDelegate/embree/surfaceSpace.h"
+#include "hdDelegate/embree/media/splatScene.h"
 #include "hdDelegate/embree/media/volumeScene.h"
 #include "hdDelegate/scene/camera.h"
 #include "hdDelegate/scene/scene.h"
@@ -75,6 +76,10 @@ public:
 
     bool allOpaque() const { return _translucent == 0; } ///< no material lets shadow rays through
     const VolumeScene& volumes() const { return _volumes; }
+    const SplatScene& splats() const { return _splats; }
+    bool fillsSpace() const { return _fillsSpace; } ///< there are volumes or splats
+    /// What volumes and splats let through; of volumes an estimate.
+    vec3 transmittance(const SplatScene::Ray& ray, Sampler& sampler) const;
     bool hasMedia() const { return _withMedia > 0; } ///< some material fills its object
     bool ranksMedia() const { return _ranksMedia; }  ///< some prim has a dielectric priority
     /// Those with a material that glows, in the order of their paths.
@@ -161,6 +166,8 @@ private:
     void describe(CachedSurface& cached, const View& view);
     void forget(const CachedSurface& cached); ///< what describe() has counted
     void takeBounds();
+    void updateVolumes(const View& view, const std::vector<std::shared_ptr<const Volume>>& prims);
+    void updateSplats(const View& view, const std::vector<SplatScene::Prim>& prims);
     /// Of the space that the members of a group are placed in.
     dvec3 originOf(const std::string& group) const { return group.empty() ? _origin : dvec3(0.0); }
     MaterialSlot makeSlot(const Surface& surface, const std::string& materialPath,
@@ -221,6 +228,8 @@ private:
     EmbreeGroup* _world = nullptr;
     std::vector<const Surface*> _emissive;
     VolumeScene _volumes;
+    SplatScene _splats;
+    bool _fillsSpace = false;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f;
     bool _withMoments = false;           ///< an AOV tells motion
     dvec3 _origin{0.0}, _builtFrom{0.0}; ///< of the last update; of what is cached

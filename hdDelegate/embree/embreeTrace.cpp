@@ -86,6 +86,14 @@ bool EmbreeScene::occluded(const vec3& origin, const vec3& direction, float near
     return ray.tfar < 0.0f;
 }
 
+vec3 EmbreeScene::transmittance(const SplatScene::Ray& ray, Sampler& sampler) const {
+    vec3 left(1.0f);
+    if (!_volumes.empty())
+        left = _volumes.transmittance(ray.origin, ray.direction, ray.far, ray.rays, sampler);
+    if (!_splats.empty() && left != vec3(0.0f)) left *= _splats.transmittance(ray);
+    return left;
+}
+
 unsigned EmbreeScene::occludedRays(const vec3& origin, const vec3* directions, int count,
                                    float time, unsigned mask) const {
     TraceContext context;

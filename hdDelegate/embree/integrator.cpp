@@ -153,7 +153,7 @@ Integrator::Step Integrator::find(Path& path, Hit& hit, TraceCounters& counters)
                                         path.rays, hit);
     const float distance = found ? hit.distance : path.far;
     const float end = _finiteLights ? addLightsAlong(path, distance) : distance;
-    if (!path.media.empty() || !_scene.volumes().empty()) {
+    if (!path.media.empty() || _scene.fillsSpace()) {
         const Step step = fly(path, end, counters);
         if (step != Step::Arrives) return step;
     }
@@ -218,7 +218,7 @@ void Integrator::show(Path& path, const SurfacePoint& point, const Bsdf& bsdf,
     }
     if (path.featured || !_guided || !bsdf.hasNonDelta()) return;
     path.featured = true;
-    path.featureAlbedo = path.throughput * bsdf.albedo();
+    path.featureAlbedo += path.throughput * bsdf.albedo(); // behind what splats show
     path.featureNormal = point.shading.normal;
 }
 

@@ -133,6 +133,9 @@ private:
                      TraceCounters& counters) const;
     /// Takes the path through the medium that it is in, up to `distance` or to where it scatters.
     Step fly(Path& path, float distance, TraceCounters& counters) const;
+    /// Adds what splats along the path's ray shine, up to `end`.
+    /// @returns what they let through up to `way`
+    float passSplats(Path& path, float end, float way) const;
     /// Transmittance along the path's ray up to a distance.
     vec3 transmittanceTo(Path& path, float distance) const;
     Step scatterInside(Path& path, const Medium& medium, float distance,

@@ -57,10 +57,11 @@ bool Integrator::catchLight(Path& path, const SurfacePoint& point, const Hit& hi
     show(path, point, bsdf, target);
     const Catching catching = catchingOf(hit);
     if (catching.matte) return false;
-    float left = 1.0f; // of the picture behind
+    float left = 1.0f - path.alpha; // of the picture behind, past splats
     if (catching.shadows && bsdf.hasNonDelta() && !_lights.set().empty()) {
-        path.alpha = shadowed(path, point, hit, bsdf, counters);
-        left -= path.alpha;
+        const float dark = left * shadowed(path, point, hit, bsdf, counters);
+        path.alpha += dark;
+        left -= dark;
     }
     if (!catching.reflections || path.depth >= _settings.maxDepth) return false;
     const vec4 u = path.sampler.next4();

@@ -114,7 +114,7 @@ Photon Integrator::photon(const CausticCasters& casters, uint32_t block, uint32_
         if (!_scene.intersect(path.origin, path.direction, path.near, path.far, path.time,
                               path.rays, hit))
             break;
-        if (!path.media.empty() || !_scene.volumes().empty())
+        if (!path.media.empty() || _scene.fillsSpace())
             if (fly(path, hit.distance, counters) != Step::Arrives) break;
         computeSurfacePoint(hit, path.origin, path.direction, 0.0f, point);
         const MaterialProgram& program = *point.slot->program;

@@ -39,9 +39,9 @@ vec3 Integrator::mediumLight(Path& path, const vec3& position, const sh::PhaseMi
 vec3 Integrator::transmittanceTo(Path& path, float distance) const {
     vec3 left(1.0f);
     if (!path.media.empty()) left = transmittance(path.media.extinction(), distance);
-    if (!_scene.volumes().empty())
-        left *= _scene.volumes().transmittance(path.origin, path.direction, distance, path.rays,
-                                               path.sampler);
+    if (_scene.fillsSpace())
+        left *= _scene.transmittance(
+            {path.origin, path.direction, path.near, distance, path.time, path.rays}, path.sampler);
     return left;
 }
 
@@ -78,14 +78,14 @@ Integrator::Step Integrator::fly(Path& path, float distance, TraceCounters& coun
                     _camera.depthAt(path.origin + path.direction * (collision.emittedFrom / sum)),
                     path.radiance, true);
         }
-        if (collision.absorbed) return Step::Ends;
     }
     // A volume that scatters before the medium does cuts the flight through the medium short.
     const bool inMedium = flight.scattered && !collision.scattered;
     const float way = collision.scattered ? collision.distance : flight.distance;
-    const vec3 weight =
+    vec3 weight =
         fills ? weighFreeFlight(extinction, scattering, path.throughput, way, inMedium).weight
               : vec3(1.0f);
+    if (!_scene.splats().empty()) weight *= passSplats(path, distance, way);
     if (!_scene.volumes().empty()) path.throughput = through;
     path.throughput *= weight;
     if (!(luminance(path.throughput) > 0.0f)) return Step::Ends;
@@ -135,7 +135,7 @@ Integrator::Step Integrator::scatterInside(Path& path, const Medium& medium, flo
     path.far = INFINITY;
     path.travelled = 0.0f;
     path.shown = true; // what lies behind is no longer seen straight
-    if (!path.featured) path.featureAlbedo = glm::min(path.throughput, vec3(1.0f));
+    if (!path.featured) path.featureAlbedo += glm::min(path.throughput, vec3(1.0f));
     path.featured = true;
     return Step::GoesOn;
 }

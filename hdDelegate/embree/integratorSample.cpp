@@ -82,6 +82,9 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     if (!_lightPaths.empty()) path.lightPaths = &lightPaths.emplace(_lightPaths);
     trace(path, target, counters);
     ++counters.paths;
+    if (path.screen >= 0)
+        writeScreenAovs(_aovs, target, _camera, path.screenPosition, vec3(_scene.origin()),
+                        path.screen);
     addFeatures(path, target);
     const vec3 color = path.radiance * _camera.camera().exposureScale;
     if (lightPaths)

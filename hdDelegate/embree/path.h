@@ -31,6 +31,8 @@ struct PathState {
     unsigned rays = RayCamera; ///< kind of the ray, of RayMask
     float caught = 0.0f; ///< alpha that a reflection catcher has where the ray meets something
     bool shown = false;  ///< AOVs have what they show of the first surface
+    int screen = -1;     ///< AOV primId of splats that hide it: half of the light is theirs
+    vec3 screenPosition{0.0f}; ///< where that is so
 
     // the last vertex that scattered
     bool specular = true; ///< no light sample could have found this ray

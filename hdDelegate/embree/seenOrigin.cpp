@@ -53,11 +53,13 @@ dvec3 originOfSeen(const EmbreeScene& scene, const Camera& camera, const RenderS
                 seen.push_back({hit.distance, ray.origin + ray.direction * hit.distance});
         }
     const vec3 eye = vec3(glm::inverse(rays.worldToCamera())[3]);
-    if (!scene.volumes().empty()) {
-        const vec3 nearest =
-            glm::clamp(eye, scene.volumes().boundsMin(), scene.volumes().boundsMax());
+    const auto see = [&](const auto& part) {
+        if (part.empty()) return;
+        const vec3 nearest = glm::clamp(eye, part.boundsMin(), part.boundsMax());
         seen.push_back({glm::length(nearest - eye), nearest});
-    }
+    };
+    see(scene.volumes());
+    see(scene.splats());
     if (seen.empty()) return originAtEye(scene, dvec3(eye) + scene.origin());
     // Near objects are seen largest; the horizon would pull the origin away from it.
     std::sort(seen.begin(), seen.end(),

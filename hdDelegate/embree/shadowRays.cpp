@@ -35,9 +35,10 @@ vec3 Integrator::visibility(Path& path, const MediumStack& media, const vec3& or
     };
     if (!light.castsShadows || !_settings.enableShadows) return left(media, distance);
     const auto volumes = [&] {
-        return _scene.volumes().empty() ? vec3(1.0f)
-                                        : _scene.volumes().transmittance(
-                                              origin, direction, distance, RayShadow, path.sampler);
+        return _scene.fillsSpace()
+                   ? _scene.transmittance({origin, direction, 0.0f, distance, path.time, RayShadow},
+                                          path.sampler)
+                   : vec3(1.0f);
     };
     float far = distance * (1.0f - 1e-4f);
     if (light.shadowDistance > 0.0f) far = std::min(far, light.shadowDistance);

@@ -125,8 +125,9 @@ std::string labelOf(const VtValue& value, HdPatinaRenderParam& param, const SdfP
     return text;
 }
 
-bool isLeftOut(const std::string& name) {
-    return TfStringStartsWith(name, "skel:") || TfStringStartsWith(name, sourcePrefix) ||
+bool isLeftOut(const std::string& name, GeometryKind kind) {
+    return (kind == GeometryKind::Splats && isSplatPrimvar(name)) ||
+           TfStringStartsWith(name, "skel:") || TfStringStartsWith(name, sourcePrefix) ||
            name == "pointWeights" || name == "points" || name == "velocities" ||
            name == "accelerations";
 }
@@ -144,6 +145,11 @@ bool isText(const VtValue& value) {
 }
 
 } // namespace
+
+bool isSplatPrimvar(const std::string& name) {
+    return name == "positions" || name == "orientations" || name == "scales" ||
+           name == "opacities" || TfStringStartsWith(name, "radiance:");
+}
 
 void warnOfType(HdPatinaRenderParam& param, const SdfPath& id, const std::string& primvar,
                 const VtValue& value) {
@@ -193,7 +199,7 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
                 update.pointsChanged = true;
             } else if (name == lightGroup) {
                 prim.lightGroup = labelOf(delegate.Get(id, name), param, id);
-            } else if (!isLeftOut(name.GetString())) {
+            } else if (!isLeftOut(name.GetString(), prim.kind)) {
                 VtIntArray indices;
                 const VtValue value = descriptor.indexed
                                           ? delegate.GetIndexedPrimvar(id, name, &indices)

@@ -17,6 +17,9 @@ struct PrimvarUpdate {
     Sampled<std::vector<vec3>> points;
 };
 
+/// Whether particles keep a primvar in arrays of their own, see Splats.
+bool isSplatPrimvar(const std::string& name);
+
 /// Warns of a primvar that is left out because its type holds no numbers; not of texts, which marks
 /// and names are, nor of values that are empty.
 void warnOfType(HdPatinaRenderParam& param, const SdfPath& id, const std::string& primvar,

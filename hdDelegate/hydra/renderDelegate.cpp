@@ -17,6 +17,7 @@
 #include "hdDelegate/hydra/renderSettingsPrim.h"
 #include "hdDelegate/hydra/renderStats.h"
 #include "hdDelegate/hydra/settingsTable.h"
+#include "hdDelegate/hydra/splats.h"
 #include "hdDelegate/hydra/volume.h"
 
 #include <pxr/base/tf/diagnostic.h>
@@ -72,7 +73,7 @@ HdPatinaRenderDelegate::~HdPatinaRenderDelegate() {
 const TfTokenVector& HdPatinaRenderDelegate::GetSupportedRprimTypes() const {
     static const TfTokenVector types = [] {
         TfTokenVector all = {HdPrimTypeTokens->mesh, HdPrimTypeTokens->basisCurves,
-                             HdPrimTypeTokens->points, HdPrimTypeTokens->volume};
+                             HdPrimTypeTokens->points, HdPrimTypeTokens->volume, splatsType()};
         all.insert(all.end(), implicitTypes().begin(), implicitTypes().end());
         return all;
     }();
@@ -190,6 +191,7 @@ HdRprim* HdPatinaRenderDelegate::CreateRprim(const TfToken& type, const SdfPath&
     if (type == HdPrimTypeTokens->basisCurves) return new HdPatinaBasisCurves(id);
     if (type == HdPrimTypeTokens->points) return new HdPatinaPoints(id);
     if (type == HdPrimTypeTokens->volume) return new HdPatinaVolume(id);
+    if (type == splatsType()) return new HdPatinaSplats(id);
     if (contains(implicitTypes(), type)) return new HdPatinaImplicit(type, id);
     TF_WARN("%s: prims of type %s cannot be drawn", id.GetText(), type.GetText());
     return nullptr;

@@ -34,7 +34,8 @@ PrimExtent::PrimExtent(const Geometry& prim) {
         if (const Points& p = static_cast<const Points&>(prim); !p.points.empty())
             around(p.points.first());
         break;
-    case GeometryKind::Volume: break;
+    case GeometryKind::Volume:
+    case GeometryKind::Splats: break;
     }
     if (prim.kind != GeometryKind::Curves && prim.kind != GeometryKind::Points) return;
     // A single point has no other extent than its width.

@@ -74,7 +74,8 @@ bool sameShape(const Geometry& a, const Geometry& b) {
     case GeometryKind::Mesh: return sameKind(as<Mesh>(a), as<Mesh>(b));
     case GeometryKind::Curves: return sameKind(as<Curves>(a), as<Curves>(b));
     case GeometryKind::Points: return same(as<Points>(a).points, as<Points>(b).points);
-    case GeometryKind::Volume: return false;
+    case GeometryKind::Volume:
+    case GeometryKind::Splats: return false;
     case GeometryKind::Implicit: return sameKind(as<Implicit>(a), as<Implicit>(b));
     }
     return false;

@@ -183,6 +183,21 @@ void writeMesh(Writer& w, const Mesh& m) {
     w.array("patch weights", m.patch->weights);
 }
 
+void writeSplats(Writer& w, const Splats& s) {
+    const SplatCloud& c = *s.cloud;
+    const auto floats = [&](const char* name, const auto& values, int components) {
+        if (!values.empty())
+            w.array(name, &values[0].x, size_t(components) * values.size(), components);
+    };
+    floats("positions", c.positions, 3);
+    floats("orientations", c.orientations, 4);
+    floats("scales", c.scales, 3);
+    w.array("opacities", c.opacities);
+    w.field("degree", c.degree, 0);
+    floats("harmonics", c.harmonics, 3);
+    w.field("colorSpace", s.colorSpace, std::string());
+}
+
 void writeImplicit(Writer& w, const Implicit& i) {
     const Implicit d;
     w.line("shape", shapeNames[int(i.shape)]);
@@ -196,7 +211,7 @@ void writeImplicit(Writer& w, const Implicit& i) {
 }
 
 void writeGeometry(Writer& w, const Geometry& g) {
-    static const char* const kinds[] = {"Mesh", "Curves", "Points", "Implicit", "Volume"};
+    static const char* const kinds[] = {"Mesh", "Curves", "Points", "Implicit", "Volume", "Splats"};
     w.prim(kinds[int(g.kind)], g.path);
     w.field("group", g.group, std::string());
     w.transform("transform", g.transform);
@@ -218,6 +233,7 @@ void writeGeometry(Writer& w, const Geometry& g) {
     if (const auto* volume = dynamic_cast<const Volume*>(&g))
         for (const VolumeField& f : volume->fields)
             w.line("field " + f.name, text(f.file) + " " + text(f.field));
+    if (const auto* splats = dynamic_cast<const Splats*>(&g)) writeSplats(w, *splats);
     for (const GeomSubset& s : g.subsets)
         w.array("subset " + s.path + " material " + text(s.material), s.faces);
     writePrimvars(w, g.primvars);

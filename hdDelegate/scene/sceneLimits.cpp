@@ -35,6 +35,7 @@ uint64_t trianglesOf(const Geometry& prim) {
     case GeometryKind::Mesh: return trianglesOf(static_cast<const Mesh&>(prim));
     case GeometryKind::Curves: return sizeOf(static_cast<const Curves&>(prim).points);
     case GeometryKind::Points: return sizeOf(static_cast<const Points&>(prim).points);
+    case GeometryKind::Splats: return static_cast<const Splats&>(prim).cloud->positions.size();
     default: return 0;
     }
 }

@@ -8,8 +8,8 @@
 
 namespace patina {
 
-/// A prim's count for Limit::triangles: triangles at its refine level, or points of curves and
-/// points. A subdivision surface counts at most what its tessellation may refine it to.
+/// A prim's count for Limit::triangles: triangles at its refine level, or points of curves,
+/// points and splats. A subdivision surface counts at most what its tessellation may refine it to.
 uint64_t trianglesOf(const Geometry& prim);
 template <class T> uint64_t trianglesOf(const T&) {
     return 0;

@@ -179,6 +179,24 @@ void setVolume(PythonEdit& edit, const std::string& path, const py::kwargs& valu
     edit.set(std::shared_ptr<const Geometry>(std::move(volume)));
 }
 
+void setSplats(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
+    auto splats = std::make_shared<Splats>();
+    splats->path = path;
+    SplatCloud cloud;
+    Fields fields("set_splats", path, values);
+    readCommon(fields, *splats, edit)
+        .read("positions", cloud.positions)
+        .read("orientations", cloud.orientations)
+        .read("scales", cloud.scales)
+        .read("opacities", cloud.opacities)
+        .read("degree", cloud.degree)
+        .read("harmonics", cloud.harmonics)
+        .read("color_space", splats->colorSpace)
+        .finish();
+    setCloud(*splats, std::move(cloud), edit.scene->diagnostics());
+    edit.set(std::shared_ptr<const Geometry>(std::move(splats)));
+}
+
 void setInstancer(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
     auto instancer = std::make_shared<Instancer>();
     instancer->path = path;
@@ -222,6 +240,9 @@ void bindSceneGeometry(py::class_<PythonEdit>& edit) {
              "Sphere, cube, cone, cylinder, capsule or plane.")
         .def("set_volume", &setVolume, py::arg("path"),
              "A UsdVolVolume; fields are given by their names, files and the grids in the files.")
+        .def("set_splats", &setSplats, py::arg("path"),
+             "A UsdVolParticleField3DGaussianSplat; orientations are quaternions, the real part "
+             "first.")
         .def("set_instancer", &setInstancer, py::arg("path"),
              "Copies of groups; keywords are Instancer's fields.");
 }

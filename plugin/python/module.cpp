@@ -76,6 +76,7 @@ an unknown keyword is a TypeError, a value of the wrong shape a ValueError
     set_curves(path, points=, curve_vertex_counts=, basis=, wrap=, ...)
     set_points(path, points=, ...)
     set_implicit(path, shape=, axis=, radius=, ...)
+    set_splats(path, positions=, orientations=, scales=, opacities=, degree=, harmonics=, ...)
     set_instancer(path, prototypes=, prototype_indices=, transforms=, ...)
     set_light(path, type=, transform=, ...)
     set_camera(path, transform=, ...)

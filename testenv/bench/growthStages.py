@@ -213,6 +213,26 @@ def textures(folder, count):
     return made.save()
 
 
+def splats(folder, count):
+    """Gaussian kernels with harmonics of degree 3, flat ones that lie on a cloth and overlap as those of captures do."""
+    made, random = begin(folder), np.random.default_rng(7)
+    at, width = places(count)
+    at += random.uniform(-0.5, 0.5, at.shape) * (width, 0, width)
+    at[:, 1] = 0.5 + 0.3 * np.sin(3.1 * at[:, 0]) * np.cos(2.3 * at[:, 2])
+    spec = made.prim("/splats", "ParticleField3DGaussianSplat")
+    kinds = Sdf.ValueTypeNames
+    turns = random.normal(0, (0.1, 0.3, 0.1), (count, 3))
+    harmonics = random.normal(0, 0.1, (count, 16, 3))
+    harmonics[:, 0] = random.uniform(-1.5, 1.5, (count, 3))
+    for name, kind, values in (("positions", kinds.Point3fArray, at), ("scales", kinds.Float3Array, np.tile(
+            (width, 0.1 * width, width), (count, 1))), ("radiance:sphericalHarmonicsCoefficients", kinds.Float3Array,
+                                                        harmonics.reshape(-1, 3))):
+        made.set(spec, name, kind, Vt.Vec3fArray.FromNumpy(values.astype(np.float32)))
+    made.set(spec, "orientations", kinds.QuatfArray, Vt.QuatfArray([Gf.Quatf(1, *map(float, turn)) for turn in turns]))
+    made.set(spec, "opacities", kinds.FloatArray, Vt.FloatArray.FromNumpy(random.uniform(0.2, 1, count).astype(np.float32)))
+    return made.save()
+
+
 # name -> (what makes a stage of a number of them, the numbers)
 AXES = {
     "triangles": (triangles, [10 ** k for k in range(4, 8)]),
@@ -223,4 +243,5 @@ AXES = {
     "prototypes": (prototypes, [10 ** k for k in range(6)]),
     "instances": (instances, [10 ** k for k in range(6)]),
     "textures": (textures, [1, 4, 16, 64]),
+    "splats": (splats, [10 ** k for k in range(3, 7)]),
 }

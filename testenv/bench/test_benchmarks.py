@@ -57,7 +57,7 @@ def test_exponents_are_slopes_of_logarithms(power):
 
 
 @pytest.mark.parametrize("name,drawn", [("triangles", 200), ("instanced", 1000), ("materials", 200), ("prims", 200),
-                                        ("prototypes", 200), ("instances", 2), ("lights", 0)])
+                                        ("prototypes", 200), ("instances", 2), ("lights", 0), ("splats", 0)])
 def test_stages_have_as_many_as_they_say(name, drawn, tmp_path):
     stage = inProcess.Stage(growthStages.AXES[name][0](str(tmp_path), 200 if name == "triangles" else 100), "-w", "8")
     image = stage.image(samples=1)

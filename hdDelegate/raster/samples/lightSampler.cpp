@@ -2,8 +2,8 @@
 #include "hdDelegate/raster/samples/lightSampler.h"
 
 #include "hdDelegate/film/sampler.h"
+#include "hdDelegate/geometry/mortonOrder.h"
 #include "hdDelegate/raster/samples/lightChoice.h"
-#include "hdDelegate/raster/scene/rasterCulling.h"
 
 #include <algorithm>
 #include <cmath>

@@ -36,7 +36,4 @@ struct RasterRun {
 void visibleRuns(const RasterFrustum& frustum, const std::vector<RasterBox>& boxes, int first,
                  int count, int gap, std::vector<RasterRun>& out);
 
-/// An order of points in which neighbours stay near each other (Morton 1966).
-std::vector<uint32_t> mortonOrder(const std::vector<vec3>& points);
-
 } // namespace patina

@@ -21,7 +21,7 @@ bool usable(const mat4& m) {
 } // namespace
 
 bool isDrawnInRaster(const Geometry& prim, const RenderSettings& settings) {
-    return prim.visibility.camera && isDrawn(prim, settings);
+    return prim.kind != GeometryKind::Splats && prim.visibility.camera && isDrawn(prim, settings);
 }
 
 std::optional<Message> notShownInRaster(const Marked& prim) {

@@ -4,6 +4,7 @@
 #include "hdDelegate/raster/scene/rasterScene.h"
 
 #include "hdDelegate/film/cryptomatteHash.h"
+#include "hdDelegate/geometry/mortonOrder.h"
 #include "hdDelegate/scene/lightUnits.h"
 
 #include <algorithm>

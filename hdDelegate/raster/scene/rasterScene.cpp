@@ -28,6 +28,8 @@ void RasterScene::prepareMaterials(const SceneState& state, RasterInstances& pla
         const Geometry& prim = *item.second;
         const auto problem = notShownInRaster(prim);
         if (problem && isDrawn(prim, _settings)) _diagnostics.warn(prim.path, "primvars", *problem);
+        if (prim.kind == GeometryKind::Splats && isDrawn(prim, _settings))
+            _diagnostics.warn(prim.path, "", messages::notInRaster);
         if (prim.kind == GeometryKind::Volume || !isDrawnInRaster(prim, _settings) ||
             places.places(prim.group).empty())
             continue;

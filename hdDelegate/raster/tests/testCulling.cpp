@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Culling leaves out what no view shows, and nothing else.
 
+#include "hdDelegate/geometry/mortonOrder.h"
 #include "hdDelegate/raster/scene/rasterCulling.h"
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -18,15 +18,17 @@ class ColorSpaces:
         self._edit = edit
         self._met = {}  # path -> (name that holds here or '', {name: what the stage defines it as})
 
-    def space_of(self, attribute, reads_colors=False):
+    def space_of(self, attribute, reads_colors=False, is_color=False):
         """:param reads_colors: whether an asset is an image of colours, which has the inherited space
+        :param is_color: whether it holds colours, whatever its type
         :returns: name for `_patina`, '' where none is said; a space that the stage defines itself is written out"""
         name, defined = self._prim(attribute.GetPrim())
         if attribute.HasColorSpace():
             name = attribute.GetColorSpace()
         else:
             type_ = attribute.GetTypeName()
-            if str(type_.scalarType) not in _COLORS and not (reads_colors and type_ == Sdf.ValueTypeNames.Asset):
+            if not is_color and str(type_.scalarType) not in _COLORS and not (
+                    reads_colors and type_ == Sdf.ValueTypeNames.Asset):
                 return ""
         return defined.get(name, name)
 

@@ -9,7 +9,7 @@ GPRIMS = {
     "Cone": "cone", "Cylinder": "cylinder", "Cylinder_1": "cylinder", "Capsule": "capsule",
     "Capsule_1": "capsule", "Plane": "plane",
     "Volume": "volume", "NurbsPatch": "nurbsPatch", "TetMesh": "tetMesh",
-    "NurbsCurves": "nurbsCurves", "HermiteCurves": "hermiteCurves",
+    "NurbsCurves": "nurbsCurves", "HermiteCurves": "hermiteCurves", "ParticleField3DGaussianSplat": "splats",
 }
 UNSUPPORTED = {"PortalLight", "PluginLight", "ParticleField"}
 OTHER = {"Camera": "camera", "PointInstancer": "instancer", "SkelRoot": "skelRoot"}

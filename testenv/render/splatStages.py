@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Stages of Gaussian splats for tests, and the closed form of what a ray sees of them.
+
+The closed form is written from UsdVol's schema and the papers, in double precision, and shares nothing with the renderer."""
+import numpy as np
+from pxr import Gf, Usd, UsdGeom, UsdLux, UsdShade, UsdVol, Vt
+from scipy.spatial.transform import Rotation
+from scipy.special import factorial, lpmv
+
+CUT = 1 / 1024  # hdDelegate/embree/media/splatKernels.h: kernels end where their alpha is that
+END = 1e-4  # and rays where so little is left
+DC = 0.5 * np.sqrt(1 / np.pi)  # of the harmonic of degree 0
+
+
+def basis(directions, degree):
+    """:param directions: N x 3 of length 1
+    :returns: N x (degree + 1)^2 real spherical harmonics, from -l to l in each band, with Condon and Shortley's sign"""
+    x, y, z = np.asarray(directions, float).T
+    phi = np.arctan2(y, x)
+    columns = []
+    for band in range(degree + 1):
+        for m in range(-band, band + 1):
+            k = abs(m)
+            norm = np.sqrt((2 * band + 1) / (4 * np.pi) * factorial(band - k) / factorial(band + k))
+            angle = np.sqrt(2) * np.cos(k * phi) if m > 0 else np.sqrt(2) * np.sin(k * phi) if m < 0 else 1.0
+            columns.append(norm * lpmv(k, band, z) * angle)
+    return np.stack(columns, 1)
+
+
+class Cloud:
+    """Kernels: rotations are scipy's, colours are those of harmonics of degree 0, unless coefficients are given."""
+
+    def __init__(self, positions, scales=1.0, opacities=1.0, colors=0.5, turns=None, coefficients=None):
+        self.positions = np.array(positions, float).reshape(-1, 3)
+        count = len(self.positions)
+        self.scales = np.broadcast_to(np.asarray(scales, float), (count, 3)).copy()
+        self.opacities = np.broadcast_to(np.asarray(opacities, float), (count,)).copy()
+        self.turns = turns if turns is not None else Rotation.identity(count)
+        if coefficients is None:
+            coefficients = (np.broadcast_to(np.asarray(colors, float), (count, 3)) - 0.5)[:, None] / DC
+        self.coefficients = np.array(coefficients, float)  # particles x harmonics x 3
+        self.degree = int(round(np.sqrt(self.coefficients.shape[1]))) - 1
+
+    def define(self, stage, path="/splats", half=False):
+        prim = UsdVol.ParticleField3DGaussianSplat.Define(stage, path).GetPrim()
+        x, y, z, w = self.turns.as_quat().T
+        kind, quaternion, letter = (Vt.Vec3hArray, Vt.QuathArray, "h") if half else (Vt.Vec3fArray, Vt.QuatfArray, "")
+        scalar = Vt.HalfArray if half else Vt.FloatArray
+        single = Gf.Quath if half else Gf.Quatf
+        numbers = np.float16 if half else np.float32
+        prim.GetAttribute("positions" + letter).Set(kind.FromNumpy(self.positions.astype(numbers)))
+        prim.GetAttribute("scales" + letter).Set(kind.FromNumpy(self.scales.astype(numbers)))
+        prim.GetAttribute("opacities" + letter).Set(scalar.FromNumpy(self.opacities.astype(numbers)))
+        prim.GetAttribute("orientations" + letter).Set(quaternion([single(*map(float, q)) for q in zip(w, x, y, z)]))
+        prim.GetAttribute("radiance:sphericalHarmonicsDegree").Set(self.degree)
+        prim.GetAttribute("radiance:sphericalHarmonicsCoefficients" + letter).Set(
+            kind.FromNumpy(self.coefficients.reshape(-1, 3).astype(numbers)))
+        return prim
+
+    def seen(self, origins, directions, matrix=np.eye(4), background=0.0, cut=CUT):
+        """:param origins, directions: N x 3
+        :param matrix: places the cloud, for column vectors
+        :returns: radiance (N x 3) and alpha (N) of rays, kernels composited in the order of their densest points"""
+        inverse = np.linalg.inv(matrix)
+        origins = np.asarray(origins, float) @ inverse[:3, :3].T + inverse[:3, 3]
+        directions = np.asarray(directions, float) @ inverse[:3, :3].T
+        toward = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+        colors = np.maximum(0.5 + np.einsum("nb,pbc->npc", basis(toward, self.degree), self.coefficients), 0)
+        unit = self.turns.as_matrix().transpose(0, 2, 1) / self.scales[:, :, None]
+        o = np.einsum("pij,npj->npi", unit, origins[:, None] - self.positions[None])
+        d = np.einsum("pij,nj->npi", unit, directions)
+        t = -(o * d).sum(2) / (d * d).sum(2)
+        away = ((o + d * t[:, :, None]) ** 2).sum(2)
+        alphas = self.opacities * np.exp(-0.5 * away)
+        alphas = np.where((alphas > cut) & (t > 0), alphas, 0)
+        order = np.argsort(t, 1)
+        alphas = np.take_along_axis(alphas, order, 1)
+        colors = np.take_along_axis(colors, order[:, :, None], 1)
+        left = np.cumprod(1 - alphas, 1)
+        shares = alphas * np.concatenate([np.ones((len(left), 1)), left[:, :-1]], 1)
+        light = (shares[:, :, None] * colors).sum(1) + left[:, -1:] * background
+        return light, 1 - left[:, -1]
+
+
+def random_cloud(count, seed, extent=1.0, size=0.15, degree=0):
+    """Any cloud of a ball's size, some kernels thin"""
+    random = np.random.default_rng(seed)
+    coefficients = random.normal(0, 0.3, (count, (degree + 1) ** 2, 3))
+    coefficients[:, 0] = random.uniform(-1, 1, (count, 3))
+    return Cloud(random.uniform(-extent, extent, (count, 3)), size * random.uniform(0.1, 1, (count, 3)),
+                 random.uniform(0.1, 1, count), turns=Rotation.random(count, random_state=seed), coefficients=coefficients)
+
+
+def new_stage(width=2.0, eye=(0, 0, 10), rotate=(0, 0, 0), meters=1.0, unit=1.0, near=1.0, far=100.0):
+    """A stage with an orthographic camera that looks along -z, and sees a square of this width.
+
+    :param unit: factor of all lengths"""
+    stage = Usd.Stage.CreateInMemory()
+    UsdGeom.SetStageMetersPerUnit(stage, meters)
+    camera = UsdGeom.Camera.Define(stage, "/camera")
+    camera.CreateProjectionAttr("orthographic")
+    for attribute in (camera.CreateHorizontalApertureAttr(), camera.CreateVerticalApertureAttr()):
+        attribute.Set(10 * width * unit)
+    camera.CreateClippingRangeAttr(Gf.Vec2f(near * unit, far * unit))
+    UsdGeom.XformCommonAPI(camera).SetTranslate(tuple(np.array(eye, float) * unit))
+    UsdGeom.XformCommonAPI(camera).SetRotate(tuple(map(float, rotate)))
+    return stage
+
+
+def place(prim, matrix):
+    """:param matrix: for column vectors, as numpy multiplies them"""
+    UsdGeom.Xformable(prim).MakeMatrixXform().Set(Gf.Matrix4d(*np.asarray(matrix, float).T.ravel().tolist()))
+
+
+def rays(pixels, width=2.0, height=10.0):
+    """:returns: origins, directions through the pixels' middles of new_stage()'s camera, row by row from the top left"""
+    x = (np.arange(pixels) + 0.5) / pixels * width - width / 2
+    grid = np.stack(np.meshgrid(x, -x), -1).reshape(-1, 2)
+    origins = np.concatenate([grid, np.full((len(grid), 1), height)], 1)
+    return origins, np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
+
+
+def floor(stage, path="/floor", half=5.0, z=0.0, shader="ND_oren_nayar_diffuse_bsdf", **inputs):
+    """A square that faces +z, with one lobe."""
+    mesh = UsdGeom.Mesh.Define(stage, path)
+    mesh.CreatePointsAttr([(-half, -half, z), (half, -half, z), (half, half, z), (-half, half, z)])
+    mesh.CreateFaceVertexCountsAttr([4])
+    mesh.CreateFaceVertexIndicesAttr([0, 1, 2, 3])
+    material = UsdShade.Material.Define(stage, path + "Paint")
+    surface = UsdShade.Shader.Define(stage, path + "Paint/surface")
+    surface.SetShaderId("ND_surface")
+    lobe = UsdShade.Shader.Define(stage, path + "Paint/lobe")
+    lobe.SetShaderId(shader)
+    for name, (type_, value) in inputs.items():
+        lobe.CreateInput(name, type_).Set(value)
+    surface.CreateInput("bsdf", lobe.CreateOutput("out", _TOKEN).GetTypeName()).ConnectToSource(lobe.ConnectableAPI(), "out")
+    material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "out")
+    UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
+    return mesh
+
+
+def sun(stage, path="/sun"):
+    """Light straight down, irradiance 1 on a floor."""
+    light = UsdLux.DistantLight.Define(stage, path)
+    light.CreateIntensityAttr(1.0)
+    light.CreateAngleAttr(0.0)
+    return light
+
+
+def dome(stage, path="/dome"):
+    light = UsdLux.DomeLight.Define(stage, path)
+    light.CreateIntensityAttr(1.0)
+    return light
+
+
+from pxr import Sdf  # noqa: E402
+
+_TOKEN = Sdf.ValueTypeNames.Token
+COLOR, FLOAT = Sdf.ValueTypeNames.Color3f, Sdf.ValueTypeNames.Float
+
+
+def sharp_image(stage, folder, pixels=32, samples=1, settings=(), aovs=("color", "alpha")):
+    """:returns: images by AOV, every sample at its pixel's middle"""
+    from inProcess import Stage
+
+    path = folder / "stage.usda"
+    stage.Export(str(path))
+    rendered = Stage(path, "--camera", "/camera", "--imageWidth", pixels, "--imageHeight", pixels, "--disableCameraLight",
+                     "--backend", "embree", *settings)
+    film = rendered.module.Film()
+    rendered.renderer.start(rendered.scene, rendered.camera,
+                            {**rendered.settings, "filterRadius": 0.0, "samples": samples, "aovs": list(aovs)}, film)
+    rendered.renderer.wait()
+    assert not rendered.renderer.progress()["failed"], rendered.renderer.progress()["error"]
+    return {aov: np.array(film.resolve(aov)) for aov in aovs}, rendered

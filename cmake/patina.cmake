@@ -3,18 +3,15 @@
 
 function(_patina_flags target)
     target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR})
-    target_compile_options(${target} PRIVATE -Wall -Wextra -fno-math-errno -fvisibility-inlines-hidden)
+    # Products and sums stay apart, so that every processor computes the same bits, and so does every spelling of a formula.
+    target_compile_options(${target} PRIVATE -Wall -Wextra -fno-math-errno -ffp-contract=off -fvisibility-inlines-hidden)
     if(PATINA_WERROR)
         target_compile_options(${target} PRIVATE -Werror)
     endif()
     if(PATINA_NATIVE)
         target_compile_options(${target} PRIVATE -march=native)
-    else()
-        # Products and sums stay apart, so that every level of the processor computes the same bits.
-        target_compile_options(${target} PRIVATE -ffp-contract=off)
-        if(PATINA_LEVEL)
-            target_compile_options(${target} PRIVATE -march=${PATINA_LEVEL})
-        endif()
+    elseif(PATINA_LEVEL)
+        target_compile_options(${target} PRIVATE -march=${PATINA_LEVEL})
     endif()
     if(PATINA_SANITIZE)
         target_compile_options(${target} PRIVATE -fsanitize=${PATINA_SANITIZE} -fno-omit-frame-pointer)

@@ -7,6 +7,7 @@
 #include "materialNetwork/graph/mergeSurfaceShaders.h"
 #include "materialNetwork/graph/simplify.h"
 #include "materialNetwork/ir/irBuilder.h"
+#include "materialNetwork/network/renderingColors.h"
 #include "materialNetwork/plan/dump.h"
 #include "materialNetwork/planner/planner.h"
 
@@ -58,8 +59,9 @@ MethodPlan planOf(const Plan& plan, const MaterialIr& ir, const MethodChoices& m
 
 std::shared_ptr<const MaterialProgram>
 compileMaterial(const Network& network, TextureSource& textures, Diagnostics& diagnostics,
-                const MethodChoices& methods, double tolerance) {
-    const Plan plan = planMaterial(network, diagnostics, methods);
+                const MethodChoices& methods, double tolerance, const RenderingSpace& space) {
+    const Plan plan = planMaterial(space.isRec709() ? network : inRenderingSpace(network, space),
+                                   diagnostics, methods);
     const MaterialIr ir = compileIr(plan, textures, diagnostics);
     if (tolerance < 0.0) return MaterialProgram::make(ir, MethodSet(methods), plan.planned);
     const MethodPlan planned = planOf(plan, ir, methods, tolerance);

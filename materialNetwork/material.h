@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "materialNetwork/color/renderingSpace.h"
 #include "materialNetwork/cpu/materialProgram.h"
 #include "base/diagnostics.h"
 #include "materialNetwork/plan/methods.h"
@@ -22,9 +23,11 @@ using MaterialOverrides = std::map<std::string, Value>;
 /// @param methods that are forced
 /// @param tolerance of the image, from which the other methods follow (Planning); negative:
 /// defaults
+/// @param space of the program's colours
 std::shared_ptr<const MaterialProgram>
 compileMaterial(const Network& network, TextureSource& textures, Diagnostics& diagnostics,
-                const MethodChoices& methods = {}, double tolerance = -1.0);
+                const MethodChoices& methods = {}, double tolerance = -1.0,
+                const RenderingSpace& space = RenderingSpace::rec709());
 
 /// How the methods of a material are chosen, and what they cost. With a negative tolerance: what
 /// the defaults cost.

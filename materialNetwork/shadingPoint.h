@@ -48,6 +48,8 @@ struct ShadingPoint {
     /// Of the light that is asked for, nm, where MaterialProgram::disperses(); 0: no one
     /// wavelength.
     float wavelength = 0.0f;
+    /// Ior of what the surface borders on: on the side that its own ior is not of.
+    float surroundingIor = 1.0f;
 
     glm::vec3 worldPosition() const { return position + worldOrigin; }
 };

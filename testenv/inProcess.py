@@ -67,7 +67,8 @@ class Stage:
         frame = float(a.frames) if a.frames else None if a.defaultTime else opened.GetStartTimeCode()
         options = reader.StageOptions(frame=frame, purposes=recordFlags.purposes_of(a), complexity=a.complexity,
                                       camera=a.camera, headlight=not a.disableCameraLight,
-                                      motion=any(name.startswith("motion") for name in recordFlags.aovs_of(a)))
+                                      motion=any(name.startswith("motion") for name in recordFlags.aovs_of(a)),
+                                      rendering_color_space=a.renderingColorSpace)
         self.module, self.scene, self.backend = _patina, _patina.Scene(), a.backend
         with self.scene.edit() as edit:
             self.camera = reader.read_stage(opened, edit, options).camera

@@ -17,10 +17,11 @@ std::shared_ptr<const MaterialPrim> CompiledMaterials::find(const std::string& p
 std::shared_ptr<const MaterialProgram>
 CompiledMaterials::program(const std::shared_ptr<const MaterialPrim>& prim,
                            const MethodChoices& methods, double tolerance) {
-    return _programs.get(prim.get(), {prim, methods, tolerance}, [&] {
+    const RenderingSpace& space = *_renderingSpace;
+    return _programs.get(prim.get(), {prim, methods, tolerance, &space}, [&] {
         return compileMaterial(prim && !prim->network.empty() ? prim->network
                                                               : makeDisplayColorNetwork(),
-                               _textures, _diagnostics, methods, tolerance);
+                               _textures, _diagnostics, methods, tolerance, space);
     });
 }
 

@@ -6,6 +6,8 @@
 #include "hdDelegate/scene/settings.h"
 #include "materialNetwork/material.h"
 
+#include <atomic>
+
 namespace patina {
 
 /// The programs of a scene's materials, each compiled once for all who ask for it. Thread safe.
@@ -27,10 +29,12 @@ public:
     /// @param methods, tolerance as compileMaterial() takes them
     std::shared_ptr<const MaterialProgram> program(const std::shared_ptr<const MaterialPrim>& prim,
                                                    const MethodChoices& methods, double tolerance);
+    /// The space of colours, for programs that are asked for from now on.
+    void setRenderingSpace(const RenderingSpace& space) { _renderingSpace = &space; }
 
     /// The program of what is no material of the scene.
     std::shared_ptr<const MaterialProgram> compile(const Network& network) const {
-        return compileMaterial(network, _textures, _diagnostics);
+        return compileMaterial(network, _textures, _diagnostics, {}, -1.0, *_renderingSpace);
     }
 
     size_t programsBuilt() const { return _programs.count(); } ///< since this was made
@@ -40,21 +44,25 @@ private:
         std::shared_ptr<const MaterialPrim> prim;
         const MethodChoices& methods;
         double tolerance;
+        const RenderingSpace* space;
     };
     struct Key {
         Reference<const MaterialPrim> prim;
         MethodChoices methods;
         double tolerance;
+        const RenderingSpace* space;
         Key(const Request& request)
-            : prim(request.prim), methods(request.methods), tolerance(request.tolerance) {}
+            : prim(request.prim), methods(request.methods), tolerance(request.tolerance),
+              space(request.space) {}
         bool isOf(const Request& request) const {
             return prim.is(request.prim) && methods == request.methods &&
-                   tolerance == request.tolerance;
+                   tolerance == request.tolerance && space == request.space;
         }
     };
 
     TextureSource& _textures;
     Diagnostics& _diagnostics;
+    std::atomic<const RenderingSpace*> _renderingSpace{&RenderingSpace::rec709()};
     MadeOnce<Request, Key, MaterialProgram> _programs;
 };
 

@@ -25,6 +25,9 @@ std::shared_ptr<CompiledScene> CompiledScene::of(const std::shared_ptr<Scene>& s
 
 CompiledState CompiledScene::compiled(const SceneState& state, const RenderSettings& settings) {
     const std::lock_guard<std::mutex> lock(_mutex);
+    _textures.setRenderingSpace(*state.renderingSpace);
+    _lightImages.setRenderingSpace(*state.renderingSpace);
+    _materials.setRenderingSpace(*state.renderingSpace);
     constexpr double most = 1e12; // MiB
     _textures.setMemory(uint64_t(std::min(settings.textureMemory, most) * (1 << 20)));
     const auto delta = _scene->changes(_compiledVersion, state.version);

@@ -32,7 +32,7 @@ std::shared_ptr<const DistortionMap> DistortionMap::read(const Camera& camera,
         diagnostics.warn(camera.path, input, messages::distortionMapUnusable(file, problem));
         return nullptr;
     }
-    const ImageRGB image = loadImageLinear(file, "raw", diagnostics, camera.path, input);
+    const ImageRGB image = loadImageLinear({file, "raw", camera.path, input}, diagnostics);
     if (!image.valid) return nullptr;
     std::vector<vec2> places;
     places.reserve(image.pixels.size());

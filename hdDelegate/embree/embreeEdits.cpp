@@ -21,6 +21,7 @@ bool sameRays(const Visibility& a, const Visibility& b) {
 void EmbreeScene::forget(const CachedSurface& cached) {
     _translucent -= cached.opaque ? 0 : 1;
     _withMedia -= cached.hasMedia ? 1 : 0;
+    _withPriority -= cached.hasPriority ? 1 : 0;
     _surfaceBytes -= cached.bytes;
     _trianglesStored -= trianglesOf(*cached.surface);
 }

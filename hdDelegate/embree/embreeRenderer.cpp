@@ -266,6 +266,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     RenderSettings sampled = _settings;
     sampled.tolerance = plan.noise(_settings.tolerance);
     sampled.maxDepth = plan.depth(_settings);
+    sampled.renderingColorSpace = state.renderingSpace->name; // hosts may not say it in settings
     sampled.rouletteDepth = plan.rouletteDepth(_settings);
     Integrator integrator(*_embree, *_lights, rays, sampled, aovs);
     const std::unique_ptr<CausticCasters> glass = casters(sampled, camera, aovs);

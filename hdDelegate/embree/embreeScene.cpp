@@ -66,6 +66,17 @@ EmbreeScene::EmbreeScene(CompiledScene& compiled)
     rtcSetDeviceMemoryMonitorFunction(_device, onEmbreeMemory, &_embreeBytes);
 }
 
+namespace {
+
+bool anyHasPriority(const Placements& placements) {
+    for (const auto& instancer : placements.drawn())
+        for (const Marked& marks : instancer->marks)
+            if (marks.dielectricPriority > 0) return true;
+    return false;
+}
+
+} // namespace
+
 EmbreeScene::~EmbreeScene() {
     _groups.clear();
     _surfaces.clear();
@@ -87,6 +98,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
     _complete = false;
     _outOfMemory = false;
     _origin = origin;
+    if (_parts.placements != before.placements) _instancesRank = anyHasPriority(*_parts.placements);
     const ScreenScale screen = screenScale(camera, settings, origin);
     View view{state, camera, settings, screen, stop, {}, nullptr};
     if (!edits || !updateTouched(view, *edits)) {
@@ -104,6 +116,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
         _shapes.clear();
         throw std::bad_alloc();
     }
+    _ranksMedia = _instancesRank || _withPriority > 0;
     _complete = !stop;
     _version = state.version;
     _camera = camera;
@@ -158,6 +171,7 @@ void EmbreeScene::describe(CachedSurface& cached, const View& view) {
             makeSlot(surface, subset.material.empty() ? prim.material : subset.material, view));
     cached.opaque = true;
     cached.hasMedia = false;
+    cached.hasPriority = prim.dielectricPriority > 0;
     for (const MaterialSlot& slot : surface.materials) {
         cached.opaque &= slot.opaque;
         cached.hasMedia |= slot.program->hasInterior();
@@ -170,6 +184,7 @@ void EmbreeScene::describe(CachedSurface& cached, const View& view) {
     cached.bytes = bytesOf(surface, cached.keepsRest);
     _translucent += cached.opaque ? 0 : 1;
     _withMedia += cached.hasMedia ? 1 : 0;
+    _withPriority += cached.hasPriority ? 1 : 0;
     _surfaceBytes += cached.bytes;
     _trianglesStored += trianglesOf(surface);
 }

@@ -76,6 +76,7 @@ public:
     bool allOpaque() const { return _translucent == 0; } ///< no material lets shadow rays through
     const VolumeScene& volumes() const { return _volumes; }
     bool hasMedia() const { return _withMedia > 0; } ///< some material fills its object
+    bool ranksMedia() const { return _ranksMedia; }  ///< some prim has a dielectric priority
     /// Those with a material that glows, in the order of their paths.
     const std::vector<const Surface*>& emissiveSurfaces() const { return _emissive; }
     /// Those with a material for which `wanted` holds, in the order of their paths.
@@ -123,7 +124,7 @@ private:
         bool keepsRest = false; ///< Surface::rest has all, so that a move is no new shape
         int rank = 0;           ///< of the path among all, drawn or not
         size_t member = 0;      ///< index in _surfacesOf
-        bool opaque = true, hasMedia = false, emits = false;
+        bool opaque = true, hasMedia = false, hasPriority = false, emits = false;
         size_t bytes = 0;
     };
     /// The target state of a prim.
@@ -223,7 +224,9 @@ private:
     float _shutterOpen = 0.0f, _shutterClose = 0.0f;
     bool _withMoments = false;           ///< an AOV tells motion
     dvec3 _origin{0.0}, _builtFrom{0.0}; ///< of the last update; of what is cached
-    size_t _translucent = 0, _withMedia = 0, _surfaceBytes = 0; ///< of all surfaces
+    size_t _translucent = 0, _withMedia = 0, _withPriority = 0,
+           _surfaceBytes = 0; ///< of all surfaces
+    bool _instancesRank = false, _ranksMedia = false;
     bool _lightsMayDiffer = true;
     mutable std::atomic<bool> _warnedOfRays{false};
     std::atomic<bool> _outOfMemory{false}; ///< of Embree, since the last update began

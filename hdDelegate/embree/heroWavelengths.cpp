@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/heroWavelengths.h"
 
-#include "hdDelegate/embree/wavelengths.h"
-
 #include <algorithm>
 
 namespace patina {
@@ -20,12 +18,12 @@ void share(vec3 (&parts)[count], const vec3& sum) {
 
 } // namespace
 
-vec3 HeroWavelengths::begin(float u) {
+vec3 HeroWavelengths::begin(float u, const Wavelengths& wavelengths) {
     vec3 sum(0.0f);
     for (int i = 0; i < count; ++i) {
         float turned = u + float(i) / float(count);
         if (turned >= 1.0f) turned -= 1.0f;
-        const Wavelengths::Drawn drawn = Wavelengths::get().draw(turned);
+        const Wavelengths::Drawn drawn = wavelengths.draw(turned);
         nm[i] = drawn.nm;
         shares[i] = drawn.weight / float(count);
         chances[i] = 1.0f;

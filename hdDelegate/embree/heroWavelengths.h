@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/embree/wavelengths.h"
 #include "materialNetwork/cpu/materialProgram.h"
 #include "hdDelegate/scene/types.h"
 
@@ -21,7 +22,7 @@ struct HeroWavelengths {
 
     /// Chooses all, evenly apart in what channels see. @param u in [0, 1)
     /// @returns the factor on the path's throughput
-    vec3 begin(float u);
+    vec3 begin(float u, const Wavelengths& wavelengths = Wavelengths::of());
 
     /// Goes on with the hero alone. @returns the factor on the path's throughput
     vec3 leaveOthers();
@@ -72,6 +73,7 @@ public:
     bool hasNonDelta() const {
         return _dispersed ? _dispersed->hasNonDelta() : _bsdf.hasNonDelta();
     }
+    float ior() const { return _bsdf.ior(); } ///< the hero's
 
 private:
     const Bsdf& _bsdf;

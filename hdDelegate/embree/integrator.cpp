@@ -90,12 +90,13 @@ vec3 Integrator::directLight(Path& path, const SurfacePoint& point, const Vertex
     const float away = glm::dot(light.direction, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
     const vec3 origin = point.departure(light.direction);
     const MaterialProgram& program = *point.slot->program;
-    const bool crosses = program.hasInterior() &&
+    const int priority = priorityOf(hit);
+    const bool crosses = (program.hasInterior() || (priority > 0 && program.encloses())) &&
                          (glm::dot(s.viewDirection, s.geometricNormal) < 0.0f) != (away < 0.0f);
     vec3 seen;
     if (crosses) {
         MediumStack across = path.media;
-        across.cross(program, s);
+        across.cross(program, s, priority, bsdf.ior() * s.surroundingIor);
         seen = visibility(path, across, origin, light.direction, light.distance, info, counters);
     } else {
         seen =
@@ -162,6 +163,21 @@ Integrator::Step Integrator::find(Path& path, Hit& hit, TraceCounters& counters)
     return Step::Ends;
 }
 
+/// Sees a surface among overlapping objects: what it borders on, or that a medium of a higher
+/// priority hides it. Then the media are those behind it.
+bool Integrator::isThere(MediumStack& media, SurfacePoint& point, const Hit& hit) const {
+    const MaterialProgram& program = *point.slot->program;
+    ShadingPoint& s = point.shading;
+    const int priority = program.encloses() ? dielectricPriorityOf(hit) : 0;
+    s.surroundingIor = media.iorAround(program, s, priority);
+    if (priority == 0 || !media.hides(program, s, priority)) return true;
+    s.surroundingIor = 1.0f;
+    Bsdf bsdf;
+    setUpLobes(point, bsdf);
+    media.cross(program, s, priority, bsdf.ior());
+    return false;
+}
+
 /// Adds what a surface gives off, and decides by the chance of its presence whether the path meets
 /// it or passes straight through.
 Integrator::Step Integrator::meet(Path& path, SurfacePoint& point, const Hit& hit,
@@ -187,7 +203,7 @@ Integrator::Step Integrator::meet(Path& path, SurfacePoint& point, const Hit& hi
     if (path.deep && path.fromCamera()) path.deep->pass(_camera.depthAt(s.position), path.radiance);
     path.throughput *= transmittance;
     if (++path.passThroughs > maxPassThroughs || path.throughput == vec3(0.0f)) return Step::Ends;
-    if (program.passThroughEnters() && !culled) path.media.cross(program, s);
+    if (program.passThroughEnters() && !culled) path.media.cross(program, s, priorityOf(hit));
     path.origin = s.position + path.direction * std::max(point.offset, 1e-7f);
     path.near = 0.0f;
     return Step::GoesOn;
@@ -245,7 +261,8 @@ bool Integrator::goOn(Path& path, const SurfacePoint& point, const Hit& hit, con
         if (!passBeneath(path, point, hit, bsdf.subsurface(next), counters)) return false;
     } else {
         if ((next.event & sh::LOBE_TRANSMIT) != 0)
-            path.media.cross(*point.slot->program, point.shading);
+            path.media.cross(*point.slot->program, point.shading, priorityOf(hit),
+                             bsdf.ior() * point.shading.surroundingIor);
         depart(path, point, hit, vertex, next);
     }
     ++path.depth;
@@ -265,6 +282,11 @@ bool Integrator::advance(Path& path, const AovTarget& target, TraceCounters& cou
     counters.clock.enter(&program);
     if (program.jitters()) point.shading.seed = path.sampler.randomBits();
 
+    if (_scene.ranksMedia() && !isThere(path.media, point, hit)) {
+        path.origin = point.shading.position + path.direction * std::max(point.offset, 1e-7f);
+        path.near = 0.0f;
+        return ++path.passThroughs <= maxPassThroughs;
+    }
     const bool caught = path.fromCamera() && catchingOf(hit).any();
     step = meet(path, point, hit, caught);
     if (step != Step::Arrives) return step == Step::GoesOn;

@@ -95,6 +95,10 @@ private:
     void trace(Path& path, const AovTarget& target, TraceCounters& counters) const;
     bool advance(Path& path, const AovTarget& target, TraceCounters& counters) const;
     Step find(Path& path, Hit& hit, TraceCounters& counters) const;
+    bool isThere(MediumStack& media, SurfacePoint& point, const Hit& hit) const;
+    int priorityOf(const Hit& hit) const {
+        return _scene.ranksMedia() ? dielectricPriorityOf(hit) : 0;
+    }
     Step meet(Path& path, SurfacePoint& point, const Hit& hit, bool caught) const;
     bool scatter(Path& path, const SurfacePoint& point, const Hit& hit, float width,
                  const AovTarget& target, TraceCounters& counters) const;
@@ -189,6 +193,7 @@ private:
     bool _guided = false;                             ///< there is one of them
     bool _finiteLights;                               ///< there are some that a ray may meet
     PixelFilter _filter;
+    const Wavelengths& _wavelengths;      ///< of the rendering space
     const PhotonPass* _photons = nullptr; ///< of the samples that are taken now
     MediumStack _cameraMedia;             ///< that the camera stands in
     bool _cullBack, _cullFront, _cullDoubleSided, _ambientOcclusion;

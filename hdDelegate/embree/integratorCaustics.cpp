@@ -63,7 +63,8 @@ bool Integrator::bendPhoton(Path& path, const SurfacePoint& point, bool first) c
             (f.diffuse + f.specular) * (leaves / (next.pdf * std::max(arrives, 1e-6f)));
     }
     if (!(luminance(path.throughput) > 0.0f)) return false;
-    if ((next.event & sh::LOBE_TRANSMIT) != 0) path.media.cross(program, s);
+    if ((next.event & sh::LOBE_TRANSMIT) != 0)
+        path.media.cross(program, s, priorityOf(*point.hit), bsdf.ior() * s.surroundingIor);
     path.origin = point.departure(next.wi);
     path.direction = next.wi;
     path.near = 0.0f;
@@ -118,13 +119,19 @@ Photon Integrator::photon(const CausticCasters& casters, uint32_t block, uint32_
         computeSurfacePoint(hit, path.origin, path.direction, 0.0f, point);
         const MaterialProgram& program = *point.slot->program;
         if (program.jitters()) point.shading.seed = sampler.randomBits();
+        if (_scene.ranksMedia() && !isThere(path.media, point, hit)) {
+            if (++passed > maxPassThroughs) break;
+            path.origin = point.shading.position + path.direction * std::max(point.offset, 1e-7f);
+            continue;
+        }
         vec3 transmittance(1.0f);
         const float opacity =
             point.slot->opaque ? 1.0f : program.opacity(point.shading, &transmittance);
         if (opacity < 1.0f && !(sampler.random() < opacity)) {
             path.throughput *= transmittance;
             if (++passed > maxPassThroughs || path.throughput == vec3(0.0f)) break;
-            if (program.passThroughEnters()) path.media.cross(program, point.shading);
+            if (program.passThroughEnters())
+                path.media.cross(program, point.shading, priorityOf(hit));
             path.origin = point.shading.position + path.direction * std::max(point.offset, 1e-7f);
             continue;
         }

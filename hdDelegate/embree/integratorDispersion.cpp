@@ -12,7 +12,7 @@ namespace patina {
 void Integrator::chooseWavelengths(Path& path, const MaterialProgram& program,
                                    ShadingPoint& s) const {
     HeroWavelengths& waves = path.waves;
-    if (!waves.chosen()) path.throughput *= waves.begin(path.sampler.next2().x);
+    if (!waves.chosen()) path.throughput *= waves.begin(path.sampler.next2().x, _wavelengths);
     if (!waves.alone && !program.hasHeroWavelengths()) path.throughput *= waves.leaveOthers();
     s.wavelength = waves.nm[0];
 }

@@ -19,6 +19,7 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
                        const std::vector<AovSpec>& aovs)
     : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _aovs(aovs),
       _lightPaths(aovs), _filter(settings.filterRadius),
+      _wavelengths(Wavelengths::of(*RenderingSpace::find(settings.renderingColorSpace))),
       _cullBack(settings.cullStyle.rfind("back", 0) == 0),
       _cullFront(settings.cullStyle.rfind("front", 0) == 0),
       _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos),

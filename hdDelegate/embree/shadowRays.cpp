@@ -42,7 +42,8 @@ vec3 Integrator::visibility(Path& path, const MediumStack& media, const vec3& or
     float far = distance * (1.0f - 1e-4f);
     if (light.shadowDistance > 0.0f) far = std::min(far, light.shadowDistance);
     ++counters.shadowRays;
-    const bool simple = _scene.allOpaque() && light.shadowCategory == SceneLights::everything &&
+    const bool simple = _scene.allOpaque() && !_scene.ranksMedia() &&
+                        light.shadowCategory == SceneLights::everything &&
                         light.shadowFalloff <= 0.0f;
     if (simple) {
         const bool blocked = _scene.occluded(origin, direction, 0.0f, far, path.time, RayShadow);
@@ -57,6 +58,15 @@ vec3 Integrator::visibility(Path& path, const MediumStack& media, const vec3& or
         if (!_scene.intersect(origin, direction, near, far, path.time, RayShadow, hit)) break;
         SurfacePoint point;
         computeSurfacePoint(hit, origin, direction, 0.0f, point);
+        if (_scene.ranksMedia()) {
+            const MediumStack before = here;
+            if (!isThere(here, point, hit)) {
+                through *= left(before, hit.distance - last);
+                last = hit.distance;
+                near = hit.distance + std::max(point.offset, hit.distance * 1e-6f);
+                continue;
+            }
+        }
         if (linked(light.shadowCategory, hit.surface, hit.instanceCategories)) {
             const MaterialProgram& program = *point.slot->program;
             vec3 transmittance(1.0f);
@@ -73,7 +83,7 @@ vec3 Integrator::visibility(Path& path, const MediumStack& media, const vec3& or
             if (program.passThroughEnters()) {
                 through *= left(here, hit.distance - last);
                 last = hit.distance;
-                here.cross(program, point.shading);
+                here.cross(program, point.shading, priorityOf(hit));
             }
         }
         near = hit.distance + std::max(point.offset, hit.distance * 1e-6f);

@@ -197,6 +197,13 @@ Catching catchingOf(const Hit& hit) {
     return catching;
 }
 
+int dielectricPriorityOf(const Hit& hit) {
+    int priority = hit.surface->prim->dielectricPriority;
+    for (int i = hit.stepCount - 1; i >= 0 && priority == 0; --i)
+        if (const Marked* marks = hit.steps[i].marks()) priority = marks->dielectricPriority;
+    return priority;
+}
+
 bool readPrimvar(const Hit& hit, const std::string& name, float out[4]) {
     const int attribute = hit.surface->findAttribute(name);
     return attribute >= 0 ? readAttribute(*hit.surface, attribute, hit.primitive, hit.u, hit.v, out)

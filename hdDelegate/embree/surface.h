@@ -96,6 +96,10 @@ struct Hit {
 /// How the camera sees what was hit: as the prim says, or an instance around it.
 Catching catchingOf(const Hit& hit);
 
+/// The dielectric priority of what was hit: the prim's, else that of the innermost instance that
+/// has one.
+int dielectricPriorityOf(const Hit& hit);
+
 /// Reads an attribute of a surface at a hit. @returns false when the attribute has no value there.
 bool readAttribute(const Surface& surface, int attribute, unsigned primitive, float u, float v,
                    float out[4]);

@@ -4,6 +4,9 @@
 #include "shaders/shaders.h"
 
 #include <algorithm>
+#include <map>
+#include <memory>
+#include <mutex>
 
 namespace patina {
 
@@ -17,15 +20,20 @@ float chance(const vec3& sensitivity) {
 
 } // namespace
 
-const Wavelengths& Wavelengths::get() {
-    static const Wavelengths wavelengths;
-    return wavelengths;
+const Wavelengths& Wavelengths::of(const RenderingSpace& space) {
+    static std::mutex mutex;
+    static std::map<const RenderingSpace*, std::unique_ptr<const Wavelengths>> known;
+    const std::lock_guard<std::mutex> lock(mutex);
+    std::unique_ptr<const Wavelengths>& entry = known[&space];
+    if (!entry) entry.reset(new Wavelengths(space));
+    return *entry;
 }
 
-Wavelengths::Wavelengths() {
+Wavelengths::Wavelengths(const RenderingSpace& space) {
     glm::dvec3 sum(0.0);
     for (int i = 0; i < bins; ++i) {
-        _sensitivity.push_back(glm::max(sh::filmChannels(float(firstNm + i) + 0.5f), vec3(0.0f)));
+        const vec3 seen = space.from709(sh::filmChannels(float(firstNm + i) + 0.5f));
+        _sensitivity.push_back(glm::max(seen, vec3(0.0f)));
         sum += glm::dvec3(_sensitivity.back());
     }
     double below = 0.0;

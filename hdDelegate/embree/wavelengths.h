@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hdDelegate/scene/types.h"
+#include "materialNetwork/color/colorSpaces.h"
 
 #include <vector>
 
@@ -9,13 +10,13 @@ namespace patina {
 
 /// Wavelengths of light, drawn in proportion to the mean of the three channels' sensitivities.
 ///
-/// The sensitivity of a channel is that of linear Rec.709 to one wavelength (sh::filmChannels),
-/// with negative parts set to 0 and the rest scaled to sum to 1. So light of one wavelength outside
-/// of the gamut shows at the gamut's edge, no path counts negative, and light whose wavelengths all
-/// stay together keeps its colour.
+/// The sensitivity of a channel is that of the rendering space to one wavelength
+/// (sh::filmChannels), with negative parts set to 0 and the rest scaled to sum to 1. So light of
+/// one wavelength outside of the gamut shows at the gamut's edge, no path counts negative, and
+/// light whose wavelengths all stay together keeps its colour.
 class Wavelengths {
 public:
-    static const Wavelengths& get();
+    static const Wavelengths& of(const RenderingSpace& space = RenderingSpace::rec709());
 
     struct Drawn {
         float nm;
@@ -28,7 +29,7 @@ public:
     vec3 sensitivity(float nm) const;
 
 private:
-    Wavelengths();
+    explicit Wavelengths(const RenderingSpace& space);
 
     std::vector<vec3> _sensitivity; ///< per bin
     std::vector<float> _below;      ///< chance of all bins before, and 1 at the end

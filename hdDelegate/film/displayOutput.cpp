@@ -101,7 +101,7 @@ void writeDisplayImage(const float* pixels, int channels, int sourceWidth,
     if (!linear) {
         const ColorSpaces& spaces =
             options.colorSpaces ? *options.colorSpaces : ColorSpaces::shared();
-        transform = spaces.display(options.display, options.view);
+        transform = spaces.display(options.display, options.view, *options.renderingSpace);
     }
     toDisplay(image, placement.width, placement.height, written, straight, transform.get());
 

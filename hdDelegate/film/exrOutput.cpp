@@ -17,8 +17,6 @@ namespace patina {
 namespace {
 
 constexpr float largestHalf = 65504.0f;
-// Chromaticities of the rendering space: Rec.709 red, green, blue and D65.
-constexpr float chromaticities[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
 
 size_t bytesOf(ChannelStore store) {
     return store == ChannelStore::Half ? 2 : 4;
@@ -81,7 +79,8 @@ void writeExr(const std::vector<ChannelSource>& channels, int sourceWidth,
     }
     spec.alpha_channel = spec.channelindex("A");
     spec.attribute("compression", options.compression);
-    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), chromaticities);
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
+                   options.renderingSpace->chromaticities.data());
     spec.attribute("oiio:ColorSpace", "Linear");
 
     writeAtomically(path, spec, [&](OIIO::ImageOutput& output) {

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/film/outliers.h"
+#include "materialNetwork/color/colorSpaces.h"
 
 #include <map>
 #include <string>
@@ -10,8 +11,6 @@
 #include <vector>
 
 namespace patina {
-
-class ColorSpaces;
 
 using MetadataValue = std::variant<std::string, int, double>;
 /// Metadata of an image about its making. Names are those of OIIO (Software, DateTime, ...) or
@@ -44,6 +43,8 @@ struct ImageOptions {
     Outliers outliers = Outliers::Keep;
     int quality = 95;                         ///< of JPEG and WebP
     const ColorSpaces* colorSpaces = nullptr; ///< null: ColorSpaces::shared()
+    /// Of the film's colours: OpenEXR's chromaticities, and where the display transform begins.
+    const RenderingSpace* renderingSpace = &RenderingSpace::rec709();
 };
 
 /// Says early why writeImage() will fail: unknown format, missing folder, place that cannot be

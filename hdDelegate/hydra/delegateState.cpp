@@ -8,19 +8,34 @@ namespace patina {
 HdPatinaSettings HdPatinaDelegateState::settings() const {
     std::lock_guard<std::mutex> lock(_mutex);
     HdPatinaSettings settings = _settings;
-    for (const auto& prim : _prims)
-        if (prim.second.active)
-            for (const auto& item : prim.second.settings) {
-                const TfToken key = settingKey(TfToken(item.first));
-                if (!key.IsEmpty()) applySetting(key, item.second, settings);
-            }
+    for (const auto& prim : _prims) {
+        if (!prim.second.active) continue;
+        if (!prim.second.renderingColorSpace.empty())
+            settings.renderingColorSpace = prim.second.renderingColorSpace;
+        for (const auto& item : prim.second.settings) {
+            const TfToken key = settingKey(TfToken(item.first));
+            if (!key.IsEmpty()) applySetting(key, item.second, settings);
+        }
+    }
     return settings;
 }
 
+/// Settings prims sync before all that has colours.
+void HdPatinaDelegateState::updateRenderingSpace() {
+    const std::string name = settings().renderingColorSpace;
+    const RenderingSpace* space = RenderingSpace::find(name);
+    if (!space)
+        param.warn(SdfPath(), "renderingColorSpace", messages::renderingSpaceUnknown(name));
+    param.setRenderingSpace(space ? *space : RenderingSpace::rec709());
+}
+
 void HdPatinaDelegateState::setSettings(const HdPatinaSettings& settings) {
-    std::lock_guard<std::mutex> lock(_mutex);
-    _settings = settings;
-    ++_settingsVersion;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _settings = settings;
+        ++_settingsVersion;
+    }
+    updateRenderingSpace();
 }
 
 void HdPatinaDelegateState::setSettingsPrim(const SdfPath& path, HdPatinaSettingsPrim prim) {
@@ -31,14 +46,21 @@ void HdPatinaDelegateState::setSettingsPrim(const SdfPath& path, HdPatinaSetting
                                                   : applySetting(key, item.second, scratch);
         if (!problem.empty()) param.warn(path, item.first, messages::settingProblem(problem));
     }
-    std::lock_guard<std::mutex> lock(_mutex);
-    _prims[path] = std::move(prim);
-    ++_settingsVersion;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _prims[path] = std::move(prim);
+        ++_settingsVersion;
+    }
+    updateRenderingSpace();
 }
 
 void HdPatinaDelegateState::removeSettingsPrim(const SdfPath& path) {
-    std::lock_guard<std::mutex> lock(_mutex);
-    if (_prims.erase(path)) ++_settingsVersion;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        if (!_prims.erase(path)) return;
+        ++_settingsVersion;
+    }
+    updateRenderingSpace();
 }
 
 HdRenderSettings::RenderProducts HdPatinaDelegateState::products() const {

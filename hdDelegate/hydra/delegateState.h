@@ -19,6 +19,7 @@ namespace patina {
 struct HdPatinaSettingsPrim {
     bool active = false;
     VtDictionary settings; ///< namespaced
+    std::string renderingColorSpace;
     HdRenderSettings::RenderProducts products;
 };
 
@@ -50,6 +51,8 @@ public:
     bool stopped() const { return _stopped; }
 
 private:
+    void updateRenderingSpace();
+
     mutable std::mutex _mutex;
     HdPatinaSettings _settings;
     std::map<SdfPath, HdPatinaSettingsPrim> _prims;

@@ -89,6 +89,17 @@ void HdPatinaInstancer::updateCategories(HdPatinaRenderParam& param) {
     place(param);
 }
 
+void HdPatinaInstancer::updateColors(HdPatinaRenderParam& param) {
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        if (!_data) return;
+        auto data = std::make_shared<HdPatinaInstanceData>(*_data);
+        readPrimvars(*GetDelegate(), param, *data);
+        _data = data;
+    }
+    place(param);
+}
+
 void HdPatinaInstancer::updateTransforms(HdPatinaRenderParam& param) {
     {
         std::lock_guard<std::mutex> lock(_mutex);

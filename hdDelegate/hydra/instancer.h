@@ -28,6 +28,8 @@ public:
     /// Samples the instances again where the shutter has become longer since. Host's thread, while
     /// nothing syncs.
     void updateTransforms(HdPatinaRenderParam& param);
+    /// Reads the values of the instances again. Host's thread, while nothing syncs.
+    void updateColors(HdPatinaRenderParam& param);
 
 private:
     void readInstances(HdSceneDelegate& delegate, HdPatinaRenderParam& param,

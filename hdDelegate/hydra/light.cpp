@@ -71,6 +71,14 @@ void HdPatinaLight::updateTransform(HdPatinaRenderParam& param) {
     if (_light->visible) param.set(_light);
 }
 
+void HdPatinaLight::updateParams(HdPatinaRenderParam& param) {
+    if (!_light) return;
+    auto light = std::make_shared<Light>(*_light);
+    readLightParams(*_delegate, param, GetId(), _type, *light);
+    _light = light;
+    if (_light->visible) param.set(_light);
+}
+
 void HdPatinaLight::updateFilters(HdPatinaRenderParam& param) {
     if (!_light) return;
     auto light = std::make_shared<Light>(*_light);

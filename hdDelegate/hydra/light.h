@@ -25,6 +25,8 @@ public:
     /// Samples the transform again where the shutter has become longer since. Host's thread, while
     /// nothing syncs.
     void updateTransform(HdPatinaRenderParam& param);
+    /// Reads its colours and all other values again. Host's thread, while nothing syncs.
+    void updateParams(HdPatinaRenderParam& param);
     /// Reads its filters again, as one of them changed. Host's thread, while nothing syncs.
     void updateFilters(HdPatinaRenderParam& param);
 

@@ -95,29 +95,41 @@ void readInputs(const Params& p, Light& light) {
 #include "hdDelegate/scene/lightTypes.inc"
 }
 
-void convertColor(const HdMaterialNode& node, const char* input, HdPatinaRenderParam& param,
+/// @param node that tells the spaces of colours; null: there is none
+void convertColor(const HdMaterialNode* node, const char* input, HdPatinaRenderParam& param,
                   const SdfPath& id, vec3& color) {
-    const auto given = node.parameters.find(TfToken(std::string("colorSpace:") + input));
-    if (given == node.parameters.end()) return;
-    const std::string space = textOf(given->second);
-    if (!ColorSpaces::shared().valueToRendering(space, &color.x))
+    std::string space;
+    if (node) {
+        const auto given = node->parameters.find(TfToken(std::string("colorSpace:") + input));
+        if (given != node->parameters.end()) space = textOf(given->second);
+    }
+    if (!ColorSpaces::shared().valueToRendering(space, param.renderingSpace(), &color.x))
         param.warn(id, std::string("inputs:") + input, messages::valueSpaceUnknown(space));
     else if (!ColorSpaces::isData(space))
-        color = glm::max(color, vec3(0.0f)); // of what Rec.709 does not reach
+        color = glm::max(color, vec3(0.0f)); // of what the rendering space does not reach
 }
 
 template <class T>
-void convertColor(const HdMaterialNode&, const char*, HdPatinaRenderParam&, const SdfPath&, T&) {}
+void convertColor(const HdMaterialNode*, const char*, HdPatinaRenderParam&, const SdfPath&, T&) {}
+
+void convertColors(const HdMaterialNode* node, HdPatinaRenderParam& param, const SdfPath& id,
+                   Light& light) {
+#define PATINA_LIGHT_INPUT(group, type, field, key, input, fallback, description)                  \
+    convertColor(node, input, param, id, light.field);
+#include "hdDelegate/scene/lightTypes.inc"
+}
 
 /// Lights are nodes of networks, which tell the colour spaces of their inputs. Other nodes are not
 /// evaluated.
 void readNetwork(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
                  Light& light) {
     const VtValue resource = delegate.GetMaterialResource(id);
-    if (!resource.IsHolding<HdMaterialNetworkMap>()) return;
-    const HdMaterialNetworkMap& map = resource.UncheckedGet<HdMaterialNetworkMap>();
-    const auto found = map.map.find(HdMaterialTerminalTokens->light);
-    if (found == map.map.end() || found->second.nodes.empty()) return;
+    const auto* map = resource.IsHolding<HdMaterialNetworkMap>()
+                          ? &resource.UncheckedGet<HdMaterialNetworkMap>().map
+                          : nullptr;
+    const auto found = map ? map->find(HdMaterialTerminalTokens->light) : decltype(map->end()){};
+    if (!map || found == map->end() || found->second.nodes.empty())
+        return convertColors(nullptr, param, id, light);
     const HdMaterialNetwork& network = found->second;
     const HdMaterialNode& node = network.nodes.back();
     const auto group = node.parameters.find(TfToken("ri:light:lightGroup"));
@@ -125,9 +137,7 @@ void readNetwork(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const Sd
     const auto space = node.parameters.find(TfToken("colorSpace:texture:file"));
     if (space != node.parameters.end() && !light.textureFile.empty())
         light.textureColorSpace = textOf(space->second);
-#define PATINA_LIGHT_INPUT(group, type, field, key, input, fallback, description)                  \
-    convertColor(node, input, param, id, light.field);
-#include "hdDelegate/scene/lightTypes.inc"
+    convertColors(&node, param, id, light);
     if (node.identifier.GetString().compare(0, 3, "ND_") == 0)
         param.warn(id, "light:shaderId", messages::lightShaderIgnored(node.identifier.GetString()));
     for (const HdMaterialRelationship& relation : network.relationships)

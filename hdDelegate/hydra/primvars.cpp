@@ -157,7 +157,8 @@ void toRenderingSpace(HdSceneDelegate& delegate, HdPatinaRenderParam& param, con
                       const HdPrimvarDescriptor& descriptor, Primvar& primvar) {
     if (primvar.components != 3 && primvar.components != 4) return;
     const std::string space = colorSpaceOf(delegate, id, descriptor);
-    if (!ColorSpaces::shared().valueToRendering(space, primvar.values.data(),
+    if (space.empty() && descriptor.role != HdPrimvarRoleTokens->color) return;
+    if (!ColorSpaces::shared().valueToRendering(space, param.renderingSpace(), primvar.values.data(),
                                                 primvar.values.size() / size_t(primvar.components),
                                                 primvar.components))
         param.warn(id, "primvars:" + primvar.name, messages::valuesSpaceUnknown(space));

@@ -65,6 +65,22 @@ void readSamples(HdRenderIndex& index, HdPatinaRenderParam& param) {
     });
 }
 
+/// All colours that hosts do not keep.
+void readColors(HdRenderIndex& index, HdPatinaRenderParam& param) {
+    forInstancers(index, param,
+                  [&](HdPatinaInstancer& instancer) { instancer.updateColors(param); });
+    for (const LightRow& row : lightRows) {
+        const TfToken type(row.hydra);
+        for (const SdfPath& path : index.GetSprimSubtree(type, SdfPath::AbsoluteRootPath()))
+            if (HdSprim* light = index.GetSprim(type, path))
+                static_cast<HdPatinaLight*>(light)->updateParams(param);
+    }
+    for (const SdfPath& path : index.GetRprimIds())
+        forRprim(index, path, [&](HdPatinaLinkedPrim& prim, HdSceneDelegate& delegate) {
+            prim.updateBits(delegate, param, HdChangeTracker::DirtyPrimvar);
+        });
+}
+
 void readOthers(HdRenderIndex& index, HdPatinaRenderParam& param, const SdfPath& reader) {
     forRprim(index, reader, [&](HdPatinaLinkedPrim& volume, HdSceneDelegate& delegate) {
         volume.updateBits(delegate, param, HdChangeTracker::DirtyVolumeField);
@@ -78,6 +94,7 @@ void readOthers(HdRenderIndex& index, HdPatinaRenderParam& param, const SdfPath&
 
 void readAgain(HdRenderIndex& index, HdPatinaRenderParam& param) {
     if (param.takeLinksChanged()) readLinks(index, param);
+    if (param.takeRenderingSpaceChanged()) readColors(index, param);
     if (param.takeShutterWidened()) readSamples(index, param);
     for (const SdfPath& reader : param.takeReadersOfChanged())
         readOthers(index, param, reader);

@@ -66,6 +66,13 @@ void HdPatinaRenderParam::setMetersPerUnit(double metersPerUnit) {
     _edit.setMetersPerUnit(metersPerUnit);
 }
 
+void HdPatinaRenderParam::setRenderingSpace(const RenderingSpace& space) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (_renderingSpace.exchange(&space) == &space) return;
+    _edit.setRenderingSpace(space);
+    _renderingSpaceChanged = true;
+}
+
 GfVec2f HdPatinaRenderParam::shutter() const {
     std::lock_guard<std::mutex> lock(_mutex);
     return _shutter;

@@ -44,6 +44,13 @@ public:
     void removeMaterial(const std::string& path);
     void setMetersPerUnit(double metersPerUnit);
 
+    /// The space that colours are read into.
+    const RenderingSpace& renderingSpace() const { return *_renderingSpace; }
+    /// readAgain() reads all colours anew where it differs and prims were read. Host's thread.
+    void setRenderingSpace(const RenderingSpace& space);
+    /// @returns whether it did since the last call
+    bool takeRenderingSpaceChanged() { return _renderingSpaceChanged.exchange(false); }
+
     /// When some camera's shutter is open: (first open, last close), in time codes relative to the
     /// frame. (0, 0) while none ever moves it.
     GfVec2f shutter() const;
@@ -91,7 +98,9 @@ private:
     HdPatinaDirtiedPrimvars _dirtiedPrimvars;
     HdPatinaDocumentNodes _documentNodes;
     GfVec2f _shutter{0.0f}, _cameraShutter{0.0f};
-    std::atomic<bool> _shutterWidened{false}, _linksChanged{false}, _tellsMotion{false};
+    std::atomic<const RenderingSpace*> _renderingSpace{&RenderingSpace::rec709()};
+    std::atomic<bool> _shutterWidened{false}, _linksChanged{false}, _renderingSpaceChanged{false};
+    std::atomic<bool> _tellsMotion{false};
     std::map<SdfPath, std::set<SdfPath>> _readers; ///< by what they read
     std::set<SdfPath> _changed;                    ///< of what is read
     size_t _reported = 0;                          ///< diagnostics that the host was told

@@ -248,6 +248,7 @@ void HdPatinaRenderProducts::write(const Output& output) {
                      var.dataType == "color4h" || var.dataType == "half4"))
                     options.half = true;
         }
+    options.renderingSpace = &_state.param.renderingSpace();
     try {
         writeImage(*_session->film(), output.file, options,
                    {{"Software", std::string("Patina")},

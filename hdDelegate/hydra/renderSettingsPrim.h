@@ -19,7 +19,8 @@ public:
 protected:
     void _Sync(HdSceneDelegate*, HdRenderParam*, const HdDirtyBits*) override {
         _state->setSettingsPrim(GetId(),
-                                {IsActive(), GetNamespacedSettings(), GetRenderProducts()});
+                                {IsActive(), GetNamespacedSettings(),
+                                 GetRenderingColorSpace().GetString(), GetRenderProducts()});
     }
 
 private:

@@ -84,7 +84,7 @@ std::string automaticSpace(const std::string& file, const std::string& format,
                            const OIIO::ImageSpec& spec, const ColorSpaces& colorSpaces,
                            bool& unread) {
     const auto usable = [&](const std::string& space) {
-        return !space.empty() && colorSpaces.toRendering(space);
+        return !space.empty() && colorSpaces.toRec709(space);
     };
     unread = false;
     std::string space = spaceOfProfile(spec, unread);

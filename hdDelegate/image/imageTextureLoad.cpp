@@ -19,6 +19,7 @@ namespace {
 /// A transform that must exist: an unknown name becomes data, with a warning.
 ColorTransformPtr transformOf(const ImageSource& source, const TextureFile& file,
                               const ColorSpaces& colorSpaces, Diagnostics& diagnostics) {
+    const RenderingSpace& to = *source.renderingSpace;
     std::string name = source.colorSpace;
     bool unread = false;
     if (OIIO::Strutil::iequals(name, "auto"))
@@ -26,10 +27,10 @@ ColorTransformPtr transformOf(const ImageSource& source, const TextureFile& file
             automaticSpace(source.file, file.input->format_name(), file.spec, colorSpaces, unread);
     if (unread)
         diagnostics.warn(source.prim, source.input, messages::iccProfileUnread(source.file, name));
-    ColorTransformPtr transform = colorSpaces.toRendering(name);
+    ColorTransformPtr transform = colorSpaces.toRendering(name, to);
     if (transform) return transform;
     diagnostics.warn(source.prim, source.input, messages::fileSpaceUnknown(name, source.file));
-    return colorSpaces.toRendering("raw");
+    return colorSpaces.toRendering("raw", to);
 }
 
 std::shared_ptr<ImageTexture> unreadable(const ImageSource& source, const std::string& reason,
@@ -200,13 +201,11 @@ std::shared_ptr<ImageTexture> openTiledTexture(const ImageSource& source,
     return unreadable(source, "there is not enough memory for it", diagnostics);
 }
 
-ImageRGB loadImageLinear(const std::string& file, const std::string& colorSpace,
-                         Diagnostics& diagnostics, const std::string& prim,
-                         const std::string& input) {
+ImageRGB loadImageLinear(ImageSource source, Diagnostics& diagnostics) {
     ImageRGB result;
     std::shared_ptr<ImageTexture> texture;
-    const ImageSource source{file, colorSpace.empty() ? "auto" : colorSpace, prim, input};
-    const std::string problem = tooLargeForALight(file);
+    if (source.colorSpace.empty()) source.colorSpace = "auto";
+    const std::string problem = tooLargeForALight(source.file);
     if (problem.empty())
         texture = loadImageTexture(source, ColorSpaces::shared(), diagnostics);
     else

@@ -19,6 +19,7 @@ struct ImageSource {
     std::string colorSpace = "auto";
     std::string prim, input;
     bool finestOnly = false; ///< coarser levels are not made, and not to be sampled
+    const RenderingSpace* renderingSpace = &RenderingSpace::rec709(); ///< which colours become
 };
 
 /// What a file's header says.
@@ -31,7 +32,7 @@ struct ImageHeader {
 };
 ImageHeader probeImage(const std::string& file);
 
-/// Reads any format of OIIO into a mip pyramid in linear Rec.709. 8-bit files stay 8-bit where
+/// Reads any format of OIIO into a mip pyramid in the rendering space. 8-bit files stay 8-bit where
 /// their colour space works channel by channel; 16-bit data stays 16-bit; half stays half. Colour
 /// whose three channels are equal everywhere is kept as grey.
 /// Colour space "auto" is what the file says, see automaticSpace().
@@ -51,7 +52,7 @@ std::shared_ptr<ImageTexture> openTiledTexture(const ImageSource& source,
                                                const std::shared_ptr<TileStore>& store,
                                                Diagnostics& diagnostics);
 
-/// A colour image in linear Rec.709 floats.
+/// A colour image in floats of the rendering space.
 struct ImageRGB {
     int width = 0, height = 0;
     std::vector<glm::vec3> pixels; ///< top row first
@@ -59,9 +60,7 @@ struct ImageRGB {
 };
 
 /// Reads an environment or a light's texture; warns and gives magenta when it cannot.
-/// @param colorSpace as of loadImageTexture(); empty: "auto"
-ImageRGB loadImageLinear(const std::string& file, const std::string& colorSpace,
-                         Diagnostics& diagnostics, const std::string& prim,
-                         const std::string& input);
+/// @param source its colour space may be empty: "auto"
+ImageRGB loadImageLinear(ImageSource source, Diagnostics& diagnostics);
 
 } // namespace patina

@@ -154,6 +154,7 @@ struct TextureSystem::Image {
 
 struct TextureSystem::Entry {
     TextureRequest request;
+    const RenderingSpace* renderingSpace = nullptr;
     bool udim = false, valid = false;
     std::vector<std::shared_ptr<Image>> tiles; ///< one, or by UDIM number with gaps
     size_t watched = 0;                        ///< tiles that are warned of one by one
@@ -161,7 +162,7 @@ struct TextureSystem::Entry {
         warned; ///< per watched tile; the last for the rest
 
     ImageSource source(const std::string& file) const {
-        return {file, request.colorSpace, request.prim, request.input};
+        return {file, request.colorSpace, request.prim, request.input, false, renderingSpace};
     }
     const Image* firstImage() const {
         for (auto& image : tiles)
@@ -183,7 +184,7 @@ void TextureSystem::setMemory(uint64_t bytes) {
 }
 
 std::shared_ptr<TextureSystem::Image> TextureSystem::shareImage(const ImageSource& source) {
-    std::shared_ptr<Image>& image = _images[source.file + '\n' + source.colorSpace];
+    std::shared_ptr<Image>& image = _images[source.file + '\n' + source.colorSpace + '\n' + source.renderingSpace->name];
     if (!image) image = std::make_shared<Image>(source, _colorSpaces, _diagnostics, _memory);
     image->source.finestOnly = _finestOnly;
     return image;
@@ -221,7 +222,7 @@ std::shared_ptr<const EmissionProfile> TextureSystem::openProfile(const TextureR
 
 int TextureSystem::open(const TextureRequest& request) {
     std::string key = request.file + '\n' + request.colorSpace + '\n' +
-                      char('0' + int(request.wrapS)) + char('0' + int(request.wrapT)) +
+                      _renderingSpace.load()->name + '\n' + char('0' + int(request.wrapS)) + char('0' + int(request.wrapT)) +
                       (request.nearest ? 'n' : 'l') + (request.ownWrapS ? 's' : '-') +
                       (request.ownWrapT ? 't' : '-');
     std::lock_guard<std::mutex> lock(_mutex);
@@ -230,6 +231,7 @@ int TextureSystem::open(const TextureRequest& request) {
     if (handle < 0) {
         auto entry = std::make_unique<Entry>();
         entry->request = request;
+        entry->renderingSpace = _renderingSpace;
         openTiles(*entry);
         entry->valid = entry->firstImage() != nullptr;
         if (entry->valid) takeOwnModes(entry->firstImage()->header.wrapModes, entry->request);

@@ -34,6 +34,9 @@ public:
     /// @param bytes 0: half of the machine's
     void setMemory(uint64_t bytes);
 
+    /// The space of colours, for textures that are opened from now on.
+    void setRenderingSpace(const RenderingSpace& space) { _renderingSpace = &space; }
+
     /// For who looks at few places: filters get no width, for textures that are opened from now on.
     void sampleFinestOnly() { _finestOnly = true; }
 
@@ -65,6 +68,7 @@ private:
     tbb::concurrent_vector<std::unique_ptr<Entry>> _entries; ///< grows while others read
     std::atomic<int> _count{0};                              ///< entries that are complete
     bool _finestOnly = false;
+    std::atomic<const RenderingSpace*> _renderingSpace{&RenderingSpace::rec709()};
 };
 
 } // namespace patina

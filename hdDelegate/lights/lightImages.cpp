@@ -7,16 +7,17 @@
 namespace patina {
 
 LightImages::LightImages(Diagnostics& diagnostics)
-    : _loader([&diagnostics](const std::string& file, const std::string& colorSpace,
-                             const std::string& prim, const std::string& input) {
-          return loadImageLinear(file, colorSpace, diagnostics, prim, input);
+    : _loader([&diagnostics, this](const std::string& file, const std::string& colorSpace,
+                                   const std::string& prim, const std::string& input) {
+          return loadImageLinear({file, colorSpace, prim, input, false, _renderingSpace},
+                                 diagnostics);
       }) {}
 
 std::shared_ptr<const ImageRGB> LightImages::image(const std::string& file,
                                                    const std::string& colorSpace,
                                                    const std::string& prim,
                                                    const std::string& input) {
-    const std::string key = colorSpace + '\n' + file;
+    const std::string key = _renderingSpace.load()->name + '\n' + colorSpace + '\n' + file;
     std::lock_guard<std::mutex> lock(_mutex);
     std::shared_ptr<const ImageRGB>& entry = _images[key];
     if (entry) return entry;
@@ -48,7 +49,7 @@ std::shared_ptr<const EnvironmentMap> LightImages::environment(const std::string
                                                                EnvironmentFormat format,
                                                                const std::string& prim,
                                                                const std::string& input) {
-    const std::string key = std::to_string(int(format)) + '\n' + colorSpace + '\n' + file;
+    const std::string key = std::to_string(int(format)) + '\n' + _renderingSpace.load()->name + '\n' + colorSpace + '\n' + file;
     const std::lock_guard<std::mutex> building(_building);
     {
         std::lock_guard<std::mutex> lock(_mutex);

@@ -4,6 +4,7 @@
 #include "hdDelegate/image/imageTextureLoad.h"
 #include "hdDelegate/lights/environmentMap.h"
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -31,11 +32,15 @@ public:
     environment(const std::string& file, const std::string& colorSpace, EnvironmentFormat format,
                 const std::string& prim, const std::string& input);
 
+    /// The space of colours, for what is asked for from now on.
+    void setRenderingSpace(const RenderingSpace& space) { _renderingSpace = &space; }
+
     /// Lets go of what no light holds any more. For a back end that has built its lights.
     void forgetUnused();
 
 private:
     Loader _loader;
+    std::atomic<const RenderingSpace*> _renderingSpace{&RenderingSpace::rec709()};
     std::mutex _mutex;
     std::mutex _building; ///< of environments: who waits for one shares it
     std::map<std::string, std::shared_ptr<const ImageRGB>> _images;

@@ -57,8 +57,9 @@ struct Catching {
 struct Marked {
     Visibility visibility;
     Catching catching;
-    std::string matteName; ///< in cryptoObject; empty: its path, see objectMatte()
-    std::string assetName; ///< in cryptoAsset; empty: that of what is around, see assetMatte()
+    std::string matteName;      ///< in cryptoObject; empty: its path, see objectMatte()
+    std::string assetName;      ///< in cryptoAsset; empty: that of what is around, see assetMatte()
+    int dielectricPriority = 0; ///< of what it encloses, see MediumStack; 0: none
 };
 
 enum class SubdivisionScheme { None, CatmullClark, Loop, Bilinear };

@@ -19,6 +19,7 @@ enum class MarkKind {
     KarmaHoldout,
     MatteName,
     AssetName,
+    Priority,
     DiffuseTransmission
 };
 
@@ -39,7 +40,7 @@ const std::vector<MarkRow>& rows() {
             Reflections{MarkKind::Reflections}, ArnoldMask{MarkKind::ArnoldMask},
             KarmaRays{MarkKind::KarmaRays}, KarmaHoldout{MarkKind::KarmaHoldout},
             MatteName{MarkKind::MatteName}, AssetName{MarkKind::AssetName},
-            DiffuseTransmission{MarkKind::DiffuseTransmission};
+            Priority{MarkKind::Priority}, DiffuseTransmission{MarkKind::DiffuseTransmission};
         std::vector<MarkRow> list;
         const auto add = [&](const char* name, Kind kind) {
             list.push_back({name, kind.kind, kind.number});
@@ -119,6 +120,10 @@ bool takeNumber(const MarkRow& row, double value, Marked& prim) {
     case MarkKind::KarmaHoldout:
         if (value != 0.0 && value != 1.0 && value != 2.0) return false;
         prim.catching = {value == 1.0, value == 2.0, value == 2.0};
+        return true;
+    case MarkKind::Priority:
+        if (value < 0.0 || value > 1e6 || value != std::floor(value)) return false;
+        prim.dielectricPriority = int(value);
         return true;
     case MarkKind::DiffuseTransmission: return (value != 0.0) == prim.visibility.transmission;
     default: return false;

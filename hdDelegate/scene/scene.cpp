@@ -3,6 +3,7 @@
 
 #include "hdDelegate/scene/cameraCheck.h"
 #include "hdDelegate/scene/instancerCheck.h"
+#include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/sceneLimits.h"
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace patina {
 bool sameContent(const SceneState& a, const SceneState& b) {
     return a.geometry == b.geometry && a.instancers == b.instancers && a.lights == b.lights &&
            a.cameras == b.cameras && a.materials == b.materials &&
-           a.metersPerUnit == b.metersPerUnit;
+           a.metersPerUnit == b.metersPerUnit && a.renderingSpace == b.renderingSpace;
 }
 
 const Primvar* Geometry::primvar(const std::string& name) const {
@@ -23,6 +24,19 @@ const Primvar* Geometry::primvar(const std::string& name) const {
 }
 
 namespace {
+
+/// A temperature is a colour of linear Rec.709 (UsdLux), and so are colours of filters, whose space
+/// nobody tells.
+std::shared_ptr<const Light> withRenderedColors(const Light& given, const RenderingSpace& space) {
+    auto light = std::make_shared<Light>(given);
+    if (light->enableColorTemperature)
+        light->color *= glm::max(space.from709(blackbodyColor(light->colorTemperature)), 0.0f);
+    light->enableColorTemperature = false;
+    for (LightFilter& filter : light->filters)
+        for (vec3& color : filter.colors)
+            color = space.from709(color);
+    return light;
+}
 
 /// Takes over changes to the prims of one kind.
 /// @returns what differs thereafter
@@ -61,7 +75,7 @@ std::optional<SceneDelta> Scene::changes(uint64_t from, uint64_t to) const {
 
 SceneEdit::SceneEdit(SceneEdit&& other) noexcept
     : _scene(std::exchange(other._scene, nullptr)), _clear(other._clear),
-      _metersPerUnit(other._metersPerUnit), _geometry(std::move(other._geometry)),
+      _metersPerUnit(other._metersPerUnit), _renderingSpace(other._renderingSpace), _geometry(std::move(other._geometry)),
       _instancers(std::move(other._instancers)), _lights(std::move(other._lights)),
       _cameras(std::move(other._cameras)), _materials(std::move(other._materials)) {}
 
@@ -93,8 +107,11 @@ void SceneEdit::set(std::shared_ptr<const Instancer> prim) {
 }
 
 void SceneEdit::set(std::shared_ptr<const Light> prim) {
-    if (prim && stands(*prim, PrimKind::Light, messages::lightTransformUnusable))
-        _lights[prim->path] = std::move(prim);
+    if (!prim || !stands(*prim, PrimKind::Light, messages::lightTransformUnusable)) return;
+    const RenderingSpace& space =
+        _renderingSpace ? *_renderingSpace : *_scene->snapshot()->renderingSpace;
+    if (!space.isRec709()) prim = withRenderedColors(*prim, space);
+    _lights[prim->path] = std::move(prim);
 }
 
 void SceneEdit::set(std::shared_ptr<const Camera> prim) {
@@ -124,7 +141,7 @@ void SceneEdit::clear() {
 
 void SceneEdit::commit() {
     if (!_scene) return;
-    bool changed = _clear || _metersPerUnit > 0.0;
+    bool changed = _clear || _metersPerUnit > 0.0 || _renderingSpace;
     forMaps(PrimKind::Any, [&](auto& changes) { changed |= !changes.empty(); });
     if (!changed) return;
 
@@ -147,9 +164,11 @@ void SceneEdit::commit() {
     delta.materials = take(after->materials, _materials);
     delta.metersPerUnit = _metersPerUnit > 0.0 && _metersPerUnit != after->metersPerUnit;
     if (delta.metersPerUnit) after->metersPerUnit = _metersPerUnit;
-    if (_clear ? !sameContent(before, *after) : !delta.empty()) {
+    if (_renderingSpace) after->renderingSpace = _renderingSpace;
+    const bool all = _clear || after->renderingSpace != before.renderingSpace;
+    if (all ? !sameContent(before, *after) : !delta.empty()) {
         after->version = before.version + 1;
-        if (_clear)
+        if (all)
             _scene->_log.clear();
         else
             _scene->_log.add(after->version, std::move(delta));
@@ -157,6 +176,7 @@ void SceneEdit::commit() {
     }
     _clear = false;
     _metersPerUnit = -1.0;
+    _renderingSpace = nullptr;
     forMaps(PrimKind::Any, [](auto& changes) { changes.clear(); });
 }
 

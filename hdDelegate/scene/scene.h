@@ -7,6 +7,7 @@
 #include "hdDelegate/scene/material.h"
 #include "hdDelegate/scene/primMap.h"
 #include "hdDelegate/scene/sceneDelta.h"
+#include "materialNetwork/color/colorSpaces.h"
 #include "base/diagnostics.h"
 
 #include <cstdint>
@@ -26,6 +27,8 @@ struct SceneState {
     PrimMap<Camera> cameras;
     PrimMap<MaterialPrim> materials;
     double metersPerUnit = 0.01;
+    /// Which colours are given in: those of lights and primvars, after the host has read them.
+    const RenderingSpace* renderingSpace = &RenderingSpace::rec709();
     uint64_t triangles = 0; ///< of all geometry, see trianglesOf()
 };
 
@@ -79,6 +82,8 @@ public:
     void set(std::shared_ptr<const Camera> prim);
     void set(std::shared_ptr<const MaterialPrim> prim);
     void setMetersPerUnit(double metersPerUnit);
+    /// Hosts set it before they give colours, and give all prims anew after it has changed.
+    void setRenderingSpace(const RenderingSpace& space) { _renderingSpace = &space; }
     /// A path may hold prims of several kinds (a mesh that is a light, say).
     void remove(const std::string& path, PrimKind kind = PrimKind::Any);
     void clear(); ///< removes everything
@@ -92,6 +97,7 @@ private:
     Scene* _scene;
     bool _clear = false; ///< before all changes
     double _metersPerUnit = -1.0;
+    const RenderingSpace* _renderingSpace = nullptr;
     // By path; null where the prim is removed.
     PrimMap<Geometry>::Changes _geometry;
     PrimMap<Instancer>::Changes _instancers;

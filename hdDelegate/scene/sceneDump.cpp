@@ -150,6 +150,7 @@ void writeMarks(Writer& w, const Marked& marks, const std::string& whose = {}) {
     field("matte", marks.catching.matte, false);
     field("catches shadows", marks.catching.shadows, false);
     field("catches reflections", marks.catching.reflections, false);
+    field("dielectricPriority", marks.dielectricPriority, 0);
     if (!marks.matteName.empty()) w.line(whose + "matteName", text(marks.matteName));
 }
 
@@ -356,6 +357,8 @@ void writeMaterial(Writer& w, const MaterialPrim& m) {
 
 std::string dumpScene(const SceneState& scene, int maxValues) {
     Writer w(maxValues);
+    if (!scene.renderingSpace->isRec709())
+        w.line("renderingColorSpace", scene.renderingSpace->name);
     if (scene.metersPerUnit != 0.01) w.line("metersPerUnit", number(scene.metersPerUnit));
     for (const auto& item : scene.cameras)
         writeCamera(w, *item.second);

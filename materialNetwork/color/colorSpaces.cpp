@@ -17,7 +17,7 @@ namespace patina {
 
 namespace {
 
-constexpr const char* renderingSpace = "lin_rec709";
+constexpr const char* linearRec709 = "lin_rec709";
 
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -60,6 +60,33 @@ ColorTransformPtr transformOf(const std::vector<ocio::ConstProcessorRcPtr>& proc
     return std::make_shared<OcioTransform>(processors);
 }
 
+/// @param to into the rendering space, not out of it
+void applyMatrix(const RenderingSpace& space, bool to, float* pixels, size_t count, int stride) {
+    for (size_t i = 0; i < count; ++i, pixels += stride) {
+        const glm::vec3 color(pixels[0], pixels[1], pixels[2]);
+        const glm::vec3 result = to ? space.from709(color) : space.to709(color);
+        std::copy(&result.x, &result.x + 3, pixels);
+    }
+}
+
+/// From a space to the rendering space, or from that to another, by way of linear Rec.709.
+class Chained : public ColorTransform {
+public:
+    Chained(ColorTransformPtr other, const RenderingSpace& space, bool to)
+        : _other(std::move(other)), _space(space), _to(to) {}
+    void apply(float* pixels, size_t count, int stride) const override {
+        if (!_to) applyMatrix(_space, false, pixels, count, stride);
+        _other->apply(pixels, count, stride);
+        if (_to) applyMatrix(_space, true, pixels, count, stride);
+    }
+    bool isIdentity() const override { return false; }
+
+private:
+    ColorTransformPtr _other;
+    const RenderingSpace& _space;
+    bool _to;
+};
+
 std::string listed(const std::vector<std::string>& names) {
     std::string text;
     for (auto& n : names)
@@ -71,61 +98,70 @@ std::string listed(const std::vector<std::string>& names) {
 
 struct ColorSpaces::Impl {
     ocio::ConstConfigRcPtr builtin, user; ///< user is null without a configuration of the user's
-    std::string userRendering; ///< the user's name of linear Rec.709, or what stands for it
-    bool bridge = false;       ///< go through the interchange role instead of that name
-    mutable std::mutex mutex;  ///< of what follows
+    std::string userRec709; ///< the user's name of linear Rec.709, or what stands for it
+    bool bridge = false;    ///< go through the interchange role instead of that name
+    mutable std::mutex mutex; ///< of what follows
     mutable std::map<std::string, ColorTransformPtr> ofValues;
 
     const ocio::ConstConfigRcPtr& active() const { return user ? user : builtin; }
-    void findRenderingSpace();
-    ColorTransformPtr convert(const std::string& name, bool toRendering) const;
+    void findRec709();
+    bool isNamedData(const std::string& name) const; ///< by the configuration
+    ColorTransformPtr convert(const std::string& name, bool toRec709) const;
 };
 
 // A user's configuration need not say which of its spaces is linear Rec.709. Exact is the way over
 // ACES2065-1, if it names that; then the usual names; scene_linear is the last resort.
-void ColorSpaces::Impl::findRenderingSpace() {
+void ColorSpaces::Impl::findRec709() {
     if (user->hasRole(ocio::ROLE_INTERCHANGE_SCENE)) {
         bridge = true;
         return;
     }
-    ocio::ConstColorSpaceRcPtr known = builtin->getColorSpace(renderingSpace);
-    std::vector<std::string> candidates = {renderingSpace};
+    ocio::ConstColorSpaceRcPtr known = builtin->getColorSpace(linearRec709);
+    std::vector<std::string> candidates = {linearRec709};
     for (size_t i = 0; i < known->getNumAliases(); ++i)
         candidates.push_back(known->getAlias(i));
     for (auto& name : candidates) {
         if (name == "linear" || !user->getColorSpace(name.c_str())) continue;
-        userRendering = name;
+        userRec709 = name;
         return;
     }
-    userRendering = ocio::ROLE_SCENE_LINEAR;
-    if (!user->getColorSpace(userRendering.c_str()))
+    userRec709 = ocio::ROLE_SCENE_LINEAR;
+    if (!user->getColorSpace(userRec709.c_str()))
         throw std::runtime_error("the OCIO configuration has no role scene_linear");
 }
 
-ColorTransformPtr ColorSpaces::Impl::convert(const std::string& name, bool toRendering) const {
+ColorTransformPtr ColorSpaces::Impl::convert(const std::string& name, bool toRec709) const {
     if (isData(name)) return transformOf({});
     try {
         if (const ocio::ConstTransformRcPtr own = parseChromaticities(name))
             return transformOf({builtin->getProcessor(
-                own, toRendering ? ocio::TRANSFORM_DIR_FORWARD : ocio::TRANSFORM_DIR_INVERSE)});
+                own, toRec709 ? ocio::TRANSFORM_DIR_FORWARD : ocio::TRANSFORM_DIR_INVERSE)});
         if (user && user->getColorSpace(name.c_str())) {
             if (user->getColorSpace(name.c_str())->isData()) return transformOf({});
             if (bridge)
                 return transformOf(
-                    {toRendering ? ocio::Config::GetProcessorFromConfigs(user, name.c_str(),
-                                                                         builtin, renderingSpace)
-                                 : ocio::Config::GetProcessorFromConfigs(builtin, renderingSpace,
+                    {toRec709 ? ocio::Config::GetProcessorFromConfigs(user, name.c_str(),
+                                                                         builtin, linearRec709)
+                                 : ocio::Config::GetProcessorFromConfigs(builtin, linearRec709,
                                                                          user, name.c_str())});
-            return transformOf({toRendering
-                                    ? user->getProcessor(name.c_str(), userRendering.c_str())
-                                    : user->getProcessor(userRendering.c_str(), name.c_str())});
+            return transformOf({toRec709
+                                    ? user->getProcessor(name.c_str(), userRec709.c_str())
+                                    : user->getProcessor(userRec709.c_str(), name.c_str())});
         }
         if (!builtin->getColorSpace(name.c_str())) return nullptr;
-        return transformOf({toRendering ? builtin->getProcessor(name.c_str(), renderingSpace)
-                                        : builtin->getProcessor(renderingSpace, name.c_str())});
+        return transformOf({toRec709 ? builtin->getProcessor(name.c_str(), linearRec709)
+                                        : builtin->getProcessor(linearRec709, name.c_str())});
     } catch (const ocio::Exception&) {
         return nullptr;
     }
+}
+
+bool ColorSpaces::Impl::isNamedData(const std::string& name) const {
+    for (const auto* config : {&user, &builtin})
+        if (*config)
+            if (const ocio::ConstColorSpaceRcPtr space = (*config)->getColorSpace(name.c_str()))
+                return space->isData();
+    return false;
 }
 
 ColorSpaces::ColorSpaces(const std::string& configFile) : _impl(new Impl) {
@@ -137,7 +173,7 @@ ColorSpaces::ColorSpaces(const std::string& configFile) : _impl(new Impl) {
             if (!problem.empty()) throw std::runtime_error("the file " + problem);
         }
         _impl->user = ocio::Config::CreateFromFile(configFile.c_str());
-        _impl->findRenderingSpace();
+        _impl->findRec709();
     } catch (const std::exception& e) {
         throw std::runtime_error("cannot use OCIO configuration '" + configFile +
                                  "': " + oneLine(e.what()));
@@ -184,12 +220,32 @@ bool ColorSpaces::isData(const std::string& name) {
     return std::any_of(std::begin(names), std::end(names), [&](const char* d) { return n == d; });
 }
 
-ColorTransformPtr ColorSpaces::toRendering(const std::string& name) const {
+std::string ColorSpaces::nameOf(const std::string& name) const {
+    for (const auto* config : {&_impl->user, &_impl->builtin})
+        if (*config)
+            if (const ocio::ConstColorSpaceRcPtr space = (*config)->getColorSpace(name.c_str()))
+                return space->getName();
+    return parseChromaticities(name) ? name : std::string();
+}
+
+ColorTransformPtr ColorSpaces::toRec709(const std::string& name) const {
     return _impl->convert(name, true);
 }
 
-bool ColorSpaces::valueToRendering(const std::string& name, float* values, size_t count,
-                                   int stride) const {
+ColorTransformPtr ColorSpaces::fromRec709(const std::string& name) const {
+    return _impl->convert(name, false);
+}
+
+ColorTransformPtr ColorSpaces::toRendering(const std::string& name,
+                                           const RenderingSpace& to) const {
+    const ColorTransformPtr transform = toRec709(name);
+    if (!transform || to.isRec709() || isData(name) || _impl->isNamedData(name)) return transform;
+    if (nameOf(name) == to.name) return transformOf({});
+    return std::make_shared<Chained>(transform, to, true);
+}
+
+bool ColorSpaces::valueToRec709(const std::string& name, float* values, size_t count,
+                                int stride) const {
     if (isData(name) || lower(name) == "auto") return true;
     ColorTransformPtr transform;
     {
@@ -206,11 +262,16 @@ bool ColorSpaces::valueToRendering(const std::string& name, float* values, size_
     return bool(transform);
 }
 
-ColorTransformPtr ColorSpaces::fromRendering(const std::string& name) const {
-    return _impl->convert(name, false);
+bool ColorSpaces::valueToRendering(const std::string& name, const RenderingSpace& to, float* values,
+                                   size_t count, int stride) const {
+    const bool known = valueToRec709(name, values, count, stride);
+    if (!to.isRec709() && (name.empty() || !(isData(name) || _impl->isNamedData(name))))
+        applyMatrix(to, true, values, count, stride);
+    return known;
 }
 
-ColorTransformPtr ColorSpaces::display(const std::string& display, const std::string& view) const {
+ColorTransformPtr ColorSpaces::display(const std::string& display, const std::string& view,
+                                       const RenderingSpace& from) const {
     const ocio::ConstConfigRcPtr& config = _impl->active();
     std::string d = display.empty() ? config->getDefaultDisplay() : display;
     std::vector<std::string> known = displays();
@@ -223,10 +284,10 @@ ColorTransformPtr ColorSpaces::display(const std::string& display, const std::st
                                  listed(known));
     try {
         std::vector<ocio::ConstProcessorRcPtr> steps;
-        std::string source = _impl->user ? _impl->userRendering : renderingSpace;
+        std::string source = _impl->user ? _impl->userRec709 : linearRec709;
         if (_impl->user && _impl->bridge) {
             source = ocio::ROLE_INTERCHANGE_SCENE;
-            steps.push_back(ocio::Config::GetProcessorFromConfigs(_impl->builtin, renderingSpace,
+            steps.push_back(ocio::Config::GetProcessorFromConfigs(_impl->builtin, linearRec709,
                                                                   config, source.c_str()));
         }
         auto transform = ocio::DisplayViewTransform::Create();
@@ -234,7 +295,9 @@ ColorTransformPtr ColorSpaces::display(const std::string& display, const std::st
         transform->setDisplay(d.c_str());
         transform->setView(v.c_str());
         steps.push_back(config->getProcessor(transform));
-        return transformOf(steps);
+        const ColorTransformPtr of709 = transformOf(steps);
+        if (from.isRec709()) return of709;
+        return std::make_shared<Chained>(of709, from, false);
     } catch (const ocio::Exception& e) {
         throw std::runtime_error("display '" + d + "', view '" + v + "': " + oneLine(e.what()));
     }

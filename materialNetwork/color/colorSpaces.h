@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "materialNetwork/color/renderingSpace.h"
 #include "base/messages.h"
 
 #include <memory>
@@ -22,8 +23,8 @@ public:
 
 using ColorTransformPtr = std::shared_ptr<const ColorTransform>;
 
-/// The colour spaces of an OCIO configuration, seen from the rendering space, which is linear
-/// Rec.709 (D65).
+/// The colour spaces of an OCIO configuration, seen from linear Rec.709 (D65), and from there from
+/// the rendering space.
 ///
 /// Only this class knows names of colour spaces, for values and textures alike:
 /// - The built-in configuration has the names of MaterialX 1.39, of USD's GfColorSpaceNames, and
@@ -49,21 +50,32 @@ public:
     static const std::optional<Message>& sharedProblem();
 
     static bool isData(const std::string& name);
+    /// How the configuration spells a name of any case, or an alias.
+    /// @returns an empty name for an unknown one
+    std::string nameOf(const std::string& name) const;
+
     /// @returns null for an unknown name
-    ColorTransformPtr toRendering(const std::string& name) const;
-    /// Converts colour values (not a texture's: "auto" leaves them as they are). Quick when
-    /// repeated.
+    ColorTransformPtr toRec709(const std::string& name) const;
+    ColorTransformPtr fromRec709(const std::string& name) const;
+    /// Data stays as it is.
+    ColorTransformPtr toRendering(const std::string& name, const RenderingSpace& to) const;
+    /// Converts colour values to linear Rec.709 (not a texture's: "auto" leaves them as they are).
+    /// Quick when repeated.
     /// @param stride floats from one value to the next, at least 3; what follows the three stays
     /// @returns false for an unknown name, which leaves them as they are too
-    bool valueToRendering(const std::string& name, float* values, size_t count = 1,
-                          int stride = 3) const;
-    ColorTransformPtr fromRendering(const std::string& name) const;
+    bool valueToRec709(const std::string& name, float* values, size_t count = 1,
+                       int stride = 3) const;
+    /// The same to the rendering space. A value without a name is one of linear Rec.709, as
+    /// UsdColorSpaceAPI says; data ("raw") stays as it is.
+    bool valueToRendering(const std::string& name, const RenderingSpace& to, float* values,
+                          size_t count = 1, int stride = 3) const;
 
     /// From the rendering space to the signal of a display. Empty names take the default of the
     /// configuration; the built-in default is display "sRGB", view "Standard", which has no tone
     /// curve. Values above 1 stay above 1.
     /// @throws std::runtime_error naming what is unknown, and what is known
-    ColorTransformPtr display(const std::string& display = {}, const std::string& view = {}) const;
+    ColorTransformPtr display(const std::string& display = {}, const std::string& view = {},
+                              const RenderingSpace& from = RenderingSpace::rec709()) const;
 
     std::vector<std::string> displays() const;
     std::vector<std::string> views(const std::string& display) const;

@@ -186,6 +186,21 @@ std::array<double, 9> matrixToRec709(const Primaries& primaries) {
     return rows;
 }
 
+glm::dmat3 rec709ToXyz() {
+    return toXyz(rec709);
+}
+
+std::optional<std::array<float, 8>> builtinChromaticities(const std::string& name) {
+    for (const Space& space : spaces)
+        if (name == space.name && space.curve == Curve::Linear && space.primaries != &xyzD65) {
+            const Primaries& p = *space.primaries;
+            return std::array<float, 8>{float(p.red[0]),   float(p.red[1]),   float(p.green[0]),
+                                        float(p.green[1]), float(p.blue[0]),  float(p.blue[1]),
+                                        float(p.white[0]), float(p.white[1])};
+        }
+    return std::nullopt;
+}
+
 ocio::ConstTransformRcPtr parseChromaticities(const std::string& text) {
     const std::string start = "chromaticities(";
     if (text.compare(0, start.size(), start) != 0 || text.back() != ')') return nullptr;

@@ -205,6 +205,15 @@ SubsurfaceEntry Bsdf::subsurface(const BsdfSample& sample) const {
     return {l.diffuse.color, l.radius, l.anisotropy};
 }
 
+float Bsdf::ior() const {
+    for (int i = 0; i < _lobeCount; ++i) {
+        const BsdfLobe& l = _lobes[i];
+        if (l.kind == LobeKind::Dielectric && lobeTransmits(l)) return l.dielectric.ior;
+        if (l.kind == LobeKind::Schlick && lobeTransmits(l)) return l.schlick.ior;
+    }
+    return 1.0f;
+}
+
 void Bsdf::makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal) {
     _lobeCount = 1;
     _nonDelta = true;

@@ -92,6 +92,10 @@ public:
     /// @param u for the direction; @param uLobe for the choice of the lobe; all in [0, 1)
     BsdfSample sample(const glm::vec3& u, float uLobe) const;
 
+    /// @returns the ior over that of the surroundings, of the first lobe that refracts; 1 without
+    /// one
+    float ior() const;
+
     /// From now on subsurface lobes are events: eval() leaves them out, and sample() returns
     /// LOBE_SUBSURFACE with the inward normal as direction, and a weight without their colour.
     void walkSubsurface();

@@ -12,6 +12,7 @@ namespace {
 struct Arguments {
     const LobeTemplate& t;
     const glm::vec4* registers;
+    float surroundingIor;
     int next = 0;
 
     glm::vec3 color(int i) const { return glm::vec3(registers[t.parameters[i]]); }
@@ -44,8 +45,8 @@ void set(sh::OrenNayarLobe& l, decltype(&sh::orenNayarSetup), const Arguments& a
 
 void set(sh::DielectricLobe& l, decltype(&sh::dielectricSetup), const Arguments& a) {
     const LobeTemplate& t = a.t;
-    l = sh::dielectricSetup(a.color(0), a.number(1), a.pair(2), t.flagA, t.mode, t.sharedInterface,
-                            t.compensate);
+    l = sh::dielectricSetup(a.color(0), a.number(1) / a.surroundingIor, a.pair(2), t.flagA, t.mode,
+                            t.sharedInterface, t.compensate);
     l.ndf = t.ndf;
 }
 
@@ -59,8 +60,11 @@ void set(sh::ConductorLobe& l, decltype(&sh::conductorSetup), const Arguments& a
 void set(sh::SchlickLobe& l, decltype(&sh::schlickSetup), const Arguments& a) {
     const LobeTemplate& t = a.t;
     if (t.filmDielectric) {
-        l = sh::filmDielectricSetup(a.color(0), a.number(1), a.pair(2), a.number(3), a.number(4),
-                                    t.flagA, t.mode, t.sharedInterface, t.compensate);
+        // The phase in the film is that of its own ior: thickness times ior stays.
+        const float n = a.surroundingIor;
+        l = sh::filmDielectricSetup(a.color(0), a.number(1) / n, a.pair(2), a.number(3) * n,
+                                    a.number(4) / n, t.flagA, t.mode, t.sharedInterface,
+                                    t.compensate);
     } else {
         l = sh::schlickSetup(a.color(0), a.color(1), a.color(2), a.number(3), a.pair(4), t.flagA,
                              t.mode, t.sharedInterface, t.compensate);
@@ -87,11 +91,11 @@ void setMethods([[maybe_unused]] L& l, [[maybe_unused]] const MethodSet& methods
 
 } // namespace
 
-void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
+void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out, float surroundingIor) {
     switch (t.kind) {
 #define PATINA_LOBE(Kind, prefix, traits, probe, lit)                                              \
     case LobeKind::Kind:                                                                           \
-        set(out.prefix, sh::prefix##Setup, Arguments{t, r});                                       \
+        set(out.prefix, sh::prefix##Setup, Arguments{t, r, surroundingIor});                       \
         setMethods<LobeKind::Kind>(out.prefix, t.methods);                                         \
         return;
 #include "materialNetwork/lobeTable.inc"

@@ -6,6 +6,8 @@
 namespace patina {
 
 /// Computes the lobe from its parameters.
-void setupLobe(const LobeTemplate& lobe, const glm::vec4* registers, BsdfLobe& out);
+/// @param surroundingIor see ShadingPoint; only dielectrics have an ior that it divides
+void setupLobe(const LobeTemplate& lobe, const glm::vec4* registers, BsdfLobe& out,
+               float surroundingIor = 1.0f);
 
 } // namespace patina

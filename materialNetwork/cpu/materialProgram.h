@@ -39,6 +39,10 @@ public:
         return _facts.hasTransmission;
     }                                                       ///< a lobe may send light through
     bool hasInterior() const { return _facts.hasInterior; } ///< a medium fills closed objects
+    /// Closed objects are filled with what light goes through, be it clear.
+    bool encloses() const {
+        return hasInterior() || (hasTransmission() && !isThinWalled() && !isFibre());
+    }
     /// There is no surface: rays go on past the boundary, and only the medium is seen.
     bool isVolumeOnly() const { return _facts.isVolumeOnly; }
     /// Rays that presence lets pass are inside the object afterwards: its boundary is there, but

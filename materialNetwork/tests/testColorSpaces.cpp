@@ -36,7 +36,7 @@ double srgbToLinear(double v) {
 
 TEST(ColorSpaces, SrgbIsTheClosedForm) {
     ColorSpaces spaces;
-    ColorTransformPtr decode = spaces.toRendering("sRGB"), encode = spaces.fromRendering("sRGB");
+    ColorTransformPtr decode = spaces.toRec709("sRGB"), encode = spaces.fromRec709("sRGB");
     for (int i = 0; i <= 255; ++i) {
         double v = i / 255.0, linear = srgbToLinear(v);
         expectNear(converted(decode, glm::vec3(float(v))), glm::vec3(float(linear)), 1.2e-6f);
@@ -53,33 +53,33 @@ TEST(ColorSpaces, GammasAreThoseOfTheirNames) {
         {"g22_rec709", 2.2}, {"g18_rec709", 1.8}, {"rec709_display", 2.4}, {"gamma22", 2.2}};
     for (auto& c : cases)
         for (float v : {0.0f, 0.01f, 0.2f, 0.5f, 1.0f})
-            expectNear(converted(spaces.toRendering(c.name), glm::vec3(v)),
+            expectNear(converted(spaces.toRec709(c.name), glm::vec3(v)),
                        glm::vec3(float(std::pow(v, c.gamma))), 1e-6f);
 }
 
 TEST(ColorSpaces, WideGamutsMapTheirPrimariesWherePublishedMatricesSay) {
     ColorSpaces spaces;
     // ACEScg to linear Rec.709 with Bradford, as the ACES reference implementation gives it
-    expectNear(converted(spaces.toRendering("acescg"), {1, 0, 0}), {1.70505f, -0.13026f, -0.02400f},
+    expectNear(converted(spaces.toRec709("acescg"), {1, 0, 0}), {1.70505f, -0.13026f, -0.02400f},
                2e-4f);
-    expectNear(converted(spaces.toRendering("lin_ap1"), {0, 1, 0}),
+    expectNear(converted(spaces.toRec709("lin_ap1"), {0, 1, 0}),
                {-0.62179f, 1.14080f, -0.12897f}, 2e-4f);
-    expectNear(converted(spaces.toRendering("ACES2065-1"), {0, 0, 1}),
+    expectNear(converted(spaces.toRec709("ACES2065-1"), {0, 0, 1}),
                {-0.38756f, -0.09624f, 1.16835f}, 2e-4f);
     // Display P3 red, as CSS Color 4 tabulates it
-    expectNear(converted(spaces.toRendering("lin_displayp3"), {1, 0, 0}),
+    expectNear(converted(spaces.toRec709("lin_displayp3"), {1, 0, 0}),
                {1.22494f, -0.04206f, -0.01964f}, 1e-4f);
-    expectNear(converted(spaces.toRendering("lin_adobergb"), {1, 0, 0}), {1.39836f, 0, 0}, 1e-4f);
-    expectNear(converted(spaces.toRendering("lin_rec2020"), {0, 1, 0}),
+    expectNear(converted(spaces.toRec709("lin_adobergb"), {1, 0, 0}), {1.39836f, 0, 0}, 1e-4f);
+    expectNear(converted(spaces.toRec709("lin_rec2020"), {0, 1, 0}),
                {-0.58764f, 1.13290f, -0.10058f}, 1e-4f);
-    expectNear(converted(spaces.toRendering("lin_ciexyzd65"), {0.95046f, 1.0f, 1.08906f}),
+    expectNear(converted(spaces.toRec709("lin_ciexyzd65"), {0.95046f, 1.0f, 1.08906f}),
                {1, 1, 1}, 1e-4f);
 }
 
 TEST(ColorSpaces, WhiteStaysWhiteAndEveryWayIsAWayBack) {
     ColorSpaces spaces;
     for (const std::string& name : spaces.names()) {
-        ColorTransformPtr to = spaces.toRendering(name), from = spaces.fromRendering(name);
+        ColorTransformPtr to = spaces.toRec709(name), from = spaces.fromRec709(name);
         ASSERT_TRUE(to && from) << name;
         if (name != "lin_ciexyzd65") expectNear(converted(to, {1, 1, 1}), {1, 1, 1}, 2e-5f);
         expectNear(converted(from, converted(to, {0.2f, 0.5f, 0.8f})), {0.2f, 0.5f, 0.8f}, 2e-5f);
@@ -113,20 +113,20 @@ TEST(ColorSpaces, AliasesOfMaterialXAndOfUsdAreKnownInAnyCase) {
                              "adobergb",
                              "Utility - sRGB - Texture",
                              "Linear Rec.709 (sRGB)"})
-        EXPECT_TRUE(spaces.toRendering(name)) << name;
+        EXPECT_TRUE(spaces.toRec709(name)) << name;
     for (const char* data :
          {"raw", "RAW", "none", "Non-Color", "data", "identity", "", "unknown"}) {
-        ASSERT_TRUE(spaces.toRendering(data)) << data;
-        EXPECT_TRUE(spaces.toRendering(data)->isIdentity()) << data;
+        ASSERT_TRUE(spaces.toRec709(data)) << data;
+        EXPECT_TRUE(spaces.toRec709(data)->isIdentity()) << data;
     }
-    EXPECT_FALSE(spaces.toRendering("no such space"));
-    EXPECT_TRUE(spaces.toRendering("lin_rec709")->isIdentity());
+    EXPECT_FALSE(spaces.toRec709("no such space"));
+    EXPECT_TRUE(spaces.toRec709("lin_rec709")->isIdentity());
 }
 
 TEST(ColorSpaces, TransformsLeaveWhatFollowsTheColour) {
     ColorSpaces spaces;
     float pixels[] = {0.5f, 0.5f, 0.5f, 0.25f, 9.0f, 0.5f, 0.5f, 0.5f, 0.75f, 7.0f};
-    spaces.toRendering("sRGB")->apply(pixels, 2, 5);
+    spaces.toRec709("sRGB")->apply(pixels, 2, 5);
     EXPECT_NEAR(pixels[0], srgbToLinear(0.5), 1e-6);
     EXPECT_NEAR(pixels[7], srgbToLinear(0.5), 1e-6);
     EXPECT_EQ(pixels[3], 0.25f);
@@ -171,17 +171,17 @@ TEST(ColorSpaces, AConfigurationOfTheUsersComesFirstAndIsBridged) {
            "0, 0, 0, 0, 1]}\n";
     ColorSpaces user(file), builtin;
     std::remove(file.c_str());
-    ASSERT_TRUE(user.toRendering("Twice"));
+    ASSERT_TRUE(user.toRec709("Twice"));
     glm::vec3 c(0.2f, 0.4f, 0.6f);
-    expectNear(converted(user.toRendering("Twice"), c),
-               2.0f * converted(builtin.toRendering("lin_ap0"), c), 1e-4f);
-    expectNear(converted(user.toRendering("Working"), c),
-               converted(builtin.toRendering("acescg"), c), 1e-4f);
-    ASSERT_TRUE(user.toRendering("sRGB"));
-    expectNear(converted(user.toRendering("sRGB"), c), converted(builtin.toRendering("sRGB"), c),
+    expectNear(converted(user.toRec709("Twice"), c),
+               2.0f * converted(builtin.toRec709("lin_ap0"), c), 1e-4f);
+    expectNear(converted(user.toRec709("Working"), c),
+               converted(builtin.toRec709("acescg"), c), 1e-4f);
+    ASSERT_TRUE(user.toRec709("sRGB"));
+    expectNear(converted(user.toRec709("sRGB"), c), converted(builtin.toRec709("sRGB"), c),
                1e-6f);
     EXPECT_EQ(user.displays(), std::vector<std::string>{"Mine"});
-    expectNear(converted(user.display(), c), converted(builtin.fromRendering("acescg"), c), 1e-4f);
+    expectNear(converted(user.display(), c), converted(builtin.fromRec709("acescg"), c), 1e-4f);
 }
 
 TEST(ColorSpaces, AConfigurationIsARegularFile) {

@@ -74,7 +74,7 @@ TEST(ColorValues, WideGamutsAreThoseOfTextures) {
         const glm::vec3 value = linear(name, c, problem);
         EXPECT_EQ(problem, "") << name;
         glm::vec3 texel = c;
-        const ColorTransformPtr transform = ColorSpaces::shared().toRendering(name);
+        const ColorTransformPtr transform = ColorSpaces::shared().toRec709(name);
         ASSERT_TRUE(transform) << name;
         transform->apply(&texel.x, 1, 3);
         expectNear(value, texel, 1e-6f, name);

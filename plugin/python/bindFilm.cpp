@@ -110,6 +110,12 @@ Outliers outliersFrom(const std::string& name) {
     throw py::value_error("outliers are kept or spread: 'keep' or 'spread', not '" + name + "'");
 }
 
+const RenderingSpace& renderingSpaceOf(const std::string& name) {
+    const RenderingSpace* space = RenderingSpace::find(name);
+    if (!space) throw py::value_error("there is no linear colour space '" + name + "'");
+    return *space;
+}
+
 ImageOptions optionsFrom(const py::dict& dict) {
     ImageOptions o;
     const std::map<std::string, std::function<void(const py::handle&)>> fields = {
@@ -127,6 +133,8 @@ ImageOptions optionsFrom(const py::dict& dict) {
         {"integer_ids", [&](auto& v) { o.integerIds = v.template cast<bool>(); }},
         {"compression", [&](auto& v) { o.compression = v.template cast<std::string>(); }},
         {"bits", [&](auto& v) { o.bits = v.template cast<int>(); }},
+        {"rendering_color_space",
+         [&](auto& v) { o.renderingSpace = &renderingSpaceOf(v.template cast<std::string>()); }},
         {"display", [&](auto& v) { o.display = v.template cast<std::string>(); }},
         {"view", [&](auto& v) { o.view = v.template cast<std::string>(); }},
         {"raw", [&](auto& v) { o.raw = v.template cast<bool>(); }},
@@ -188,12 +196,13 @@ void writeArray(const std::string& path, const FloatArray& pixels,
 
 using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
-py::object colorsToRendering(const Floats& colors, const std::string& space) {
+py::object colorsToRendering(const Floats& colors, const std::string& space,
+                             const std::string& rendering) {
     if (colors.ndim() != 2 || colors.shape(1) < 3)
         throw py::value_error("colours are rows of at least three numbers");
     std::vector<float> values(colors.data(), colors.data() + colors.size());
-    if (!ColorSpaces::shared().valueToRendering(space, values.data(), size_t(colors.shape(0)),
-                                                int(colors.shape(1))))
+    if (!ColorSpaces::shared().valueToRendering(space, renderingSpaceOf(rendering), values.data(),
+                                                size_t(colors.shape(0)), int(colors.shape(1))))
         return py::none();
     return arrayOf<float>(std::move(values), {size_t(colors.shape(0)), size_t(colors.shape(1))});
 }
@@ -333,16 +342,29 @@ void bindFilm(py::module_& m) {
         "Names of colour spaces that colours and textures may have.");
     m.def(
         "color_to_rendering",
-        [](std::vector<float> numbers, const std::string& space) -> py::object {
+        [](std::vector<float> numbers, const std::string& space,
+           const std::string& rendering) -> py::object {
             if (numbers.size() < 3) throw py::value_error("a colour has at least three numbers");
-            if (!ColorSpaces::shared().valueToRendering(space, numbers.data())) return py::none();
+            if (!ColorSpaces::shared().valueToRendering(space, renderingSpaceOf(rendering),
+                                                        numbers.data()))
+                return py::none();
             return py::cast(numbers);
         },
-        py::arg("numbers"), py::arg("color_space"),
-        "A colour value in linear Rec.709, as materials take it: three numbers are converted, what "
+        py::arg("numbers"), py::arg("color_space"), py::arg("rendering") = "",
+        "A colour value in the rendering space (linear Rec.709): three numbers are converted, what "
         "follows them stays. None for an unknown space.");
     m.def("colors_to_rendering", &colorsToRendering, py::arg("colors"), py::arg("color_space"),
+          py::arg("rendering") = "",
           "The same for an array of colours, one a row of three or more numbers.");
+    m.def(
+        "rendering_space",
+        [](const std::string& name) -> py::object {
+            const RenderingSpace* space = RenderingSpace::find(name);
+            return space ? py::cast(space->name) : py::none();
+        },
+        py::arg("name"),
+        "The configuration's spelling of a linear colour space, '' for linear Rec.709, None where "
+        "light cannot be added in it.");
 }
 
 } // namespace patina

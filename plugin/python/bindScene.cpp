@@ -189,6 +189,17 @@ void bindScene(py::module_& m) {
         .def("set_meters_per_unit", &PythonEdit::setMetersPerUnit, py::arg("meters_per_unit"),
              "Length of a scene unit in metres, above 0.")
         .def(
+            "set_rendering_color_space",
+            [](PythonEdit& edit, const std::string& name) {
+                const RenderingSpace* space = RenderingSpace::find(name);
+                if (!space)
+                    throw py::value_error("there is no linear colour space '" + name + "'");
+                edit.setRenderingSpace(*space);
+            },
+            py::arg("name"),
+            "The linear space in which colours of lights and primvars are given, '' for Rec.709. "
+            "Give them anew after it has changed.")
+        .def(
             "remove", [](PythonEdit& edit, const std::string& path) { edit.remove(path); },
             py::arg("path"), "Removes the prim with that path, of whatever kind, if there is one.")
         .def("clear", &PythonEdit::clear, "Removes everything that was there before.")

@@ -80,7 +80,8 @@ an unknown keyword is a TypeError, a value of the wrong shape a ValueError
     set_light(path, type=, transform=, ...)
     set_camera(path, transform=, ...)
     set_material(path, network)
-    set_meters_per_unit(x), remove(path), clear(), commit(), warn(prim, input, id, *fields)
+    set_meters_per_unit(x), set_rendering_color_space(name)
+    remove(path), clear(), commit(), warn(prim, input, id, *fields)
 
 Arrays are anything that has the buffer protocol (numpy, pxr.Vt) and are copied once.
 Matrices are those of Gf: 16 numbers row by row, the translation last.

@@ -15,7 +15,7 @@ TEST(Wavelengths, WhatAllHaveInCommonStaysAsItIs) {
     glm::dvec3 sum(0.0);
     float last = 0.0f;
     for (int i = 0; i < n; ++i) {
-        const Wavelengths::Drawn drawn = Wavelengths::get().draw((float(i) + 0.5f) / float(n));
+        const Wavelengths::Drawn drawn = Wavelengths::of().draw((float(i) + 0.5f) / float(n));
         EXPECT_GE(drawn.nm, last);
         last = drawn.nm;
         sum += glm::dvec3(drawn.weight);
@@ -30,10 +30,10 @@ TEST(Wavelengths, WhatAllHaveInCommonStaysAsItIs) {
 TEST(Wavelengths, TheyAreDrawnByWhatChannelsSee) {
     // The share of draws below a wavelength is the mean share of what channels see below it.
     for (const float u : {0.1f, 0.35f, 0.6f, 0.9f}) {
-        const float nm = Wavelengths::get().draw(u).nm;
+        const float nm = Wavelengths::of().draw(u).nm;
         double below = 0.0;
         for (float x = 380.0f + 0.05f; x < nm; x += 0.1f) {
-            const vec3 s = Wavelengths::get().sensitivity(x);
+            const vec3 s = Wavelengths::of().sensitivity(x);
             below += 0.1 * double(s.x + s.y + s.z) / 3.0;
         }
         EXPECT_NEAR(below, u, 2e-3); // a step of 0.1 nm sees 0.001 at most

@@ -146,3 +146,20 @@ TEST_F(LightsOfHosts, AShutterThatOpensLaterBlursAllThatMoves) {
     EXPECT_EQ(later, dumpScene(*state()));
     EXPECT_FALSE(param().takeShutterWidened());
 }
+
+TEST_F(LightsOfHosts, AnotherRenderingSpaceReadsAllColoursAgain) {
+    const SdfPath light("/light");
+    const vec3 given(0.7f, 0.2f, 0.1f);
+    scene->lightParams[{light, HdLightTokens->color}] = VtValue(GfVec3f(0.7f, 0.2f, 0.1f));
+    syncSprim(sphereLight, light);
+    EXPECT_EQ(state()->lights.find("/light")->second->color, given);
+    const RenderingSpace& aces = *RenderingSpace::find("acescg");
+    param().setRenderingSpace(aces);
+    readAgain(*index, param());
+    EXPECT_EQ(state()->renderingSpace, &aces);
+    EXPECT_EQ(state()->lights.find("/light")->second->color, aces.from709(given));
+    EXPECT_FALSE(param().takeRenderingSpaceChanged());
+    param().setRenderingSpace(RenderingSpace::rec709());
+    readAgain(*index, param());
+    EXPECT_EQ(state()->lights.find("/light")->second->color, given);
+}

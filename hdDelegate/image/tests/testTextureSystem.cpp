@@ -146,7 +146,7 @@ TEST_F(Textures, ExplicitColourSpaces) {
                      {std::pow(0.2f, 2.2f), std::pow(0.4f, 2.2f), std::pow(0.8f, 2.2f), 1}, 1e-5f,
                      "g22");
         glm::vec3 wide(0.2f, 0.4f, 0.8f);
-        ColorSpaces::shared().toRendering("acescg")->apply(&wide.x, 1, 3);
+        ColorSpaces::shared().toRec709("acescg")->apply(&wide.x, 1, 3);
         expectMiddle(open(path, "acescg"), glm::vec4(wide, 1), 5e-4f, "acescg");
     }
     EXPECT_EQ(textures.image(open(temp.file("a.png"), "acescg"))->type(), TexelType::Half)
@@ -249,7 +249,7 @@ TEST_F(Textures, ImagesOfLightsAreWithinALimit) {
     writeImage(temp.file("grey.png"), 600, 600, {0.5f},
                OIIO::TypeUInt8); // 360 kB, 4.3 MB as floats
     const auto load = [&] {
-        return loadImageLinear(temp.file("grey.png"), "auto", diagnostics, "/Rect", "texture")
+        return loadImageLinear({temp.file("grey.png"), "auto", "/Rect", "texture"}, diagnostics)
             .valid;
     };
     setLimits({{"textureBytes", 1000000}});
@@ -262,7 +262,7 @@ TEST_F(Textures, ImagesOfLightsAreWithinALimit) {
 TEST_F(Textures, ImagesOfLightsAreAsTheirFilesSay) {
     writeImage(temp.file("half.png"), 1, 1, {0.5f, 0.5f, 0.5f}, OIIO::TypeUInt8);
     const auto load = [&](const char* space) {
-        return loadImageLinear(temp.file("half.png"), space, diagnostics, "/Rect", "texture")
+        return loadImageLinear({temp.file("half.png"), space, "/Rect", "texture"}, diagnostics)
             .pixels.at(0)
             .x;
     };
@@ -365,12 +365,12 @@ TEST_F(Textures, TheFinestLevelAloneHasNoWiderFilters) {
 
 TEST_F(Textures, LinearImagesForLights) {
     writeImage(temp.file("sky.exr"), 4, 2, {0.1f, 5.0f, 0.3f}, OIIO::TypeFloat);
-    ImageRGB image = loadImageLinear(temp.file("sky.exr"), "auto", diagnostics, "/Dome", "texture");
+    ImageRGB image = loadImageLinear({temp.file("sky.exr"), "auto", "/Dome", "texture"}, diagnostics);
     EXPECT_TRUE(image.valid);
     EXPECT_EQ(image.width * 100 + image.height, 402);
     EXPECT_EQ(image.pixels.size(), 8u);
     EXPECT_EQ(image.pixels[7], glm::vec3(0.1f, 5.0f, 0.3f));
-    image = loadImageLinear(temp.file("no.exr"), "auto", diagnostics, "/Dome", "texture");
+    image = loadImageLinear({temp.file("no.exr"), "auto", "/Dome", "texture"}, diagnostics);
     EXPECT_FALSE(image.valid);
     EXPECT_EQ(image.pixels.at(0), glm::vec3(1, 0, 1));
     EXPECT_TRUE(has(onlyMessage(), "/Dome"));

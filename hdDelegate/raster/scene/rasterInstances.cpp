@@ -29,6 +29,7 @@ std::optional<Message> notShownInRaster(const Marked& prim) {
     if (!v.camera && !v.shadow) return {};
     if (!v.camera) return messages::hiddenWithoutShadow;
     if (prim.catching.any()) return messages::catchersShown;
+    if (prim.dielectricPriority > 0) return messages::prioritiesNotRanked;
     const unsigned seenBy = v.mask() & RayIndirect;
     if (seenBy != RayIndirect && seenBy != 0u) return messages::raysNotToldApart;
     return {};

@@ -203,7 +203,8 @@ class _Job:
             frame=shot.frame, purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
             shutter=None if self._blurs(shot) else (0.0, 0.0), headlight=not self.arguments.disableCameraLight,
             motion=any(aov.startswith("motion") for aov in wanted),
-            render_pass=self.arguments.renderPassPrimPath, material_purpose=getattr(self.arguments, "materialPurpose", "full"),
+            render_pass=self.arguments.renderPassPrimPath, rendering_color_space=self.arguments.renderingColorSpace,
+            material_purpose=getattr(self.arguments, "materialPurpose", "full"),
             matte_names=any(aov.startswith("crypto") for aov in wanted))
         with self.scene.edit() as edit:
             edit.clear()

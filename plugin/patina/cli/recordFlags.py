@@ -175,6 +175,9 @@ def _check_display(arguments):
     """Before anything is rendered: an image that has no display transform is lost when it is written."""
     from patina.cli import compiled
 
+    if compiled.load().rendering_space(arguments.renderingColorSpace) is None:
+        raise CommandError(f"--renderingColorSpace: '{arguments.renderingColorSpace}' is no linear colour space (known are: "
+                           f"{', '.join(compiled.load().color_spaces())})")
     if arguments.colorCorrectionMode == "disabled":
         return
     for flag, wanted, known in (("display", arguments.display, lambda m: m.displays()),
@@ -194,7 +197,8 @@ def aovs_of(arguments):
 def image_options_of(arguments):
     """:returns: dict of image options"""
     options = {"half": arguments.half, "compression": arguments.compression, "bits": arguments.bits,
-               "display": arguments.display, "view": arguments.view, "pixel_aspect_ratio": arguments.pixelAspectRatio,
+               "display": arguments.display, "view": arguments.view, "rendering_color_space": arguments.renderingColorSpace,
+               "pixel_aspect_ratio": arguments.pixelAspectRatio,
                "raw": arguments.colorCorrectionMode == "disabled",
                "outliers": arguments.outliers, "aovs": ["color", "alpha"] + aovs_of(arguments)}
     return options

@@ -133,8 +133,8 @@ def applied(arguments, prim):
     _purposes(merged, prim)
     merged.materialPurpose = _material_purpose(prim)
     space = prim.prim.GetAttribute("renderingColorSpace")
-    if space and space.HasAuthoredValue() and space.Get() not in ("", "lin_rec709", "lin_rec709_scene", "lin_srgb"):
-        prim.warn(prim.path, "renderingColorSpace", "renderingSpaceUnknown", space.Get())
+    if space and space.HasAuthoredValue() and "renderingColorSpace" not in prim.given:
+        _rendering_space(merged, prim, "renderingColorSpace", space.Get())
     merged.method = list(arguments.method)
     forced = {text.partition("=")[0] for text in arguments.method}
     for attribute in prim.prim.GetAuthoredAttributes():
@@ -150,6 +150,13 @@ def applied(arguments, prim):
         elif value is not None and key not in prim.given:
             _setting(merged, prim, name, key, value)
     return merged
+
+
+def _rendering_space(merged, prim, name, value):
+    if compiled.load().rendering_space(str(value)) is None:
+        prim.warn(prim.path, name, "renderingSpaceUnknown", value)
+    else:
+        merged.renderingColorSpace = str(value)
 
 
 def _method(merged, prim, name, point, value):

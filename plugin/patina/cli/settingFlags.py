@@ -110,6 +110,8 @@ def _size_parser(row):
 
 def _parser(row):
     """:returns: function of a text, named as argparse's message about a bad value shall call it"""
+    if row.values[0] == "std::string":
+        return str
     whole = _WHOLE.get(row.values[0])
     above = row.words.get("flagAbove", [None])[0]
     least, most = row.words.get("flagRange", row.words.get("range", [-math.inf, math.inf]))

@@ -101,9 +101,11 @@ class Golden:
 
 @dataclasses.dataclass
 class Result:
-    """Of a comparison. `problem`: in words, empty where the picture is the same; `image`: the new one, or None where its
-    first render had the golden bits; `sees`: relative difference that most noisy tiles would show, 0 for equal bits"""
+    """Of a comparison. `problem`: in words, empty where the picture is the same; `outcome`: one of reportPage's; `image`: the
+    new one, or None where its first render had the golden bits; `sees`: relative difference that most noisy tiles would show,
+    0 for equal bits"""
     problem: str = ""
+    outcome: str = "broken"
     image: object = None
     sees: float = 0.0
 
@@ -119,9 +121,9 @@ def compare(stage, scene, golden, draw=render):
     again = draw(stage, FIRST_SEED, scene.arguments)
     if again.shape[1::-1] != golden.size:
         return Result(f"the image is {again.shape[1]} x {again.shape[0]}, the golden one {golden.size[0]} x {golden.size[1]}",
-                      again)
+                      "differs", again)
     if digest(again) == golden.first:
-        return Result()
+        return Result(outcome="equal")
     images = [draw(stage, OTHER_SEEDS + i, scene.arguments) for i in range(scene.renders)]
     interval = welch.compare(welch.tiles(images), golden.means)
     result = Result(image=np.mean(images, axis=0), sees=seen(interval, scene))
@@ -129,8 +131,10 @@ def compare(stage, scene, golden, draw=render):
     if which.any():
         result.problem = (f"{which.any(axis=-1).sum()} of {which[..., 0].size} tiles differ by more than "
                           f"{100 * scene.margin:g} % (significance 1 % for all of them): {interval.worst(which)}")
+        result.outcome = "differs"
     else:
         result.problem = blind(result.sees, scene)
+        result.outcome = "unseen" if result.problem else "same"
     return result
 
 

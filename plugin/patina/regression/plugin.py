@@ -5,6 +5,7 @@
   pytest --patina-scenes FOLDER --patina-update     makes the golden images, or makes them anew
   pytest --patina-scenes FOLDER -k kitchen          one of them
   pytest --patina-scenes FOLDER --renderer Storm    another Hydra delegate's pictures against the same golden images
+  pytest --patina-scenes FOLDER --patina-report report.html    a page about the run, with the pictures
 
 An installed Patina registers the plugin by itself; from a checkout it is `./patina python -m pytest -p
 patina.regression.plugin --patina-scenes FOLDER`. The tests need SciPy.
@@ -12,12 +13,15 @@ patina.regression.plugin --patina-scenes FOLDER`. The tests need SciPy.
 import importlib.util
 import os
 import shlex
+import time
 import warnings
 
 import pytest
 
 from patina.regression.scenes import Folder, SceneError
 
+REPORTED = "patina stage"  # of a test's user properties, which pytest-xdist brings from its processes
+DIFFERENCE = "red: brighter now, blue: darker, full colour from 50 % on"
 HOW = "{pytest} --patina-scenes {folder} -k {name} --patina-update"
 PYTEST = "pytest"  # where Patina is installed
 FROM_CHECKOUT = "{command} python -m pytest -p patina.regression.plugin"
@@ -31,6 +35,7 @@ def pytest_addoption(parser):
                     "of its plugin (HdStormRendererPlugin). With --patina-update the golden images are its own")
     group.addoption("--usdrecord", metavar="COMMAND", default="usdrecord", help="the usdrecord that renders then, with its "
                     "arguments (default: usdrecord)")
+    group.addoption("--patina-report", metavar="FILE", help="write a page (HTML) about the run, with golden and new pictures")
     group.addoption("--patina-out", metavar="FOLDER", help="where images of failed tests go (default: `failed` in the folder)")
 
 
@@ -48,6 +53,10 @@ def pytest_configure(config):
         config.patina_draw = usdrecord.UsdRecord(name, config.getoption("--usdrecord")) if name else golden.render
     except (SceneError, golden.RenderError) as error:
         raise pytest.UsageError(str(error)) from None
+    report = config.getoption("--patina-report")
+    if report and not hasattr(config, "workerinput"):
+        _check_report(report)
+        config.pluginmanager.register(_Report(report, name))
     named = getattr(config, "args_source", None) == pytest.Config.ArgsSource.ARGS
     args = config.args if named or hasattr(config, "workerinput") else []
     if config.patina_folder.path not in args:
@@ -61,8 +70,40 @@ def pytest_collect_directory(path, parent):
     return None
 
 
+def _check_report(path):
+    """Before anything is rendered. :raises pytest.UsageError: where it could not be written"""
+    from patina.cli import outputs
+    from patina.cli.errors import CommandError
+
+    try:
+        outputs.check_all([path])
+    except CommandError as error:
+        raise pytest.UsageError(f"--patina-report: {error}") from None
+
+
+class _Report:
+    """Gathers what tests tell of their stages."""
+
+    def __init__(self, path, renderer):
+        self.path, self.renderer, self.stages = path, renderer, []
+
+    def pytest_runtest_logreport(self, report):
+        if report.when == "call":
+            self.stages += [dict(value, seconds=report.duration) for name, value in report.user_properties if name == REPORTED]
+
+    def pytest_sessionfinish(self):
+        from patina.regression import reportPage
+
+        reportPage.write(self.path, self.stages, [("renderer", self.renderer)] if self.renderer else [])
+
+    def pytest_terminal_summary(self, terminalreporter):
+        terminalreporter.write_line(f"patina: {self.path} has {len(self.stages)} stages with their pictures")
+
+
 class SceneFailure(Exception):
-    pass
+    def __init__(self, text, outcome="broken"):
+        super().__init__(text)
+        self.outcome = outcome
 
 
 class SceneWarning(UserWarning):
@@ -83,25 +124,56 @@ class _Stage(pytest.Item):
     def runtest(self):
         from patina.regression import golden
 
+        told = {"name": self.name, "outcome": "broken", "text": "", "pictures": []}
+        self.user_properties.append((REPORTED, told))
+        try:
+            self._run(golden, told)
+        except golden.RenderError as error:
+            told["text"] = str(error)
+            raise SceneFailure(str(error)) from None
+        except SceneFailure as failure:
+            told.update(outcome=failure.outcome, text=str(failure))
+            raise
+
+    def _run(self, golden, told):
         folder = self.config.patina_folder
         stage, scene = os.path.join(folder.path, *self.name.split("/")), folder.scene(self.name)
         kept = folder.golden(self.name, ".npz")
-        try:
-            if self.config.getoption("--patina-update"):
-                made, image, problem = golden.Golden.made(stage, scene, self.config.patina_draw)
-                made.write(kept)
-                _write(folder.golden(self.name, ".exr"), image)
-                if problem:
-                    warnings.warn(SceneWarning(f"{self.name}: {problem}"))
-                return
-            if not os.path.exists(kept):
-                raise SceneFailure(f"there is no golden image; make it, and look at it: {self._how()}")
-            result = golden.compare(stage, scene, golden.Golden.read(kept), self.config.patina_draw)
-        except golden.RenderError as error:
-            raise SceneFailure(str(error)) from None
+        if self.config.getoption("--patina-update"):
+            made, image, problem = golden.Golden.made(stage, scene, self.config.patina_draw)
+            made.write(kept)
+            _write(folder.golden(self.name, ".exr"), image)
+            told.update(outcome="made", text=problem)
+            self._show(told, folder, None)
+            if problem:
+                warnings.warn(SceneWarning(f"{self.name}: {problem}"))
+            return
+        if not os.path.exists(kept):
+            raise SceneFailure(f"there is no golden image; make it, and look at it: {self._how()}", "missing")
+        result = golden.compare(stage, scene, golden.Golden.read(kept), self.config.patina_draw)
+        self._show(told, folder, result.image)
         if result.problem:
             raise SceneFailure("\n".join([result.problem, *self._pictures(folder, result.image),
-                                          f"if the new one is right: {self._how()}"]))
+                                          f"if the new one is right: {self._how()}"]), result.outcome)
+        told["outcome"] = result.outcome
+        if result.image is not None:
+            told["text"] = f"a tile that differs by {100 * result.sees:.2g} % would show in most places"
+
+    def _show(self, told, folder, image):
+        """Puts the pictures of a stage into what is told of it, where there is a page."""
+        if not self.config.getoption("--patina-report"):
+            return
+        from patina.chart.scenePage import signed
+        from patina.regression import golden, reportPage
+
+        kept = folder.golden(self.name, ".exr")
+        before = golden.color_of(kept) if os.path.exists(kept) else None
+        if before is not None:
+            told["pictures"].append(reportPage.picture("golden", before))
+        if image is not None:
+            told["pictures"].append(reportPage.picture("new", image))
+        if before is not None and image is not None and before.shape == image.shape:
+            told["pictures"].append(reportPage.picture(DIFFERENCE, signed(image, before)))
 
     def _how(self):
         command = os.environ.get("PATINA_COMMAND")  # of the launcher
@@ -129,7 +201,7 @@ class _Stage(pytest.Item):
             if pixels.shape == image.shape:
                 picture = path[:-len(".exr")] + ".difference.png"
                 _write(picture, signed(image, pixels))
-                lines.append(f"difference: {picture} (red: brighter now, blue: darker, full colour from 50 % on)")
+                lines.append(f"difference: {picture} ({DIFFERENCE})")
         return lines
 
     def repr_failure(self, excinfo, style=None):

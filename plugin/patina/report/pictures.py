@@ -23,7 +23,7 @@ def step_of(width, height):
 def shown(module, film, options):
     """:param options: of the image's file
     :returns: data URI of the colour as a display shows it"""
-    plain = {name: options[name] for name in ("display", "view", "raw") if name in options}
+    plain = {name: options[name] for name in ("display", "view", "raw", "rendering_color_space") if name in options}
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "color.png")
         module.write_images(film, path, dict(plain, aovs=["color", "alpha"], bits=8))

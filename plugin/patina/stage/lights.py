@@ -109,15 +109,17 @@ def _color(context, prim, name):
     value = attribute.Get(context.time) if attribute else _input(context, prim, name)
     color = vector(context, prim, "inputs:" + name, None, value)
     space = context.color_spaces.space_of(attribute) if color and attribute and attribute.HasAuthoredValue() else ""
-    if not space:
+    rendering = context.options.rendering_color_space
+    if not color or not space and not rendering:
         return color
     import _patina
 
-    converted = _patina.color_to_rendering(list(color), space)
+    converted = _patina.color_to_rendering(list(color), space, rendering)
     if converted is None:
         context.warn(prim.GetPath(), "inputs:" + name, "valueSpaceUnknown", space)
         return color
-    return tuple(max(x, 0.0) for x in converted)  # of what Rec.709 does not reach
+    # Of what the rendering space does not reach. A light that takes light away has no space of its own.
+    return tuple(max(x, 0.0) for x in converted) if space else converted
 
 
 def _source_of(attribute):

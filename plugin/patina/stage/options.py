@@ -16,6 +16,7 @@ class StageOptions:
     shutter: (open, close) in time codes relative to the frame; None takes the camera's
     motion: also read where things are a frame before and after, for the AOVs of motion
     headlight: light a stage that has no lights
+    rendering_color_space: linear space of the scene's colours; '' is linear Rec.709
     render_pass: path of a UsdRenderPass, whose collections say what is drawn
     matte_names: native instances get names of their own, for Cryptomatte
     material_purpose: whose bindings are looked at before those for all purposes: full, preview, or '' for these alone
@@ -30,6 +31,7 @@ class StageOptions:
     material_purpose: str = "full"
     matte_names: bool = False
     render_pass: object = None
+    rendering_color_space: str = ""
 
     @property
     def refine_level(self):

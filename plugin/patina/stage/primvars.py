@@ -78,15 +78,15 @@ def text(context, prim, inherited, name):
 
 
 def in_rendering_space(context, prim, attribute, values):
-    """:returns: the values, in linear Rec.709 where the attribute or a prim above says their colour space"""
+    """:returns: the values: colours, and what says its colour space, are of the rendering space"""
     if values.ndim != 2 or values.shape[1] not in (3, 4) or values.dtype.kind != "f":
         return values
-    space = context.color_spaces.space_of(attribute)
-    if not space:
+    space, rendering = context.color_spaces.space_of(attribute), context.options.rendering_color_space
+    if not space and not (rendering and attribute.GetRoleName() == "Color"):
         return values
     import _patina
 
-    converted = _patina.colors_to_rendering(values, space)
+    converted = _patina.colors_to_rendering(values, space, rendering)
     if converted is None:
         context.warn(prim.GetPath(), attribute.GetName(), "valuesSpaceUnknown", space)
         return values

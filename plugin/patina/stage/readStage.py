@@ -39,6 +39,7 @@ def _read(context):
     for path, text in mtlxFiles.supply(context, stage, errors, _patina):
         context.warn(path, "", "compositionError", text)
     edit.set_meters_per_unit(UsdGeom.GetStageMetersPerUnit(stage))
+    edit.set_rendering_color_space(context.options.rendering_color_space)
 
     bindings = Bindings(context)
     walked = Walk(context, bindings).run()

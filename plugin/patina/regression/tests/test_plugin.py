@@ -75,6 +75,25 @@ def test_the_way_of_a_scene(folder):
     assert run(folder, "--patina-update")[0] == 0 and run(folder)[0] == 0
 
 
+def test_a_page_tells_of_the_run(folder):
+    (folder / "two.usda").write_text((folder / "one.usda").read_text())
+    page = folder / "report.html"
+    assert run(folder, "--patina-update", "--patina-report", str(page))[0] == 0
+    text = page.read_text()
+    assert "2 stages passed" in text and text.count("<img ") == 2 and "golden images made" in text
+    edit(folder, "(0.5, 0.2, 0.1)", "(0.5, 0.3, 0.1)")
+    (folder / "<three>.usda").write_text("#usda 1.0\n")
+    status, said = run(folder, "--patina-report", str(page))
+    assert status == 1 and "has 3 stages with their pictures" in said
+    text = page.read_text()
+    assert "2 of 3 stages failed" in text and "<script" not in text and "Content-Security-Policy" in text
+    # What failed stands first, with golden and new picture and their difference; names of files are no markup.
+    order = [text.index(part) for part in ("one.usda <span", "tiles differ", "&lt;three&gt;.usda", "two.usda <span")]
+    assert order == sorted(order) and text.count("<img ") == 4 and "<three>" not in text
+    status, said = run(folder, "--patina-report", str(folder / "nowhere" / "report.html"))
+    assert status == 4 and "--patina-report" in said  # before anything is rendered
+
+
 def test_another_noise_is_the_same_picture(folder):
     """The golden renders' own seeds would have their bits; others are judged by the statistics (at most 1 % are rejected)."""
     stage, scene = str(folder / "one.usda"), Folder(folder).scene("one.usda")

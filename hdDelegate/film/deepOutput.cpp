@@ -31,6 +31,9 @@ void writeDeep(const DeepPixels& pixels, const std::string& path, const ImageOpt
     spec.alpha_channel = 3;
     spec.z_channel = 4;
     spec.deep = true;
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
+                   options.renderingSpace->chromaticities.data());
+    spec.attribute("oiio:ColorSpace", "Linear");
     // What else there is does not hold deep scanlines.
     const std::string& packing = options.compression;
     spec.attribute("compression", packing == "none" || packing == "rle" ? packing : "zips");

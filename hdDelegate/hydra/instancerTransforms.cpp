@@ -133,6 +133,7 @@ Part read(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& 
         part.values.push_back(std::move(matrices));
     }
     keepCount(param, id, input, part);
+    goOn(param, part.times, part.values);
     return part;
 }
 
@@ -156,6 +157,9 @@ std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, c
         instancer.times.push_back(own.times[i]);
         instancer.values.push_back({own.values[i]});
     }
+    addNow(param, instancer.times, instancer.values,
+           [&] { return Matrices{delegate.GetInstancerTransform(id)}; });
+    goOn(param, instancer.times, instancer.values);
 
     // Instances are as many as their positions, or as what stands in for these.
     size_t count = 0;
@@ -172,10 +176,7 @@ std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, c
         if (part.times.size() > 1) times.insert(part.times.begin(), part.times.end());
     }
     if (instancer.times.size() > 1) times.insert(instancer.times.begin(), instancer.times.end());
-    if (times.empty())
-        times.insert(0.0f);
-    else if (param.tellsMotion())
-        times.insert({-1.0f, 0.0f, 1.0f}); // turns are not linear from sample to sample
+    if (times.empty()) times.insert(0.0f);
 
     std::vector<float> kept(times.begin(), times.end());
     if (kept.size() > maxTimeSamples) {

@@ -108,6 +108,7 @@ Sampled<std::vector<vec3>> pointsFrom(const HdTimeSampleArray<VtValue, CAPACITY>
         times.push_back(samples.times[i]);
         values.push_back(std::move(points));
     }
+    goOn(param, times, values);
     return inOrder(std::move(times), std::move(values), param, id, "points");
 }
 

@@ -78,21 +78,38 @@ GfVec2f HdPatinaRenderParam::shutter() const {
     return _shutter;
 }
 
+GfVec2f HdPatinaRenderParam::cameraShutter() const {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _cameraShutter;
+}
+
+namespace {
+
+/// @returns whether that made the interval longer
+bool widen(GfVec2f& interval, double open, double close) {
+    const GfVec2f before = interval;
+    const bool first = !(interval[1] > interval[0]);
+    interval[0] = first ? float(open) : std::min(interval[0], float(open));
+    interval[1] = first ? float(close) : std::max(interval[1], float(close));
+    return interval != before;
+}
+
+} // namespace
+
 bool HdPatinaRenderParam::widenShutter(double open, double close) {
     if (!(close > open)) return false;
     std::lock_guard<std::mutex> lock(_mutex);
-    const GfVec2f before = _shutter;
-    const bool first = !(_shutter[1] > _shutter[0]);
-    _shutter[0] = first ? float(open) : std::min(_shutter[0], float(open));
-    _shutter[1] = first ? float(close) : std::max(_shutter[1], float(close));
-    if (_shutter == before) return false;
+    widen(_cameraShutter, open, close);
+    if (!widen(_shutter, open, close)) return false;
     _shutterWidened = true;
     return true;
 }
 
 void HdPatinaRenderParam::tellMotion() {
-    widenShutter(-1.0, 1.0);
-    if (!_tellsMotion.exchange(true)) _shutterWidened = true;
+    if (_tellsMotion.exchange(true)) return;
+    std::lock_guard<std::mutex> lock(_mutex);
+    widen(_shutter, -1.0, 1.0);
+    _shutterWidened = true;
 }
 
 void HdPatinaRenderParam::warn(const SdfPath& prim, const std::string& input, const Message& what) {

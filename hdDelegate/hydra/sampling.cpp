@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/sampling.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace patina {
@@ -29,12 +28,8 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
         values.push_back(m);
     }
     if (values.empty()) return toMat4(before);
-    // Samples may be far apart, and turns are not linear between them: the picture is of this one.
-    const size_t next = size_t(std::lower_bound(times.begin(), times.end(), 0.0f) - times.begin());
-    if (param.tellsMotion() && values.size() > 1 && (next == times.size() || times[next] > 0.0f)) {
-        times.insert(times.begin() + ptrdiff_t(next), 0.0f);
-        values.insert(values.begin() + ptrdiff_t(next), toMat4(before * delegate.GetTransform(id)));
-    }
+    addNow(param, times, values, [&] { return toMat4(before * delegate.GetTransform(id)); });
+    goOn(param, times, values);
     return inOrder(std::move(times), std::move(values), param, id, "transform");
 }
 

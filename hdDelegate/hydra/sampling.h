@@ -5,10 +5,13 @@
 #include "hdDelegate/hydra/renderParam.h"
 #include "hdDelegate/hydra/values.h"
 
+#include <pxr/base/gf/math.h>
 #include <pxr/imaging/hd/sceneDelegate.h>
 #include <pxr/imaging/hd/timeSampleArray.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace patina {
 
@@ -90,6 +93,55 @@ inline void samplePrimvar(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
     delegate.SamplePrimvar(id, name, &samples);
 #endif
     limitSamples(param, id, name.GetString(), samples);
+}
+
+/// A value between two, or beyond them in a straight line.
+template <class T> T between(const T& a, const T& b, double share) {
+    return a * (1.0 - share) + b * share;
+}
+inline vec3 between(const vec3& a, const vec3& b, double share) {
+    return a * float(1.0 - share) + b * float(share);
+}
+template <class T>
+std::vector<T> between(const std::vector<T>& a, const std::vector<T>& b, double share) {
+    if (a.size() != b.size()) return b;
+    std::vector<T> result;
+    result.reserve(a.size());
+    for (size_t i = 0; i < a.size(); ++i)
+        result.push_back(between(a[i], b[i], share));
+    return result;
+}
+
+/// For AOVs of motion: samples that end where the camera's shutter does go on in a straight line to
+/// the frames beside. UsdImagingDelegate has no others, whatever it is asked for.
+template <class T>
+void goOn(HdPatinaRenderParam& param, std::vector<float>& times, std::vector<T>& values) {
+    const GfVec2f own = param.cameraShutter();
+    const size_t n = times.size();
+    if (!param.tellsMotion() || !(own[1] > own[0]) || n < 2 || !(times[n - 1] > times[n - 2]) ||
+        !(times[1] > times[0]))
+        return;
+    const auto shareAt = [&](size_t i, float time) {
+        return double(time - times[i]) / double(times[i + 1] - times[i]);
+    };
+    if (GfIsClose(times.back(), own[1], 1e-5) && own[1] < 1.0f) {
+        values.push_back(between(values[n - 2], values[n - 1], shareAt(n - 2, 1.0f)));
+        times.push_back(1.0f);
+    }
+    if (GfIsClose(times.front(), own[0], 1e-5) && own[0] > -1.0f) {
+        values.insert(values.begin(), between(values[0], values[1], shareAt(0, -1.0f)));
+        times.insert(times.begin(), -1.0f);
+    }
+}
+
+/// For AOVs of motion: samples may be far apart, and turns are not linear between them; the picture
+/// is of the frame's own.
+template <class T, class F> void addNow(HdPatinaRenderParam& param, std::vector<float>& times,
+                                        std::vector<T>& values, const F& now) {
+    const auto next = std::lower_bound(times.begin(), times.end(), 0.0f);
+    if (!param.tellsMotion() || values.size() < 2 || (next != times.end() && *next == 0.0f)) return;
+    values.insert(values.begin() + (next - times.begin()), now());
+    times.insert(next, 0.0f);
 }
 
 /// sampledOf(), with a warning where the times of a host are out of order.

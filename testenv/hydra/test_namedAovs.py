@@ -70,8 +70,8 @@ def whole(*numbers):
     return np.broadcast_to(numbers, (SIZE, SIZE, len(numbers)))
 
 
-@MODES
-@pytest.mark.parametrize("shutter", [(0, 0), (-0.25, 0.25)])
+# UsdImagingDelegate samples while the shutter is open, and not beyond.
+@pytest.mark.parametrize("scene_index,shutter", [(True, (0, 0)), (True, (-0.25, 0.25)), (False, (-0.25, 0.25))])
 def test_motion_of_camera_and_prim(tmp_path, scene_index, shutter):
     """The camera goes right by 0.5 a frame; the sheet goes up, by 1 before the frame and by 2 after it."""
     camera = ('double3 xformOp:translate.timeSamples = {0: (-2.5, 0, 0), 10: (2.5, 0, 0)}\n'
@@ -83,11 +83,11 @@ def test_motion_of_camera_and_prim(tmp_path, scene_index, shutter):
     assert vectors(channels, "motionBack") == pytest.approx(whole(0.5 * PIXELS, PIXELS), abs=ROUNDING)
 
 
-@MODES
-def test_motion_of_points(tmp_path, scene_index):
+@pytest.mark.parametrize("scene_index,shutter", [(True, (0, 0)), (False, (-0.25, 0.25))])
+def test_motion_of_points(tmp_path, scene_index, shutter):
     later = CORNERS.replace("-20, -20", "-19, -20").replace("(20", "(21").replace("-20, 20", "-19, 20")
     moves = quad(points=f".timeSamples = {{5: {CORNERS}, 6: {later}}}")
-    channels, _ = render(tmp_path, moves, ("motionFore", "motionBackward"), scene_index)
+    channels, _ = render(tmp_path, moves, ("motionFore", "motionBackward"), scene_index, shutter=shutter)
     assert vectors(channels, "motionFore") == pytest.approx(whole(PIXELS, 0.0), abs=ROUNDING)
     assert np.abs(vectors(channels, "motionBackward")).max() < ROUNDING
 

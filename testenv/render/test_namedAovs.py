@@ -400,3 +400,14 @@ def test_equal_spheres_that_share_their_triangles(tmp_path, backend):
         pixels = SIZE / -place[:, 2:]
         assert vectors(channels, "motionForward")[seen] == pytest.approx(pixels * (0, -0.05 * i), abs=rounding({}))
         assert vectors(channels, "motionBackward")[seen] == pytest.approx(pixels * (-0.1 * i, 0), abs=rounding({}))
+
+
+def test_the_rasterizer_has_targets_for_three_primvars_beside_the_normal(tmp_path):
+    values = "\n        ".join(f"float3 primvars:{name} = (0.25, 0.5, 0.75)" for name in "abcd")
+    aovs = ("Ng", *(f"primvars:{name}" for name in "abcd"))
+    channels, report = render(tmp_path, stage_text(quad(values)), aovs, "raster")
+    for name in "abc":
+        assert vectors(channels, f"primvars:{name}", "XYZ") == pytest.approx(
+            np.broadcast_to((0.25, 0.5, 0.75), (SIZE, SIZE, 3)), abs=1e-6)
+    assert vectors(channels, "Ng", "XYZ") == pytest.approx(np.broadcast_to((0.0, 0.0, 1.0), (SIZE, SIZE, 3)), abs=1e-6)
+    assert [(w["id"], w["fields"]["name"]) for w in report["warnings"]] == [("primvarAovEmpty", "d")]

@@ -101,7 +101,7 @@ TEST_F(LyingHost, SaysOnceWhatIsWrongWithAName) {
     EXPECT_EQ(warnings.texts.size(), 1u);
 }
 
-TEST_F(LyingHost, BindsWhatOnlyFilesHold) {
+TEST_F(LyingHost, BindsWhatHasSeveralLayers) {
     // So many ids are 4, 12 and 32 floats a pixel; rows of a buffer have four.
     for (int levels : {1, 6, 16}) {
         open(2);
@@ -117,7 +117,7 @@ TEST_F(LyingHost, BindsWhatOnlyFilesHold) {
         Warnings warnings;
         ASSERT_TRUE(converges());
         execute();
-        EXPECT_EQ(warnings.of("is written to files alone; its buffer stays empty"), 3);
+        EXPECT_EQ(warnings.of("has several layers; its buffer stays empty"), 3);
         EXPECT_TRUE(showsSky(color));
         for (size_t i = buffers.size() - 3; i < buffers.size(); ++i) {
             const std::vector<float> found = pixels(buffers[i]);

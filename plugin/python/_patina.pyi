@@ -129,6 +129,15 @@ class SceneEdit:
         A UsdGeomPoints; keywords are the fields of Points.
         Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, points.
         """
+    def set_rendering_color_space(self, name: str) -> None:
+        """
+        The linear space in which colours of lights and primvars are given, '' for Rec.709. Give them anew after it has changed.
+        """
+    def set_splats(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdVolParticleField3DGaussianSplat; orientations are quaternions, the real part first.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, positions, orientations, scales, opacities, degree, harmonics, color_space.
+        """
     def set_tet_mesh(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomTetMesh; tets are four indices of points each, surface three or nothing.
@@ -487,11 +496,11 @@ def color_spaces() -> list[str]:
     """
     Names of colour spaces that colours and textures may have.
     """
-def color_to_rendering(numbers: list[float], color_space: str) -> typing.Any:
+def color_to_rendering(numbers: list[float], color_space: str, rendering: str = '') -> typing.Any:
     """
-    A colour value in linear Rec.709, as materials take it: three numbers are converted, what follows them stays. None for an unknown space.
+    A colour value in the rendering space (linear Rec.709): three numbers are converted, what follows them stays. None for an unknown space.
     """
-def colors_to_rendering(colors: numpy.typing.ArrayLike, color_space: str) -> typing.Any:
+def colors_to_rendering(colors: numpy.typing.ArrayLike, color_space: str, rendering: str = '') -> typing.Any:
     """
     The same for an array of colours, one a row of three or more numbers.
     """
@@ -638,6 +647,10 @@ def read_image(path: str) -> ImageData:
 def read_mtlx(path: str, warnings: typing.Any = None, meters_per_unit: float = 1.0) -> list[Network]:
     """
     The materials of a MaterialX document. Warnings are appended to the list. Distances that have a unit become units of a scene with so many metres in each.
+    """
+def rendering_space(name: str) -> typing.Any:
+    """
+    The configuration's spelling of a linear colour space, '' for linear Rec.709, None where light cannot be added in it.
     """
 def set_denoiser_library(path: str) -> None:
     """

@@ -58,6 +58,7 @@ public:
     bool widenShutter(double open, double close);
     /// AOVs tell motion: prims are sampled a frame before and after from now on, too.
     void tellMotion();
+    GfVec2f cameraShutter() const; ///< shutter(), as cameras alone ask for
     bool tellsMotion() const { return _tellsMotion; }
     /// @returns whether it did since the last call
     bool takeShutterWidened() { return _shutterWidened.exchange(false); }
@@ -96,10 +97,10 @@ private:
     std::unique_ptr<HdPatinaInstances> _instances;
     HdPatinaDirtiedPrimvars _dirtiedPrimvars;
     HdPatinaDocumentNodes _documentNodes;
-    GfVec2f _shutter{0.0f};
+    GfVec2f _shutter{0.0f}, _cameraShutter{0.0f};
     std::atomic<const RenderingSpace*> _renderingSpace{&RenderingSpace::rec709()};
-    std::atomic<bool> _shutterWidened{false}, _linksChanged{false}, _renderingSpaceChanged{false},
-        _tellsMotion{false};
+    std::atomic<bool> _shutterWidened{false}, _linksChanged{false}, _renderingSpaceChanged{false};
+    std::atomic<bool> _tellsMotion{false};
     std::map<SdfPath, std::set<SdfPath>> _readers; ///< by what they read
     std::set<SdfPath> _changed;                    ///< of what is read
     size_t _reported = 0;                          ///< diagnostics that the host was told

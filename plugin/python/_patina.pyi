@@ -133,6 +133,11 @@ class SceneEdit:
         """
         The linear space in which colours of lights and primvars are given, '' for Rec.709. Give them anew after it has changed.
         """
+    def set_splats(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdVolParticleField3DGaussianSplat; orientations are quaternions, the real part first.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, positions, orientations, scales, opacities, degree, harmonics, color_space.
+        """
     def set_tet_mesh(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomTetMesh; tets are four indices of points each, surface three or nothing.

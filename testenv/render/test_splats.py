@@ -13,6 +13,7 @@ pytest.importorskip("pxr.UsdVol").__dict__.get("ParticleField3DGaussianSplat") o
 from pxr import Gf, Sdf, UsdGeom  # noqa: E402
 from scipy.spatial.transform import Rotation  # noqa: E402
 
+from inProcess import Stage, needs_opengl  # noqa: E402
 from rendering import pixels, record  # noqa: E402
 from splatStages import (COLOR, CUT, END, FLOAT, Cloud, basis, dome, floor, new_stage, place, random_cloud, rays,  # noqa: E402
                          sharp_image, sun)
@@ -418,6 +419,17 @@ def test_a_transform_without_an_inverse_is_told(tmp_path):
     images, rendered = sharp_image(stage, tmp_path, 4)
     assert not images["alpha"].any()
     assert any("/splats: has no inverse" in text or "no inverse" in text for text in rendered.warnings())
+
+
+def test_the_rasterizer_leaves_them_out_and_tells(tmp_path):
+    needs_opengl()
+    stage = new_stage()
+    Cloud([0, 0, 0], 0.3).define(stage)
+    dome(stage)
+    stage.Export(str(tmp_path / "stage.usda"))
+    rendered = Stage(tmp_path / "stage.usda", "--camera", "/camera", "--imageWidth", 8, "--backend", "raster", "--samples", 1)
+    assert rendered.image() == pytest.approx(1.0, abs=1e-3)  # the sky
+    assert any(text.endswith("/splats: is not drawn by the rasterizer") for text in rendered.warnings()), rendered.warnings()
 
 
 def test_several_hundred_thousand(tmp_path):

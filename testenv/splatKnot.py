@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A knot of Gaussian splats over a floor that mirrors: ./patina python testenv/splatKnot.py FILE.usdc writes the stage.
+
+Its kernels lie flat on the knot, as those of captures lie on what was seen. Band 1 of their harmonics is a highlight."""
+import os
+import sys
+
+import numpy as np
+from pxr import Gf, Usd, UsdGeom, UsdLux, UsdShade
+from scipy.spatial.transform import Rotation
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "render"))
+from splatStages import COLOR, DC, FLOAT, Cloud  # noqa: E402
+
+SUN = np.array([0.4, 0.8, 0.45])
+
+
+def curve(t):
+    r = 1 + 0.35 * np.cos(3 * t)
+    return np.stack([r * np.cos(2 * t), 0.35 * np.sin(3 * t), r * np.sin(2 * t)], -1)
+
+
+def unit(vectors):
+    return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+
+
+def knot(count):
+    random = np.random.default_rng(4)
+    t, around = random.uniform(0, 2 * np.pi, (2, count))
+    along = unit(curve(t + 1e-3) - curve(t - 1e-3))
+    across = unit(np.cross(along, [0, 1, 0.01]))
+    normals = np.cos(around)[:, None] * across + np.sin(around)[:, None] * np.cross(along, across)
+    turns = Rotation.from_matrix(np.stack([along, np.cross(normals, along), normals], -1))
+    scales = np.stack([random.uniform(0.03, 0.06, count), random.uniform(0.012, 0.03, count), np.full(count, 0.004)], -1)
+    colors = 0.5 + 0.5 * np.cos(t[:, None] + 2 * np.pi * np.array([0, 0.33, 0.67]))
+    light = np.clip(normals @ SUN, 0, 1)[:, None]
+    mirrored = 2 * (normals @ SUN)[:, None] * normals - SUN
+    harmonics = np.zeros((count, 4, 3))
+    harmonics[:, 0] = (colors * (0.15 + 0.75 * light) - 0.5) / DC
+    for band, axis, sign in ((1, 1, 1), (2, 2, -1), (3, 0, 1)):
+        harmonics[:, band] = 0.25 * sign * light * mirrored[:, [axis]]
+    return Cloud(curve(t) + 0.14 * normals, scales, random.uniform(0.6, 1, count), turns=turns, coefficients=harmonics)
+
+
+def write(path, count=10000):
+    stage = Usd.Stage.CreateNew(path)
+    UsdGeom.SetStageUpAxis(stage, "Y")
+    camera = UsdGeom.Camera.Define(stage, "/camera")
+    camera.CreateFocalLengthAttr(40.0)
+    camera.CreateHorizontalApertureAttr(32.0)
+    camera.CreateVerticalApertureAttr(20.0)
+    camera.CreateClippingRangeAttr(Gf.Vec2f(0.1, 100))
+    view = Gf.Matrix4d().SetLookAt(Gf.Vec3d(0, 1.9, 4.6), Gf.Vec3d(0, -0.12, 0), Gf.Vec3d(0, 1, 0))
+    UsdGeom.Xformable(camera).MakeMatrixXform().Set(view.GetInverse())
+    knot(count).define(stage, "/knot", half=True)
+    floor = UsdGeom.Mesh.Define(stage, "/floor")
+    floor.CreatePointsAttr([(-6, -0.75, 6), (6, -0.75, 6), (6, -0.75, -6), (-6, -0.75, -6)])
+    floor.CreateFaceVertexCountsAttr([4])
+    floor.CreateFaceVertexIndicesAttr([0, 1, 2, 3])
+    material = UsdShade.Material.Define(stage, "/stone")
+    shader = UsdShade.Shader.Define(stage, "/stone/surface")
+    shader.SetShaderId("ND_standard_surface_surfaceshader")
+    for name, kind, value in (("base_color", COLOR, (0.35, 0.37, 0.4)), ("specular_roughness", FLOAT, 0.06),
+                              ("specular_IOR", FLOAT, 1.8)):
+        shader.CreateInput(name, kind).Set(value)
+    material.CreateSurfaceOutput("mtlx").ConnectToSource(shader.ConnectableAPI(), "out")
+    UsdShade.MaterialBindingAPI.Apply(floor.GetPrim()).Bind(material)
+    sky, sun = UsdLux.DomeLight.Define(stage, "/sky"), UsdLux.DistantLight.Define(stage, "/sun")
+    sky.CreateIntensityAttr(0.35)
+    sky.CreateColorAttr(Gf.Vec3f(0.75, 0.85, 1))
+    sun.CreateIntensityAttr(2.2)
+    sun.CreateAngleAttr(3.0)
+    UsdGeom.Xformable(sun).AddRotateXYZOp().Set((-55, 35, 0))
+    stage.Save()
+
+
+if __name__ == "__main__":
+    write(sys.argv[1])

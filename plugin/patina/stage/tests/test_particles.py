@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """UsdVolParticleField3DGaussianSplat: its arrays of floats and halves, and their fallbacks."""
 import pytest
-from conftest import floats
 from pxr import UsdVol
 
 if not hasattr(UsdVol, "ParticleField3DGaussianSplat"):
@@ -15,7 +14,7 @@ def ParticleField3DGaussianSplat "s" {
 """
 
 
-def test_arrays_and_degree(read):
+def test_arrays_and_degree(read, numbers):
     s = read(SPLATS % """quatf[] orientations = [(1, 0, 0, 0), (0, 0, 0, 2)]
     float3[] scales = [(1, 2, 3), (4, 5, 6)]
     float[] opacities = [0.25, 0.5]
@@ -23,14 +22,14 @@ def test_arrays_and_degree(read):
     float3[] radiance:sphericalHarmonicsCoefficients = [(1, 2, 3), (4, 5, 6), (7, 8, 9), (10, 11, 12),
         (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)]""").prim("/s")
     assert s["kind"] == "Splats" and s["degree"] == "1"
-    assert floats(s["positions"]) == [0, 1, 2, 3, 4, 5]
-    assert floats(s["orientations"]) == [1, 0, 0, 0, 0, 0, 0, 1]  # the real part first, of length 1
-    assert floats(s["scales"]) == [1, 2, 3, 4, 5, 6]
-    assert floats(s["opacities"]) == [0.25, 0.5]
-    assert floats(s["harmonics"])[:6] == [1, 2, 3, 4, 5, 6] and len(floats(s["harmonics"])) == 24
+    assert numbers(s["positions"]) == [0, 1, 2, 3, 4, 5]
+    assert numbers(s["orientations"]) == [1, 0, 0, 0, 0, 0, 0, 1]  # the real part first, of length 1
+    assert numbers(s["scales"]) == [1, 2, 3, 4, 5, 6]
+    assert numbers(s["opacities"]) == [0.25, 0.5]
+    assert numbers(s["harmonics"])[:6] == [1, 2, 3, 4, 5, 6] and len(numbers(s["harmonics"])) == 24
 
 
-def test_halves_count_where_there_are_no_floats(read):
+def test_halves_count_where_there_are_no_numbers(read, numbers):
     s = read("""def ParticleField3DGaussianSplat "s" {
     point3h[] positionsh = [(0, 1, 2)]
     quath[] orientationsh = [(0, 1, 0, 0)]
@@ -40,7 +39,7 @@ def test_halves_count_where_there_are_no_floats(read):
     uniform int radiance:sphericalHarmonicsDegree = 0
     half3[] radiance:sphericalHarmonicsCoefficientsh = [(1, 2, 3)]
 }""").prim("/s")
-    assert [floats(s[key]) for key in ("positions", "orientations", "scales", "opacities", "harmonics")] == [
+    assert [numbers(s[key]) for key in ("positions", "orientations", "scales", "opacities", "harmonics")] == [
         [0, 1, 2], [0, 1, 0, 0], [1, 1, 1], [0.5], [1, 2, 3]]
 
 

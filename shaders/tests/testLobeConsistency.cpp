@@ -83,9 +83,9 @@ TEST(LobeConsistency, FloatEqualsDouble) {
                 const sh64::LobeEval a = c.f32.eval(o, w);
                 const sh64::LobeEval b = c.f64.eval(o, w);
                 const double tol = floatTolerance(c, wi.z);
-                // Where facets turn away, o.h of vectors of length 1 and 1 + ior cancels: six
-                // roundings.
-                const double cancelled = 6.0 * 6e-8 * (1.0 + 1.5);
+                // Refraction next to facets that turn away: o.h of vectors of length 1 and 1 + ior
+                // cancels, after six roundings. Sums that are fused round less often.
+                const double cancelled = wi.z * wo.z < 0.0 ? 6.0 * 6e-8 * (1.0 + 1.5) : 0.0;
                 ASSERT_LT(std::fabs(a.pdf - b.pdf), tol * (b.pdf + 1e-3) + cancelled)
                     << c.name << wo.z;
                 ASSERT_LT(largest(a.value - b.value),

@@ -24,8 +24,16 @@ HdPatinaSettings HdPatinaDelegateState::settings() const {
 void HdPatinaDelegateState::updateRenderingSpace() {
     const std::string name = settings().renderingColorSpace;
     const RenderingSpace* space = RenderingSpace::find(name);
-    if (!space)
-        param.warn(SdfPath(), "renderingColorSpace", messages::renderingSpaceUnknown(name));
+    if (!space) {
+        SdfPath path; // empty: the host's own setting
+        {
+            std::lock_guard<std::mutex> lock(_mutex);
+            for (const auto& prim : _prims)
+                if (prim.second.active && prim.second.renderingColorSpace == name)
+                    path = prim.first;
+        }
+        param.warn(path, "renderingColorSpace", messages::renderingSpaceUnknown(name));
+    }
     param.setRenderingSpace(space ? *space : RenderingSpace::rec709());
 }
 

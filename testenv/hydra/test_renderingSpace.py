@@ -132,4 +132,5 @@ def test_a_space_that_is_none_is_told(tmp_path):
 
     _, primaries, warnings = written(tmp_path, "srgb_texture", usdrecord)
     assert primaries[0] == pytest.approx(0.64)
-    assert any("'srgb_texture' is no linear colour space that is known" in line for line in warnings), warnings
+    told = "/Render/settings.renderingColorSpace: 'srgb_texture' is no linear colour space that is known"
+    assert any(told in line for line in warnings), warnings

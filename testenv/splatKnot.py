@@ -1,9 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A knot of Gaussian splats over a floor that mirrors: ./patina python testenv/splatKnot.py FILE.usdc writes the stage.
+"""Writes a stage with a knot of Gaussian splats over a floor that mirrors.
+
+    ./patina python testenv/splatKnot.py FILE.usdc
 
 Its kernels lie flat on the knot, as those of captures lie on what was seen. Band 1 of their harmonics is a highlight."""
+import argparse
 import os
 import sys
+
+if __name__ == "__main__":
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    import checkout
+
+    checkout.enter()
 
 import numpy as np
 from pxr import Gf, Usd, UsdGeom, UsdLux, UsdShade
@@ -75,4 +84,6 @@ def write(path, count=10000):
 
 
 if __name__ == "__main__":
-    write(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", metavar="FILE.usdc", help="is overwritten")
+    write(parser.parse_args().file)

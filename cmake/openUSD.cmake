@@ -82,6 +82,9 @@ if(TARGET hd)
     if(TARGET ndr) # merged into sdr by OpenUSD 25.08
         list(APPEND PATINA_PXR_LIBRARIES ndr)
     endif()
+    if(TARGET usdLod) # since OpenUSD 26.08
+        list(APPEND PATINA_PXR_LIBRARIES usdLod usdImaging)
+    endif()
 elseif(TARGET usd_ms)
     set(PATINA_PXR_LIBRARIES usd_ms)
 else()

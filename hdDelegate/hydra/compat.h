@@ -35,6 +35,8 @@
 #define PATINA_HAS_SUBSET_NOTICES (PXR_VERSION >= 2411)
 /// Scene indices tell the active render pass and the collections of prims.
 #define PATINA_HAS_RENDER_PASSES (PXR_VERSION >= 2411)
+/// UsdLod, whose levels UsdImaging does not hand on.
+#define PATINA_HAS_LEVELS __has_include(<pxr/usd/usdLod/rootAPI.h>)
 /// Ndr was merged into Sdr.
 #define PATINA_HAS_SDR_ONLY (PXR_VERSION >= 2508)
 /// HdsiLegacyDisplayStyleOverrideSceneIndex::SetRefineLevelFallback replaces SetRefineLevel.

@@ -41,36 +41,6 @@ template <class Vector> GfMatrix4d rotationOfVector(const Vector& v) {
     return rotation(GfQuatd(v[0], GfVec3d(v[1], v[2], v[3])));
 }
 
-Matrices translations(const VtValue& value) {
-    Matrices out;
-    const auto move = [](const auto& v) { return GfMatrix4d(1.0).SetTranslate(GfVec3d(v)); };
-    convert<GfVec3f>(value, out, move) || convert<GfVec3d>(value, out, move);
-    return out;
-}
-
-Matrices rotations(const VtValue& value) {
-    Matrices out;
-    const auto turn = [](const auto& q) { return rotation(q); };
-    const auto turnVector = [](const auto& v) { return rotationOfVector(v); };
-    convert<GfQuath>(value, out, turn) || convert<GfQuatf>(value, out, turn) ||
-        convert<GfQuatd>(value, out, turn) || convert<GfVec4f>(value, out, turnVector) ||
-        convert<GfVec4d>(value, out, turnVector);
-    return out;
-}
-
-Matrices scales(const VtValue& value) {
-    Matrices out;
-    const auto scale = [](const auto& v) { return GfMatrix4d(1.0).SetScale(GfVec3d(v)); };
-    convert<GfVec3f>(value, out, scale) || convert<GfVec3d>(value, out, scale);
-    return out;
-}
-
-Matrices transforms(const VtValue& value) {
-    Matrices out;
-    convert<GfMatrix4d>(value, out, [](const GfMatrix4d& m) { return m; });
-    return out;
-}
-
 /// One of the arrays that make up the transform of an instance.
 struct Part {
     std::vector<float> times;
@@ -117,13 +87,13 @@ void keepCount(HdPatinaRenderParam& param, const SdfPath& id, const char* input,
 
 /// @param input the name that users know
 Part read(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
-          const TfToken& name, const char* input, Matrices (*convertAll)(const VtValue&)) {
+          const TfToken& name, const char* input) {
     ValueSamples samples;
     samplePrimvar(delegate, param, id, name, samples);
     Part part;
     for (size_t i = 0; i < samples.count; ++i) {
         const VtValue& value = samples.values[i];
-        Matrices matrices = convertAll(value);
+        Matrices matrices = instanceMatrices(name, value);
         if (matrices.empty()) {
             if (!value.IsEmpty() && !(value.IsArrayValued() && value.GetArraySize() == 0))
                 param.warn(id, input, messages::typeNotRead(value.GetTypeName()));
@@ -139,15 +109,33 @@ Part read(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& 
 
 } // namespace
 
+Matrices instanceMatrices(const TfToken& primvar, const VtValue& value) {
+    const auto move = [](const auto& v) { return GfMatrix4d(1.0).SetTranslate(GfVec3d(v)); };
+    const auto scale = [](const auto& v) { return GfMatrix4d(1.0).SetScale(GfVec3d(v)); };
+    const auto turn = [](const auto& q) { return rotation(q); };
+    const auto turnVector = [](const auto& v) { return rotationOfVector(v); };
+    Matrices out;
+    if (primvar == HdInstancerTokens->instanceTransforms)
+        convert<GfMatrix4d>(value, out, [](const GfMatrix4d& m) { return m; });
+    else if (primvar == HdInstancerTokens->instanceRotations)
+        convert<GfQuath>(value, out, turn) || convert<GfQuatf>(value, out, turn) ||
+            convert<GfQuatd>(value, out, turn) || convert<GfVec4f>(value, out, turnVector) ||
+            convert<GfVec4d>(value, out, turnVector);
+    else if (primvar == HdInstancerTokens->instanceScales)
+        convert<GfVec3f>(value, out, scale) || convert<GfVec3d>(value, out, scale);
+    else if (primvar == HdInstancerTokens->instanceTranslations)
+        convert<GfVec3f>(value, out, move) || convert<GfVec3d>(value, out, move);
+    return out;
+}
+
 std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, const SdfPath& id,
                                                     HdPatinaRenderParam& param) {
     const Part parts[] = {
         // Gf multiplies row vectors: what is applied first stands first.
-        read(delegate, param, id, HdInstancerTokens->instanceTransforms, "transforms", transforms),
-        read(delegate, param, id, HdInstancerTokens->instanceScales, "scales", scales),
-        read(delegate, param, id, HdInstancerTokens->instanceRotations, "orientations", rotations),
-        read(delegate, param, id, HdInstancerTokens->instanceTranslations, "positions",
-             translations),
+        read(delegate, param, id, HdInstancerTokens->instanceTransforms, "transforms"),
+        read(delegate, param, id, HdInstancerTokens->instanceScales, "scales"),
+        read(delegate, param, id, HdInstancerTokens->instanceRotations, "orientations"),
+        read(delegate, param, id, HdInstancerTokens->instanceTranslations, "positions"),
     };
     const char* const inputs[] = {"transforms", "scales", "orientations", "positions"};
     MatrixSamples own;

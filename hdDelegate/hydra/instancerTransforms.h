@@ -14,4 +14,8 @@ namespace patina {
 std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, const SdfPath& id,
                                                     HdPatinaRenderParam& param);
 
+/// The matrices of one of the primvars that make up these transforms (HdInstancerTokens).
+/// @returns nothing of another primvar and of another type
+std::vector<GfMatrix4d> instanceMatrices(const TfToken& primvar, const VtValue& value);
+
 } // namespace patina

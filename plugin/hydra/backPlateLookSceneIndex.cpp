@@ -71,7 +71,7 @@ HdSceneIndexPrim HdPatinaBackPlateLookSceneIndex::GetPrim(const SdfPath& path) c
         prim.dataSource = HdOverlayContainerDataSource::New(black(), prim.dataSource);
         return prim;
     }
-    if (!isShown(path)) HdPatinaHide(prim);
+    if (!isShown(path)) HdPatinaShow(prim, false);
     const HdSampledDataSourceHandle no = HdRetainedTypedSampledDataSource<int>::New(0);
     HdPatinaOverlayPrimvars(prim, {{TfToken("patina:visibility:indirect"), no},
                                    {TfToken("patina:visibility:shadow"), no}});

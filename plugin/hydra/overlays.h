@@ -8,6 +8,8 @@
 #include <pxr/imaging/hd/sceneIndex.h>
 #include <pxr/imaging/hd/visibilitySchema.h>
 
+#include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,14 +37,23 @@ HdPatinaOverlayPrimvars(HdSceneIndexPrim& prim,
         prim.dataSource);
 }
 
-inline void HdPatinaHide(HdSceneIndexPrim& prim) {
+inline void HdPatinaShow(HdSceneIndexPrim& prim, bool visible) {
     prim.dataSource = HdOverlayContainerDataSource::New(
         HdRetainedContainerDataSource::New(
             HdVisibilitySchema::GetSchemaToken(),
             HdVisibilitySchema::Builder()
-                .SetVisibility(HdRetainedTypedSampledDataSource<bool>::New(false))
+                .SetVisibility(HdRetainedTypedSampledDataSource<bool>::New(visible))
                 .Build()),
         prim.dataSource);
 }
+
+/// Whether a prim is a part of native instances, which are drawn or not where they stand.
+bool HdPatinaIsOfNativeInstances(const SdfPath& path);
+
+/// Shows and hides instances of an instancer.
+/// @param decided whether an instance at a path, or all of the instancer at its own, is drawn;
+/// nothing: as it is
+void HdPatinaMaskInstances(HdSceneIndexPrim& prim, const SdfPath& path,
+                           const std::function<std::optional<bool>(const SdfPath&)>& decided);
 
 PXR_NAMESPACE_CLOSE_SCOPE

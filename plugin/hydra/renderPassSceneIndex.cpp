@@ -25,14 +25,6 @@ const std::array<TfToken, 4>& names() {
     return all;
 }
 
-/// Whether a prim is a part of native instances, which are drawn or not where they stand.
-bool isOfNativeInstances(const SdfPath& path) {
-    const SdfPathVector above = path.GetPrefixes();
-    return std::any_of(above.begin(), above.end(), [](const SdfPath& prefix) {
-        return prefix.GetName() == "UsdNiPropagatedPrototypes"; // UsdImaging's name
-    });
-}
-
 HdSampledDataSourceHandle number(int value) {
     return HdRetainedTypedSampledDataSource<int>::New(value);
 }
@@ -54,10 +46,13 @@ HdSceneIndexPrim HdPatinaRenderPassSceneIndex::GetPrim(const SdfPath& path) cons
     HdSceneIndexPrim prim = _GetInputSceneIndex()->GetPrim(path);
     if (_path.IsEmpty() || !prim.dataSource) return prim;
     if (prim.primType == HdPrimTypeTokens->instancer) {
-        mask(path, prim);
+        HdPatinaMaskInstances(prim, path, [&](const SdfPath& which) -> std::optional<bool> {
+            if (isDrawn(which) || (which == path && HdPatinaIsOfNativeInstances(path))) return {};
+            return false;
+        });
     } else if ((HdPrimTypeIsGprim(prim.primType) || HdPrimTypeIsLight(prim.primType)) &&
-               !isOfNativeInstances(path)) {
-        if (!isDrawn(path)) HdPatinaHide(prim);
+               !HdPatinaIsOfNativeInstances(path)) {
+        if (!isDrawn(path)) HdPatinaShow(prim, false);
         static const TfToken seen("patina:visibility:camera");
         std::vector<std::pair<TfToken, HdSampledDataSourceHandle>> marks;
         if (!has(CameraVisibility, path)) {
@@ -74,36 +69,6 @@ HdSceneIndexPrim HdPatinaRenderPassSceneIndex::GetPrim(const SdfPath& path) cons
         HdPatinaOverlayPrimvars(prim, marks);
     }
     return prim;
-}
-
-void HdPatinaRenderPassSceneIndex::mask(const SdfPath& path, HdSceneIndexPrim& prim) const {
-    HdInstancerTopologySchema topology = HdInstancerTopologySchema::GetFromParent(prim.dataSource);
-    if (!topology) return;
-    const auto masked = topology.GetMask();
-    VtBoolArray mask = masked ? masked->GetTypedValue(0.0f) : VtBoolArray();
-    const auto located = topology.GetInstanceLocations();
-    const VtArray<SdfPath> locations = located ? located->GetTypedValue(0.0f) : VtArray<SdfPath>();
-    size_t count = locations.size(); // of native instances; others are instances of one prim
-    if (locations.empty() && !isOfNativeInstances(path) && !isDrawn(path)) {
-        HdIntArrayVectorSchema indices = topology.GetInstanceIndices();
-        for (size_t i = 0; i < indices.GetNumElements(); ++i)
-            for (const int index : indices.GetElement(i)->GetTypedValue(0.0f))
-                count = std::max(count, size_t(index) + 1);
-    }
-    if (mask.empty()) mask.assign(count, true);
-    bool all = true;
-    for (size_t i = 0; i < std::min(mask.size(), count); ++i) {
-        mask[i] = mask[i] && isDrawn(locations.empty() ? path : locations[i]);
-        all &= mask[i];
-    }
-    if (all) return;
-    prim.dataSource = HdOverlayContainerDataSource::New(
-        HdRetainedContainerDataSource::New(
-            HdInstancerTopologySchema::GetSchemaToken(),
-            HdRetainedContainerDataSource::New(
-                HdInstancerTopologySchemaTokens->mask,
-                HdRetainedTypedSampledDataSource<VtBoolArray>::New(mask))),
-        prim.dataSource);
 }
 
 bool HdPatinaRenderPassSceneIndex::update() {

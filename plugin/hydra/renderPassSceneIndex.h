@@ -47,8 +47,6 @@ private:
     bool isDrawn(const SdfPath& path) const {
         return has(RenderVisibility, path) && !has(Prune, path);
     }
-    /// Hides instances that are not drawn.
-    void mask(const SdfPath& path, HdSceneIndexPrim& prim) const;
     /// Reads the active pass.
     /// @returns whether another one is active, or it has other collections
     bool update();

@@ -2,6 +2,7 @@
 // Changes to a scene before the delegate sees it.
 
 #include "plugin/hydra/backPlateLookSceneIndex.h"
+#include "plugin/hydra/levelsSceneIndex.h"
 #include "plugin/hydra/meshLightSceneIndex.h"
 #include "plugin/hydra/relinkedLightSceneIndex.h"
 #include "plugin/hydra/renderPassSceneIndex.h"
@@ -72,6 +73,9 @@ protected:
         HdSceneIndexBaseRefPtr scene = input;
 #if PATINA_HAS_BACK_PLATES
         scene = HdPatinaBackPlateLookSceneIndex::New(HdsiBackPlateSceneIndex::New(scene));
+#endif
+#if PATINA_HAS_LEVELS
+        scene = HdPatinaLevelsSceneIndex::New(scene);
 #endif
 #if PATINA_HAS_RENDER_PASSES
         scene = HdPatinaRenderPassSceneIndex::New(scene);

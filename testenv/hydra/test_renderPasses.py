@@ -1,31 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Render passes and back plates in usdrecord: passes draw the picture of the command line, in all bits; plates are where and
 what they are there."""
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
 import hydraBuild
-from rendering import pixels
+from glowingTiles import COLORS, TILE, WIDTH, looks, pictures
 
 pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_usdrecord(),
                                 reason="this OpenUSD has no usdrecord")
-WIDTH = 40
-COLORS = {"a": (1, 0, 0), "b": (0, 1, 0), "c": (0, 0, 1), "d": (1, 1, 0)}
-# Four squares that glow, of 4 x 4 units, from left to right: two plain ones, one of a native and one of a point instance.
-TILE = """def Mesh "tile" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)]
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </World/look%s>
-}
-"""
+# The four squares, from left to right: two plain ones, one of a native and one of a point instance.
 STAGE = """#usda 1.0
 def Camera "camera"
 {
@@ -85,38 +69,12 @@ def Scope "Render"
     }
 }
 """
-LOOK = """def Material "look%s"
-{
-    token outputs:surface.connect = </World/look%s/surface.outputs:surface>
-    def Shader "surface"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor = (0, 0, 0)
-        color3f inputs:emissiveColor = (%g, %g, %g)
-        int inputs:useSpecularWorkflow = 1
-        color3f inputs:specularColor = (0, 0, 0)
-        token outputs:surface
-    }
-}
-"""
-
-
 def write(path, lines):
     text = STAGE.replace("@pass@", lines)
     for name, rgb in COLORS.items():
         text = text.replace(f"@tile{name.upper()}@", TILE % name)
-    path.write_text(text.replace("@looks@", "\n".join(LOOK % (n, n, *rgb) for n, rgb in COLORS.items())), encoding="utf-8")
+    path.write_text(text.replace("@looks@", looks()), encoding="utf-8")
     return path
-
-
-def pictures(stage, tmp_path, *flags):
-    """:returns: (that of usdrecord, that of the command line), each (height, width, 4)"""
-    words = ["--imageWidth", str(WIDTH), "--disableCameraLight", "--colorCorrectionMode", "disabled", *flags]
-    found, wanted = tmp_path / "hydra.exr", tmp_path / "record.exr"
-    hydraBuild.run_usdrecord(stage, found, *words, scene_index=True)
-    subprocess.run([sys.executable, "-m", "patina", "record", str(stage), str(wanted), "--samples", "4", "--quiet", *words],
-                   check=True)
-    return [pixels(path)[..., :4] for path in (found, wanted)]
 
 
 def shown(picture):

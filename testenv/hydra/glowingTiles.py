@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Squares of 4 x 4 units that glow in one colour each, and their pictures by usdrecord and by the command line."""
+import subprocess
+import sys
+
+import hydraBuild
+from rendering import pixels
+
+WIDTH = 40
+COLORS = {"a": (1, 0, 0), "b": (0, 1, 0), "c": (0, 0, 1), "d": (1, 1, 0)}
+TILE = """def Mesh "tile" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)]
+    uniform token subdivisionScheme = "none"
+    rel material:binding = </World/look%s>
+}
+"""
+LOOK = """def Material "look%s"
+{
+    token outputs:surface.connect = </World/look%s/surface.outputs:surface>
+    def Shader "surface"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor = (0, 0, 0)
+        color3f inputs:emissiveColor = (%g, %g, %g)
+        int inputs:useSpecularWorkflow = 1
+        color3f inputs:specularColor = (0, 0, 0)
+        token outputs:surface
+    }
+}
+"""
+
+
+def looks():
+    """:returns: text of their materials, which are children of /World"""
+    return "\n".join(LOOK % (name, name, *rgb) for name, rgb in COLORS.items())
+
+
+def pictures(stage, tmp_path, *flags):
+    """:returns: (that of usdrecord, that of the command line), each (height, width, 4)"""
+    words = ["--imageWidth", str(WIDTH), "--disableCameraLight", "--colorCorrectionMode", "disabled", *flags]
+    found, wanted = tmp_path / "hydra.exr", tmp_path / "record.exr"
+    hydraBuild.run_usdrecord(stage, found, *words, scene_index=True)
+    subprocess.run([sys.executable, "-m", "patina", "record", str(stage), str(wanted), "--samples", "4", "--quiet", *words],
+                   check=True)
+    return [pixels(path)[..., :4] for path in (found, wanted)]

@@ -6,6 +6,7 @@ import numpy as np
 
 ROWS, COLUMNS = 16, 32  # bins of the sphere in height and longitude
 COARSE, FINE = 8, 12  # Gauss-Legendre points along each side of a cell; their difference is taken for the error
+THIRD, HEAVY = 10, 0.01  # two rules may agree by chance: cells of so much are integrated by a third
 PRECISE = 0.001  # error of all bins together, a tenth of what `patina check` allows by default
 LEVELS = 9  # times that a cell is halved, in both directions
 MOST_CELLS = 1024  # divided at once; lobes that need more are narrower than cells get
@@ -51,7 +52,10 @@ def integrate(probe, wo, y, x, n):
         np.add.at(bins, row // side * COLUMNS + column // side, fine)
         # Cells of fewer than 8 samples are pooled. A tenth of a standard error adds a hundredth to chi-squared.
         noise = np.sqrt(np.maximum(fine, 8.0 / n) / n)
-        error, missed = np.abs(fine - coarse), np.abs(_shares(y, x, row, column, side, n) - fine)
+        error, heavy = np.abs(fine - coarse), fine > HEAVY
+        error[heavy] = np.maximum(error[heavy],
+                                  np.abs(fine[heavy] - _quadrature(probe, wo, row[heavy], column[heavy], side, THIRD)))
+        missed = np.abs(_shares(y, x, row, column, side, n) - fine)
         # Of 512 bins one or two differ by three standard errors by chance: once looked into, it takes five.
         doubt = np.maximum(error, np.where(missed > (5.0 if level else 3.0) * noise, missed, 0.0))
         order = np.argsort(-doubt)

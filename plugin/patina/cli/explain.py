@@ -7,8 +7,10 @@ with a summary, one line each; --verbose shows them all in full. Warnings come l
   patina explain shot.usda:/looks/gold         one material in full
 
 For a whole stage with a tolerance it also builds the scene and prints the choices for it: the edges of subdivision surfaces
-(for an image of 960 pixels from the first camera), the length of paths, and for the rasterizer how each material is lit.
+(for an image of 960 pixels from the first camera), the length of paths, and for the rasterizer how each material is lit. With
+--levels measured it draws the levels of detail alone, and tells their errors and which are taken.
 """
+import dataclasses
 import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -25,6 +27,7 @@ def add_arguments(parser):
     limits.add_flag(parser)
     methods.add_flag(parser)
     recordFlags.add_tolerance_flag(parser)
+    recordFlags.add_levels_flag(parser)
     parser.add_argument("--backend", default="embree", choices=["embree", "raster"],
                         help="the renderer whose choices for the scene are shown, with --tolerance (default: embree)")
     parser.add_argument("--verbose", "-v", action="store_true", help="all materials in full, after the summary")
@@ -33,6 +36,7 @@ def add_arguments(parser):
 
 
 def run(arguments):
+    recordFlags.check_levels(arguments, "explain")
     found, warnings = materials.load(arguments.material, arguments.set, every=True)
     outputs.check_all([arguments.json])
     module = compiled.load()
@@ -40,7 +44,7 @@ def run(arguments):
     tolerance = arguments.tolerance
     with ThreadPoolExecutor(os.cpu_count()) as pool:  # most of it is reading textures
         plans = list(pool.map(lambda pair: (pair[0], module.plan_material(pair[1], chosen, tolerance)), found))
-    choices, lit = _of_scene(arguments, chosen, tolerance)
+    choices, lit, levels = _of_scene(arguments, chosen, tolerance)
     texts = []
     for (name, network), (_, plan) in zip(found, plans):
         planned = {choice["point"]: choice["method"] for choice in plan["choices"]}
@@ -49,7 +53,8 @@ def run(arguments):
         outputs.write_json(arguments.json, {
             "materials": [{"name": name, "text": text, "plan": plan} for (name, text), (_, plan) in zip(texts, plans)],
             "error": max(plan["error"] for _, plan in plans), "scene": [dict(choice) for choice in choices],
-            "lit": planText.lit(lit), "causes": statistics.Causes(warnings).groups,
+            "lit": planText.lit(lit), "levels": [dataclasses.asdict(root) for root in levels],
+            "causes": statistics.Causes(warnings).groups,
             "warnings": warnings})
         return
     several = len(texts) > 1
@@ -64,7 +69,7 @@ def run(arguments):
     if several:
         print("\n" + "\n".join(planText.scene_lines(plans, tolerance)))
     if choices or lit:
-        print("\n".join(planText.choice_lines(choices) + planText.lit_lines(lit)))
+        print("\n".join(planText.choice_lines(choices) + planText.level_lines(levels) + planText.lit_lines(lit)))
     if several and not arguments.verbose:
         one = causes.printable(f"{arguments.material}:{texts[0][0]}")
         print(f"\n--verbose shows all of them in full, {one} one")
@@ -72,8 +77,9 @@ def run(arguments):
 
 
 def _of_scene(arguments, chosen, tolerance):
-    """:returns: choices of the scene and plans of its back end; nothing without a tolerance and of what is no stage"""
+    """:returns: choices of the scene, plans of its back end and measured levels of detail; nothing without a tolerance and of
+        what is no stage"""
     file, name = materials.split(arguments.material)
     if tolerance < 0.0 or name or materials.is_document(file):
-        return [], {}
-    return sceneChoices.of_stage(file, arguments.set, chosen, tolerance, arguments.backend)
+        return [], {}, []
+    return sceneChoices.of_stage(file, arguments.set, chosen, tolerance, arguments.backend, arguments.levels == "measured")

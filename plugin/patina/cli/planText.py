@@ -95,6 +95,13 @@ def choice_lines(choices):
     return lines
 
 
+def level_lines(roots):
+    """:param roots: measuredLevels.Roots
+    :returns: list of lines"""
+    return [f"scene: level {root.names[root.chosen]} of {root.path}, expected error {root.errors[root.chosen]:.2g}, "
+            f"{root.triangles[root.chosen]} of {root.triangles[root.truth]} triangles" for root in roots]
+
+
 LIGHT_POINTS = ("domeLight", "environmentSamples", "areaLight")
 
 

@@ -21,8 +21,8 @@ import dataclasses
 import functools
 import os
 
-from patina.cli import (checkpoints, compiled, denoiser, frames, goOn, openStage, outputs, overrides, recordFlags,
-                        renderSettings, reports, shots, snapshots, statistics, verbose)
+from patina.cli import (checkpoints, compiled, denoiser, frames, goOn, openStage, outputs, overrides, planText,
+                        recordFlags, renderSettings, reports, shots, snapshots, statistics, verbose)
 from patina.cli.errors import CommandError, TemporaryError
 from patina.cli.interrupts import Endings, Interrupts
 from patina.cli.progress import Progress
@@ -36,6 +36,7 @@ def run(arguments):
     partJob.check(arguments)
     _patina = compiled.load()
     shots.check_usage(arguments)
+    recordFlags.check_levels(arguments, "record")
     reports.check_usage(arguments)
     recordFlags.settings_of(arguments)
     recordFlags.purposes_of(arguments)
@@ -64,6 +65,7 @@ class _Job:
         self.shown_causes = {}  # causes of warnings that were shown ...
         self.reported = 0  # ... and how many warnings there were then
         self._read = None  # (frame, camera, what was read) of the scene
+        self.levels, self.tolerance = [], None  # of detail, as they were measured, and what they leave of the tolerance
 
     def open(self):
         a = self.arguments
@@ -180,11 +182,11 @@ class _Job:
 
     def _also_from(self, camera):
         """:returns: whether what was read looks as it would for another camera of the same frame: with an equal shutter, and
-            without a headlight"""
+            without a headlight or levels of detail"""
         (frame, blurs), read_for, info = self._read
         if camera == read_for:
             return True
-        if info.headlight or camera not in info.cameras:
+        if info.headlight or info.uses_camera or self.levels or camera not in info.cameras:
             return False
         from patina.cli.products import prim_value
 
@@ -206,13 +208,30 @@ class _Job:
             render_pass=self.arguments.renderPassPrimPath, rendering_color_space=self.arguments.renderingColorSpace,
             material_purpose=getattr(self.arguments, "materialPurpose", "full"),
             matte_names=any(aov.startswith("crypto") for aov in wanted))
+        if self.arguments.levels == "measured":
+            options = self._measured(shot, options)
         with self.scene.edit() as edit:
             edit.clear()
             return reader.read_stage(self.stage, edit, options)
 
+    def _measured(self, shot, options):
+        """:returns: the options with levels of detail by their errors"""
+        from patina.cli import measuredLevels
+
+        settings = dict(self.settings, **shot.settings)
+        self.levels, self.tolerance = measuredLevels.choose(
+            self.module, self.stage, options, lambda camera: shots.size_of(shot, camera, settings["pixelAspectRatio"]),
+            settings["tolerance"])
+        self.statistics.current()["levels"] = [dataclasses.asdict(root) for root in self.levels]
+        if self.arguments.verbose:
+            self._say_all(planText.level_lines(self.levels))
+        return dataclasses.replace(options, levels={root.path: root.chosen for root in self.levels})
+
     def _settings(self, shot, info):
         """:returns: dict of the render settings of a shot"""
         settings = dict(self.settings, **shot.settings)
+        if self.levels:
+            settings["tolerance"] = self.tolerance  # levels have taken the rest
         wanted = dict.fromkeys([*shot.aovs(), *(denoiser.GUIDES if self.arguments.denoise else ()),
                                 *(reports.AOVS if self.arguments.report else ())])
         camera = self.scene.camera(info.camera)
@@ -225,7 +244,7 @@ class _Job:
         """:returns: an empty film, or that of a checkpoint"""
         film = self.module.Film()
         others = [info.camera, shot.frame, self.purposes, self.arguments.complexity, self.arguments.mask, self.arguments.set,
-                  self.arguments.renderPassPrimPath]
+                  self.arguments.renderPassPrimPath, [root.chosen for root in self.levels]]
         token = checkpoints.token(self.stage, settings, others, self.renderer.progress()["backend"])
         if self.arguments.resume:
             problem = checkpoints.resume(film, checkpoints.path_of(shot.image), token)

@@ -49,6 +49,7 @@ def _add_stage_flags(group):
     group.add_argument("--complexity", "-c", type=_complexity, default=1.0, metavar="LEVEL",
                        help="least refinement of subdivision surfaces: low, medium, high, veryhigh or a number from "
                             "1.0 to 2.0; edges are refined to --edgeLength in any case (default: low)")
+    add_levels_flag(group)
     group.add_argument("--mask", metavar="PATH[,PATH...]", help="populate only these prims and what is above and "
                                                                  "below them")
     group.add_argument("--sessionLayer", metavar="FILE", help="open the stage with this session layer")
@@ -77,6 +78,18 @@ def _add_denoise_flag(group):
     group.add_argument("--denoiseAovs", action="store_true",
                        help="as --denoise, and AOVs of light as well, each by itself with the same guides; they then add up to "
                             "the colour only nearly")
+
+
+def add_levels_flag(group):
+    group.add_argument("--levels", default="stage", choices=["stage", "measured"],
+                       help="levels of detail: `stage` draws what overrides, heuristics or the default index choose; with a "
+                            "--tolerance `measured` draws each level before, and takes those of fewest triangles whose errors "
+                            "fit a tenth of it (default: stage)")
+
+
+def check_levels(arguments, command):
+    if arguments.levels == "measured" and not arguments.tolerance > 0.0:
+        raise UsageError(f"patina {command}: --levels measured needs a --tolerance above 0")
 
 
 def add_tolerance_flag(group):

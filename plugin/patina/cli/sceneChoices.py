@@ -6,23 +6,29 @@ from patina.cli.errors import CommandError
 WIDTH = 960
 
 
-def of_stage(file, set_texts, forced, tolerance, backend):
+def of_stage(file, set_texts, forced, tolerance, backend, measure_levels=False):
     """:param forced: choice point -> method
     :param tolerance: 0 or more; subdivision is planned for an image of WIDTH pixels from the stage's first camera
 
-    :returns: list of choices as Renderer.progress() tells them, and material path -> plan as this back end draws it
+    :returns: list of choices as Renderer.progress() tells them, material path -> plan as this back end draws it, and
+        measuredLevels.Roots
     """
     from patina import stage as reader
 
     module = compiled.load()
     stage = openStage.open_stage(file)
     overrides.apply(stage, set_texts)
-    scene = module.Scene()
+    scene, options, levels = module.Scene(), reader.StageOptions(), []
+    if measure_levels:
+        from patina.cli import measuredLevels
+
+        levels, tolerance = measuredLevels.choose(module, stage, options, _size, tolerance)
+        options.levels = {root.path: root.chosen for root in levels}
     with scene.edit() as edit:
-        info = reader.read_stage(stage, edit, reader.StageOptions())
-    aspect = scene.camera(info.camera)["image_aspect"]
+        info = reader.read_stage(stage, edit, options)
+    width, height = _size(scene.camera(info.camera))
     renderer = module.make_renderer(backend)
-    renderer.start(scene, info.camera, {"width": WIDTH, "height": max(1, round(WIDTH / aspect)), "dataWindow": (0, 0, 0, 0),
+    renderer.start(scene, info.camera, {"width": width, "height": height, "dataWindow": (0, 0, 0, 0),
                                         "samples": 1, "tolerance": tolerance, "maxDepth": -1, "methods": forced,
                                         "checkpointSeconds": 0.0}, module.Film())
     while not renderer.wait(0.2):  # signals are heard in between
@@ -30,4 +36,8 @@ def of_stage(file, set_texts, forced, tolerance, backend):
     state = renderer.progress()
     if state["failed"]:
         raise CommandError(state["error"])
-    return state["sceneChoices"], state["plans"]
+    return state["sceneChoices"], state["plans"], levels
+
+
+def _size(camera):
+    return WIDTH, max(1, round(WIDTH / camera["image_aspect"]))

@@ -26,6 +26,7 @@ class Context:
         self.time_codes_per_second = stage.GetTimeCodesPerSecond() or 24.0
         self.counts = {}
         self.notes = []
+        self.uses_camera = False  # another one would see other things
         self.reported = set()  # texts of composition errors, which pxr also prints
         self.skinned = []  # (prim whose space it is, points) of what UsdGeom.BBoxCache does not know
         self._cyclic = None  # not known yet

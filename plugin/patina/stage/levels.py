@@ -10,7 +10,7 @@ import numpy as np
 from pxr import Gf, Usd, UsdGeom
 
 from . import cameras
-from .context import get, number
+from .context import Context, get, number
 from .transforms import matrix_at
 
 try:
@@ -25,6 +25,48 @@ _ANY = Usd.PrimIsActive & Usd.PrimIsLoaded  # prototypes of point instancers may
 
 def is_root(prim):
     return "LODRootAPI" in prim.GetAppliedSchemas()
+
+
+def roots(stage, edit, options):
+    """The roots that are in view and whose level heuristics or the default index choose, except those in other roots and in
+    point instancers.
+
+    :param edit: gets the warnings
+    :returns: (path of the camera, dict of path of a root -> (names of its levels, index of the one that is drawn, its bounds
+        in the frustum as from -1 to 1, None where it reaches behind the camera)); no roots where the stage has no camera"""
+    context, found = Context(stage, edit, options), {}
+    camera, chooses = cameras.chosen_before(context), Levels(context)
+    if not camera:
+        return None, found
+    view = cameras.view_of(context)
+    bounds = UsdGeom.BBoxCache(context.time, list(context.purposes))
+    prims = iter(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()))
+    for prim in () if context.cyclic else prims:  # bounds of cycles have no end
+        if not is_root(prim):
+            if prim.IsA(UsdGeom.PointInstancer):
+                prims.PruneChildren()
+            continue
+        prims.PruneChildren()
+        names = [child.GetName() for child in prim.GetFilteredChildren(Usd.TraverseInstanceProxies())]
+        shown = chooses.drawn(prim, matrix_at(context, prim, None, 0.0))
+        if (len(names) > 1 and len(shown) == 1 and not (UsdLod and _overridden(prim, context.time))
+                and view.Intersects(bounds.ComputeWorldBound(prim))):
+            found[str(prim.GetPath())] = names, names.index(shown[0]), _on_screen(bounds.ComputeWorldBound(prim), view)
+    return camera.path, found
+
+
+def _on_screen(box, view):
+    """:returns: least x, least y, largest x, largest y"""
+    corners = np.array([(*box.GetBox().GetCorner(i), 1.0) for i in range(8)]) @ np.array(box.GetMatrix())
+    corners = corners @ np.array(view.ComputeViewMatrix()) @ np.array(view.ComputeProjectionMatrix())
+    if not (corners[:, 3] > 0.0).all():
+        return None
+    screen = corners[:, :2] / corners[:, 3:]
+    return (*screen.min(0).tolist(), *screen.max(0).tolist())
+
+
+def _overridden(root, time):
+    return UsdLod.OverrideAPI(root).ComputeLODOverride(time)[0] in ("noLOD", "allLOD", "indexedLOD")
 
 
 class Levels:
@@ -42,8 +84,8 @@ class Levels:
         :returns: names of the children that are drawn"""
         place = self.context.stage.GetPrimAtPath(group.path(prim)) if group.place is None else None
         if place:
-            return self._shown(place, matrix_at(self.context, place, None, 0.0))
-        return self._shown(prim, self.place_inside(prim, group) or matrix_at(self.context, prim, group.anchor, 0.0))
+            return self.drawn(place, matrix_at(self.context, place, None, 0.0))
+        return self.drawn(prim, self.place_inside(prim, group) or matrix_at(self.context, prim, group.anchor, 0.0))
 
     def place_inside(self, prim, group):
         """:returns: matrix of a prim of a point instancer's prototype where its nearest instance is; None elsewhere"""
@@ -61,7 +103,7 @@ class Levels:
         if not place:
             return ()
         roots = (place.GetPrimAtPath(path) if path != "." else place for path in paths)
-        return tuple(self._shown(root, matrix_at(self.context, root, None, 0.0)) for root in roots)
+        return tuple(self.drawn(root, matrix_at(self.context, root, None, 0.0)) for root in roots)
 
     def _roots_below(self, prototype):
         """:returns: paths of all prims with the LODRootAPI in a native prototype and in those of its instances"""
@@ -102,7 +144,8 @@ class Levels:
         away = (matrices[:, 3] @ np.array(world))[:, :3] - np.array(self._frustum().GetPosition())
         return Gf.Matrix4d(matrices[np.argmin((away * away).sum(axis=1))].tolist()) * world
 
-    def _shown(self, root, matrix):
+    def drawn(self, root, matrix):
+        """:returns: names of the children of a root that are drawn where the matrix puts it"""
         names = [child.GetName() for child in root.GetFilteredChildren(Usd.TraverseInstanceProxies())]
         if not names:
             return ()
@@ -114,6 +157,7 @@ class Levels:
     def _index(self, root, matrix):
         """:returns: of the child that is drawn; -1: none is; None: all are"""
         default = max(int(number(self.context, root, "lod:default:index", 0.0)), 0)
+        default = self.context.options.levels.get(str(root.GetPath()), default)
         if UsdLod is None:
             self._tell(root, "", "levelsNeedNewer")
             return default
@@ -121,7 +165,7 @@ class Levels:
         if mode in ("noLOD", "allLOD"):
             return -1 if mode == "noLOD" else None
         if mode != "indexedLOD":
-            index = self._by_heuristic(root, matrix)
+            index = None if str(root.GetPath()) in self.context.options.levels else self._by_heuristic(root, matrix)
         return default if index is None or not math.isfinite(index) else max(math.floor(index + 0.5), 0)
 
     def _by_heuristic(self, root, matrix):
@@ -145,5 +189,6 @@ class Levels:
 
     def _frustum(self):
         if self._view is None:
+            self.context.uses_camera = True
             self._view = cameras.view_of(self.context)
         return self._view

@@ -19,6 +19,7 @@ class StageOptions:
     rendering_color_space: linear space of the scene's colours; '' is linear Rec.709
     render_pass: path of a UsdRenderPass, whose collections say what is drawn
     matte_names: native instances get names of their own, for Cryptomatte
+    levels: path of a root of levels of detail -> index of the level that is drawn, where no override says so
     material_purpose: whose bindings are looked at before those for all purposes: full, preview, or '' for these alone
     """
     frame: object = None
@@ -32,6 +33,7 @@ class StageOptions:
     matte_names: bool = False
     render_pass: object = None
     rendering_color_space: str = ""
+    levels: dict = field(default_factory=dict)
 
     @property
     def refine_level(self):
@@ -48,6 +50,7 @@ class StageInfo:
     cameras: list = field(default_factory=list)
     framed: bool = False  # the stage had no camera
     headlight: bool = False  # the stage had no lights
+    uses_camera: bool = False  # for another camera the scene would be another, apart from the headlight
     up_axis: str = "Y"
     meters_per_unit: float = 0.01
     start_time_code: float = 0.0

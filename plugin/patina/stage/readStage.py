@@ -101,4 +101,5 @@ def _info(context, walked):
         cameras=[found.path for found in walked.cameras], up_axis=str(UsdGeom.GetStageUpAxis(stage)),
         meters_per_unit=UsdGeom.GetStageMetersPerUnit(stage), start_time_code=stage.GetStartTimeCode(),
         end_time_code=stage.GetEndTimeCode(), time_codes_per_second=context.time_codes_per_second,
-        shutter=context.shutter, counts=context.counts, notes=context.notes)
+        shutter=context.shutter, counts=context.counts, notes=context.notes,
+        uses_camera=context.uses_camera)

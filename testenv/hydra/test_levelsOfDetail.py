@@ -37,7 +37,8 @@ CAMERA = """#usda 1.0
 def Scope "Render" { def RenderSettings "main" { int patina:samples = 4 } }
 def Camera "camera" {
     float horizontalAperture = 40  float verticalAperture = 20  float focalLength = 40  float2 clippingRange = (1, 1000)
-    double3 xformOp:translate = (0, 0, %g)  double3 xformOp:translate.timeSamples = { %s }  uniform token[] xformOpOrder = ["xformOp:translate"] }
+    double3 xformOp:translate = (0, 0, %g)  double3 xformOp:translate.timeSamples = { %s }
+    uniform token[] xformOpOrder = ["xformOp:translate"] }
 """
 
 
@@ -135,7 +136,8 @@ def test_instances_in_a_level_go_with_it(tmp_path):
         def Xform "near" { token visibility = "invisible"
             def Xform "i" (prepend references = </asset>
                 instanceable = true) { } }
-        def PointInstancer "far" { rel prototypes = </outOfView/p>  int[] protoIndices = [0]  point3f[] positions = [(0, 0, 0)] } }
+        def PointInstancer "far" { rel prototypes = </outOfView/p>  int[] protoIndices = [0]
+            point3f[] positions = [(0, 0, 0)] } }
     class Xform "asset" { %s }
     def Xform "outOfView" { double3 xformOp:translate = (0, 999, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]
         def Xform "p" { %s } }

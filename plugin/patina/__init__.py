@@ -16,7 +16,7 @@ with pxr. Nothing is imported before it is asked for, so that help and usage err
 """
 import importlib
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 
 _NAMES = {
     "_patina": ("Scene", "SceneEdit", "Network", "Film", "Renderer", "MaterialProbe", "ImageData", "TemporaryFailure",

@@ -14,6 +14,27 @@ bool HdPatinaIsOfNativeInstances(const SdfPath& path) {
     });
 }
 
+SdfPathVector HdPatinaScenePaths(const HdSceneIndexBaseRefPtr& scene, const SdfPath& path) {
+    constexpr size_t most = 1000;
+    static const TfToken prototype("UsdNiPrototype"); // UsdImaging's name
+    for (SdfPath root = path; root.GetPathElementCount() > 1; root = root.GetParentPath()) {
+        if (root.GetNameToken() != prototype) continue;
+        const auto located = HdInstancerTopologySchema::GetFromParent(
+                                 scene->GetPrim(root.GetParentPath()).dataSource)
+                                 .GetInstanceLocations();
+        SdfPathVector found;
+        if (!located) return found;
+        const SdfPath inner = path.MakeRelativePath(root);
+        for (const SdfPath& place : located->GetTypedValue(0.0f)) {
+            for (const SdfPath& outer : HdPatinaScenePaths(scene, place))
+                found.push_back(path == root ? outer : outer.AppendPath(inner));
+            if (found.size() > most) return {};
+        }
+        return found;
+    }
+    return {path};
+}
+
 void HdPatinaMaskInstances(HdSceneIndexPrim& prim, const SdfPath& path,
                            const std::function<std::optional<bool>(const SdfPath&)>& decided) {
     HdInstancerTopologySchema topology = HdInstancerTopologySchema::GetFromParent(prim.dataSource);

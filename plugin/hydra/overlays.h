@@ -50,6 +50,10 @@ inline void HdPatinaShow(HdSceneIndexPrim& prim, bool visible) {
 /// Whether a prim is a part of native instances, which are drawn or not where they stand.
 bool HdPatinaIsOfNativeInstances(const SdfPath& path);
 
+/// The paths of a prim in the scene: of a part of native instances one in each of them.
+/// @returns nothing where there are more than a thousand
+SdfPathVector HdPatinaScenePaths(const HdSceneIndexBaseRefPtr& scene, const SdfPath& path);
+
 /// Shows and hides instances of an instancer.
 /// @param decided whether an instance at a path, or all of the instancer at its own, is drawn;
 /// nothing: as it is

@@ -50,12 +50,17 @@ HdSceneIndexPrim HdPatinaRenderPassSceneIndex::GetPrim(const SdfPath& path) cons
             if (isDrawn(which) || (which == path && HdPatinaIsOfNativeInstances(path))) return {};
             return false;
         });
-    } else if ((HdPrimTypeIsGprim(prim.primType) || HdPrimTypeIsLight(prim.primType)) &&
-               !HdPatinaIsOfNativeInstances(path)) {
-        if (!isDrawn(path)) HdPatinaShow(prim, false);
+    } else if (HdPrimTypeIsGprim(prim.primType) || HdPrimTypeIsLight(prim.primType)) {
+        // What is in native instances is drawn where one of them says so, and is marked where all
+        // do.
+        const SdfPathVector paths = HdPatinaScenePaths(_GetInputSceneIndex(), path);
+        const auto all = [&](const auto& holds) {
+            return !paths.empty() && std::all_of(paths.begin(), paths.end(), holds);
+        };
+        if (all([&](const SdfPath& one) { return !isDrawn(one); })) HdPatinaShow(prim, false);
         static const TfToken seen("patina:visibility:camera");
         std::vector<std::pair<TfToken, HdSampledDataSourceHandle>> marks;
-        if (!has(CameraVisibility, path)) {
+        if (all([&](const SdfPath& one) { return !has(CameraVisibility, one); })) {
             marks.emplace_back(seen, number(0));
             // Lights have parameters; the light of a mesh is seen as the mesh.
             if (HdPrimTypeIsLight(prim.primType) && prim.primType != HdPrimTypeTokens->meshLight)
@@ -65,7 +70,8 @@ HdSceneIndexPrim HdPatinaRenderPassSceneIndex::GetPrim(const SdfPath& path) cons
                         HdRetainedContainerDataSource::New(seen, number(0))),
                     prim.dataSource);
         }
-        if (has(Matte, path)) marks.emplace_back(TfToken("patina:matte"), number(1));
+        if (all([&](const SdfPath& one) { return has(Matte, one); }))
+            marks.emplace_back(TfToken("patina:matte"), number(1));
         HdPatinaOverlayPrimvars(prim, marks);
     }
     return prim;

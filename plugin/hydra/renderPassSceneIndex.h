@@ -17,7 +17,8 @@ TF_DECLARE_REF_PTRS(HdPatinaRenderPassSceneIndex);
 
 /// Draws what the collections of the active UsdRenderPass say: prims that `renderVisibility` leaves
 /// out and those that `prune` takes away are hidden, what `cameraVisibility` leaves out and what is
-/// a `matte` gets the marks of it. Of native instances whole ones are hidden; marks go to prims.
+/// a `matte` gets the marks of it. Of native instances whole ones are hidden; what is in them is
+/// where all of them say so.
 class HdPatinaRenderPassSceneIndex final : public HdPatinaFilterSceneIndex {
 public:
     static HdPatinaRenderPassSceneIndexRefPtr New(const HdSceneIndexBaseRefPtr& input) {

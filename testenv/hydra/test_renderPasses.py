@@ -92,7 +92,8 @@ def shown(picture):
     ("uniform bool collection:renderVisibility:includeRoot = 0\nrel collection:renderVisibility:includes = </World/c>", "c"),
     ("uniform bool collection:renderVisibility:includeRoot = 0\nrel collection:renderVisibility:includes = </World/d>", "d"),
     ("rel collection:cameraVisibility:excludes = </World/a>", "bcd"),
-    ("rel collection:matte:includes = </World/b>", "acd")])
+    ("rel collection:matte:includes = </World/b>", "acd"), ("rel collection:matte:includes = </World/c/tile>", "abd"),
+    ("rel collection:prune:includes = </World/c/tile>", "abd")])
 def test_a_pass_draws_what_its_collections_say(tmp_path, lines, squares):
     hydraBuild.skip_before(2411, "scene indices do not tell the active pass")
     stage = write(tmp_path / "pass.usda", lines)

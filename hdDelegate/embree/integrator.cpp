@@ -33,7 +33,7 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
     if (radiance == vec3(0.0f)) return;
     const int light = path.fromCamera() ? -1 : _lights.triangleLight(hit);
     if (light < 0) {
-        if (path.lightPaths) announceEmission(path, hit);
+        if (path.lightPaths) recordEmission(path, hit);
         addRadiance(path, radiance);
         return;
     }
@@ -106,7 +106,7 @@ vec3 Integrator::directLight(Path& path, const SurfacePoint& point, const Vertex
     if (seen == vec3(0.0f)) return seen;
     // Last: the image of a sky takes its time to come from memory.
     if (!info.triangles) radiance *= _lights.set().image(light);
-    if (path.lightPaths) announceDirect(path, s, light, f, radiance * seen * (weight / lightPdf));
+    if (path.lightPaths) recordDirect(path, s, light, f, radiance * seen * (weight / lightPdf));
     value *= radiance * (weight / lightPdf);
     return value * seen;
 }
@@ -135,7 +135,7 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit,
             path.diffuseShare[c] = sum[c] > 0.0f ? f.diffuse[c] / sum[c] : 0.5f;
         path.specularShare = vec3(1.0f) - path.diffuseShare;
     }
-    if (path.lightPaths) announceScatter(path, next, bsdf);
+    if (path.lightPaths) recordScatter(path, next, bsdf);
     path.origin = point.departure(next.wi);
     path.direction = next.wi;
     path.departs = true;
@@ -154,7 +154,7 @@ Integrator::Step Integrator::find(Path& path, Hit& hit, TraceCounters& counters)
     const float distance = found ? hit.distance : path.far;
     const float end = _finiteLights ? addLightsAlong(path, distance) : distance;
     if (!path.media.empty() || _scene.fillsSpace()) {
-        const Step step = fly(path, end, counters);
+        const Step step = traverseMedia(path, end, counters);
         if (step != Step::Arrives) return step;
     }
     if (end < distance) return Step::Ends;
@@ -258,7 +258,7 @@ bool Integrator::goOn(Path& path, const SurfacePoint& point, const Hit& hit, con
     if (!(luminance(path.throughput) > 0.0f)) return false;
     if ((next.event & LOBE_SUBSURFACE) != 0) {
         path.onPhotons = false;
-        if (!passBeneath(path, point, hit, bsdf.subsurface(next), counters)) return false;
+        if (!scatterBeneath(path, point, hit, bsdf.subsurface(next), counters)) return false;
     } else {
         if ((next.event & sh::LOBE_TRANSMIT) != 0)
             path.media.cross(*point.slot->program, point.shading, priorityOf(hit),

@@ -132,7 +132,7 @@ private:
     vec3 mediumLight(Path& path, const vec3& position, const sh::PhaseMixture& phase, const vec3& u,
                      TraceCounters& counters) const;
     /// Takes the path through the medium that it is in, up to `distance` or to where it scatters.
-    Step fly(Path& path, float distance, TraceCounters& counters) const;
+    Step traverseMedia(Path& path, float distance, TraceCounters& counters) const;
     /// Adds what splats along the path's ray shine, up to `end`.
     /// @returns what they let through up to `way`
     float passSplats(Path& path, float end, float way) const;
@@ -164,18 +164,18 @@ private:
                    TraceCounters& counters) const;
     /// Takes the path through subsurface scattering, light at its exit included.
     /// @returns false when the path ends beneath the surface
-    bool passBeneath(Path& path, const SurfacePoint& point, const Hit& hit,
-                     const SubsurfaceEntry& entry, TraceCounters& counters) const;
+    bool scatterBeneath(Path& path, const SurfacePoint& point, const Hit& hit,
+                        const SubsurfaceEntry& entry, TraceCounters& counters) const;
     vec3 visibility(Path& path, const MediumStack& media, const vec3& origin, const vec3& direction,
                     float distance, const LightInfo& light, TraceCounters& counters) const;
     // For AOVs of light paths: who gives light, and what happens to the path.
     LightEvent emitterOf(int light) const;
     LightEvent glowOf(const Surface& surface) const;
-    void announceEmission(const Path& path, const Hit& hit) const;
+    void recordEmission(const Path& path, const Hit& hit) const;
     /// @param incident radiance over density, with its weight and what is left of it
-    void announceDirect(const Path& path, const ShadingPoint& s, const LightSample& light,
-                        const BsdfEval& f, const vec3& incident) const;
-    void announceScatter(const Path& path, const BsdfSample& next, const VertexBsdf& bsdf) const;
+    void recordDirect(const Path& path, const ShadingPoint& s, const LightSample& light,
+                      const BsdfEval& f, const vec3& incident) const;
+    void recordScatter(const Path& path, const BsdfSample& next, const VertexBsdf& bsdf) const;
     void addShadow(const Path& path, const vec3& value, const LightSample& light,
                    const vec3& radiance, const vec3& seen) const;
     bool linked(int category, const Surface* surface, const std::vector<int>* instance) const;

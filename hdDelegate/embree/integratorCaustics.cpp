@@ -115,7 +115,7 @@ Photon Integrator::photon(const CausticCasters& casters, uint32_t block, uint32_
                               path.rays, hit))
             break;
         if (!path.media.empty() || _scene.fillsSpace())
-            if (fly(path, hit.distance, counters) != Step::Arrives) break;
+            if (traverseMedia(path, hit.distance, counters) != Step::Arrives) break;
         computeSurfacePoint(hit, path.origin, path.direction, 0.0f, point);
         const MaterialProgram& program = *point.slot->program;
         if (program.jitters()) point.shading.seed = sampler.randomBits();

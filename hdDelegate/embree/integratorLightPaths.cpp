@@ -23,7 +23,7 @@ LightEvent Integrator::glowOf(const Surface& surface) const {
             _lightPaths.set().labels().of(surface.prim->lightGroup)};
 }
 
-void Integrator::announceEmission(const Path& path, const Hit& hit) const {
+void Integrator::recordEmission(const Path& path, const Hit& hit) const {
     const int light = _lights.triangleLight(hit);
     path.lightPaths->straight(light < 0 ? glowOf(*hit.surface) : emitterOf(light));
 }
@@ -38,8 +38,8 @@ EventType sideOf(const ShadingPoint& s, const vec3& direction) {
 
 } // namespace
 
-void Integrator::announceDirect(const Path& path, const ShadingPoint& s, const LightSample& light,
-                                const BsdfEval& f, const vec3& incident) const {
+void Integrator::recordDirect(const Path& path, const ShadingPoint& s, const LightSample& light,
+                              const BsdfEval& f, const vec3& incident) const {
     const LightInfo& info = _lights.info(light.light);
     path.lightPaths->lit(sideOf(s, light.direction), f.diffuse * info.diffuse * incident,
                          f.specular * info.specular * incident, emitterOf(light.light));
@@ -56,8 +56,8 @@ void Integrator::addShadow(const Path& path, const vec3& value, const LightSampl
         (glm::max(vec3(0.0f), 1.0f - seen) / (float(path.lightSamples) * light.pdf));
 }
 
-void Integrator::announceScatter(const Path& path, const BsdfSample& next,
-                                 const VertexBsdf& bsdf) const {
+void Integrator::recordScatter(const Path& path, const BsdfSample& next,
+                               const VertexBsdf& bsdf) const {
     const EventType type =
         (next.event & sh::LOBE_TRANSMIT) != 0 ? EventType::Transmit : EventType::Reflect;
     const bool singular = (next.event & sh::LOBE_DELTA) != 0;

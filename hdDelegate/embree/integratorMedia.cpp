@@ -45,7 +45,8 @@ vec3 Integrator::transmittanceTo(Path& path, float distance) const {
     return left;
 }
 
-Integrator::Step Integrator::fly(Path& path, float distance, TraceCounters& counters) const {
+Integrator::Step Integrator::traverseMedia(Path& path, float distance,
+                                           TraceCounters& counters) const {
     const bool fills = !path.media.empty();
     const vec3 extinction = fills ? path.media.extinction() : vec3(0.0f);
     const vec3 scattering = fills ? path.media.scattering() : vec3(0.0f);
@@ -140,8 +141,8 @@ Integrator::Step Integrator::scatterInside(Path& path, const Medium& medium, flo
     return Step::GoesOn;
 }
 
-bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& hit,
-                             const SubsurfaceEntry& entry, TraceCounters& counters) const {
+bool Integrator::scatterBeneath(Path& path, const SurfacePoint& point, const Hit& hit,
+                                const SubsurfaceEntry& entry, TraceCounters& counters) const {
     const ShadingPoint& s = point.shading;
     const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
     const vec3 outside = back ? -s.geometricNormal : s.geometricNormal;

@@ -36,7 +36,7 @@ public:
             changed |= bindLobe(t);
         if (changed) leaveOutUnread();
         const method::Layering layering = _methods.get<method::Layering>();
-        if (layering != method::Layering::AlbedoScaling && !_ir.topsAreVast) markReturning();
+        if (layering != method::Layering::AlbedoScaling && !_ir.tooManyReturns) markReturning();
         if (layering == method::Layering::PositionFree) markWalked();
         setFacts();
     }

@@ -135,9 +135,9 @@ void IrBuilder::markVastTops(const std::vector<ClosureOp>& ops) {
         for (const int part : {ops[i].a, ops[i].b})
             if (part >= 0) ways[i] += ways[size_t(part)];
         ways[i] = std::min(ways[i], mostWays);
-        _ir.topsAreVast |= ops[i].kind == ClosureKind::Layer && ways[i] == mostWays;
+        _ir.tooManyReturns |= ops[i].kind == ClosureKind::Layer && ways[i] == mostWays;
     }
-    if (_ir.topsAreVast && chosenMethod(_plan.methods, "layering") != "albedoScaling")
+    if (_ir.tooManyReturns && chosenMethod(_plan.methods, "layering") != "albedoScaling")
         _diagnostics.warn(_plan.graph.path, "", messages::layersTooMany);
 }
 

@@ -130,7 +130,7 @@ struct MaterialIr {
     bool hasPassThrough = false;      ///< a lobe passes light straight on
     bool opacityFromPrimvars = false; ///< only primvars can make opacity less than 1
     bool opacityIsOne = false;        ///< by itself, without what lobes pass straight on
-    bool topsAreVast = false; ///< what returns beneath a top would be asked for too many times
+    bool tooManyReturns = false; ///< what returns beneath a top would be asked for too many times
     const TextureSource* textures = nullptr;
 
     // Set by bindMethods(), with hasEmission and all else that follows from lobes.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes of many lights: each pixel takes a few of those that are not everywhere, chosen by an estimate of what they send.
-// Cells of space have lists of some of the lights, each with how often it counts, so that the mean of many lists is all
-// lights (hdDelegate/raster/samples/lightCells.h). Of a list the pixel takes lights by systematic sampling: each with a
+// Each cell of space has a list of some of the lights, with weights whose expectation is 1 for every light of the scene
+// (hdDelegate/raster/samples/lightCells.h). A pixel draws lights of its cell's list by systematic sampling: each with a
 // probability in proportion to its estimate at the point, and surely where the pixel would take it more than once.
 #include "shaders/lights/estimate.glsl"
 #define PATINA_ROW(vector, type, number, initial) vec3 vector; type number;

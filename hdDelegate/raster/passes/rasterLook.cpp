@@ -13,7 +13,7 @@ namespace {
 
 using Source = RasterLightSource;
 
-constexpr int every = 8;             ///< of a light's samples a pixel takes one in
+constexpr int every = 8;             ///< a pixel takes an eighth of a light's samples
 constexpr int maxPooled = 32;        ///< of a dome; half as many of an area
 constexpr int drawnOfDome = 2048;    ///< directions, to tell what is peaked, and what all light
 constexpr int maxPeaks = 4;          ///< samples of what is peaked, which all pixels take

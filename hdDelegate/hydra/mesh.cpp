@@ -54,7 +54,7 @@ void HdPatinaMesh::readTopology(HdSceneDelegate& delegate, HdPatinaRenderParam& 
     _tets.clear();
     // UsdImaging makes subdivision surfaces of both.
     if (_authored == SubdivisionScheme::CatmullClark &&
-        !readPatch(delegate, GetId(), param.scene()->diagnostics(), mesh))
+        !readPatch(delegate, GetId(), mesh))
         readTets(delegate, GetId(), _tets, _surface);
     mesh.subsets.clear();
     for (const HdGeomSubset& subset : topology.GetGeomSubsets()) {

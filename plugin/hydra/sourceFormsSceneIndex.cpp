@@ -4,6 +4,8 @@
 #include "hdDelegate/hydra/sourceForms.h"
 #include "plugin/hydra/overlays.h"
 
+#include <pxr/imaging/hd/tokens.h>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -32,10 +34,13 @@ const std::map<TfToken, std::vector<Attribute>>& attributes() {
         };
         plain("nurbsPatch", {"uVertexCount", "vVertexCount", "uOrder", "vOrder", "uKnots", "vKnots",
                              "uRange", "vRange"});
-        map[TfToken("nurbsPatch")].push_back(attribute(
-            "trimCurve:counts",
-            HdDataSourceLocator(TfToken("nurbsPatch"), TfToken("trimCurve"), TfToken("counts"))));
+        for (const std::string name :
+             {"counts", "orders", "vertexCounts", "knots", "ranges", "points"})
+            map[TfToken("nurbsPatch")].push_back(attribute(
+                "trimCurve:" + name,
+                HdDataSourceLocator(TfToken("nurbsPatch"), TfToken("trimCurve"), TfToken(name))));
         plain("nurbsCurves", {"order", "knots", "ranges"});
+        plain(patina::hermitePrimType, {"tangents"});
         plain("plane", {"width", "length", "axis"});
         for (const char* name : {"tetVertexIndices", "surfaceFaceVertexIndices"})
             map[TfToken("tetMesh")].push_back(attribute(
@@ -43,6 +48,11 @@ const std::map<TfToken, std::vector<Attribute>>& attributes() {
         return map;
     }();
     return all;
+}
+
+/// What the next scene indices know.
+TfToken knownType(const TfToken& type) {
+    return type == patina::hermitePrimType ? HdPrimTypeTokens->nurbsCurves : type;
 }
 
 } // namespace
@@ -57,7 +67,16 @@ HdSceneIndexPrim HdPatinaSourceFormsSceneIndex::GetPrim(const SdfPath& path) con
                 HdContainerDataSource::Get(prim.dataSource, attribute.locator)))
             values.emplace_back(attribute.primvar, value);
     HdPatinaOverlayPrimvars(prim, values);
+    prim.primType = knownType(prim.primType);
     return prim;
+}
+
+void HdPatinaSourceFormsSceneIndex::_PrimsAdded(
+    const HdSceneIndexBase&, const HdSceneIndexObserver::AddedPrimEntries& entries) {
+    HdSceneIndexObserver::AddedPrimEntries added = entries;
+    for (auto& entry : added)
+        entry.primType = knownType(entry.primType);
+    _SendPrimsAdded(added);
 }
 
 void HdPatinaSourceFormsSceneIndex::_PrimsDirtied(

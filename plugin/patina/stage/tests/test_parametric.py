@@ -21,9 +21,24 @@ def test_a_patch_keeps_its_knots_weights_and_side(read):
     assert patch["faceVertexIndices"] == "0 1 4 3 1 2 5 4"  # the grid of control points, u fastest
 
 
-def test_trim_curves_are_told_of(read):
-    reading = read("""def NurbsPatch "p" { """ + PATCH + """ int[] trimCurve:counts = [1] }""")
-    assert reading.has("/p") and reading.warnings == ["/p trimCurve:counts: is not supported: nothing is cut out of the patch"]
+TRIM = """ int[] trimCurve:counts = [2]  int[] trimCurve:orders = [2, 2]  int[] trimCurve:vertexCounts = [2, 3]
+    double[] trimCurve:knots = [0, 0, 1, 1, 0, 0, 1, 2, 2]  double2[] trimCurve:ranges = [(0, 1), (0, 2)]
+    double3[] trimCurve:points = [(0.2, 0.2, 1), (0.8, 0.2, 1), (0.8, 0.2, 1), (1, 1.6, 2), (0.2, 0.2, 1)] """
+
+
+def test_a_patch_keeps_its_trim_curves(read, numbers):
+    patch = read("""def NurbsPatch "p" { """ + PATCH + TRIM + "}").prim("/p")
+    assert patch["trim counts"] == "2" and patch["trim orders"] == "2 2" and patch["trim vertexCounts"] == "2 3"
+    assert patch["trim knots"] == "0 0 1 1 0 0 1 2 2" and patch["trim ranges"] == "0 1 0 2"
+    assert numbers(patch["trim points"]) == [0.2, 0.2, 1, 0.8, 0.2, 1, 0.8, 0.2, 1, 1, 1.6, 2, 0.2, 0.2, 1]
+    assert "trim keepInside" not in patch
+
+
+def test_which_side_of_trim_curves_stays(read):
+    """RenderMan's attribute, also from a prim above."""
+    reading = read("""def Scope "s" { string primvars:ri:attributes:trimcurve:sense = "outside"
+        def NurbsPatch "p" { """ + PATCH + TRIM + "} }")
+    assert reading.prim("/s/p")["trim keepInside"] == "true"
 
 
 @pytest.mark.parametrize("oriented", ["", ' uniform token orientation = "leftHanded"'])

@@ -20,6 +20,27 @@ namespace {
 
 const TfToken tangents("tangents"), hermite("HermiteCurves"), hermiteType(patina::hermitePrimType);
 
+/// Holds the tangents, looked up when they are asked for.
+class Tangents final : public HdContainerDataSource {
+public:
+    HD_DECLARE_DATASOURCE(Tangents);
+
+    TfTokenVector GetNames() override { return {tangents}; }
+    HdDataSourceBaseHandle Get(const TfToken& name) override {
+        const UsdAttribute attribute = name == tangents ? _prim.GetAttribute(name) : UsdAttribute();
+        if (!attribute) return nullptr;
+        return UsdImagingDataSourceAttributeNew(attribute, _globals, _prim.GetPath(),
+                                                HdDataSourceLocator(hermiteType, tangents));
+    }
+
+private:
+    Tangents(const UsdPrim& prim, const UsdImagingDataSourceStageGlobals& globals)
+        : _prim(prim), _globals(globals) {}
+
+    const UsdPrim _prim;
+    const UsdImagingDataSourceStageGlobals& _globals;
+};
+
 } // namespace
 
 /// Their data are those of NURBS curves and their tangents. Their type is one that other renderers
@@ -35,12 +56,8 @@ public:
     GetImagingSubprimData(const UsdPrim& prim, const TfToken& subprim, const TfToken&,
                           const UsdImagingDataSourceStageGlobals& globals) override {
         if (!isHermite(prim, subprim)) return nullptr;
-        const HdDataSourceBaseHandle value =
-            UsdImagingDataSourceAttributeNew(prim.GetAttribute(tangents), globals, prim.GetPath(),
-                                             HdDataSourceLocator(hermiteType, tangents));
         return HdOverlayContainerDataSource::New(
-            HdRetainedContainerDataSource::New(hermiteType,
-                                               HdRetainedContainerDataSource::New(tangents, value)),
+            HdRetainedContainerDataSource::New(hermiteType, Tangents::New(prim, globals)),
             _curves->GetImagingSubprimData(prim, subprim, globals));
     }
 

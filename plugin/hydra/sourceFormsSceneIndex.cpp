@@ -50,6 +50,39 @@ const std::map<TfToken, std::vector<Attribute>>& attributes() {
     return all;
 }
 
+/// The attributes of a prim as primvars, looked up when they are asked for: a source of an
+/// attribute does not see opinions that come later.
+class SourcePrimvars final : public HdContainerDataSource {
+public:
+    HD_DECLARE_DATASOURCE(SourcePrimvars);
+
+    TfTokenVector GetNames() override {
+        TfTokenVector names;
+        for (const Attribute& attribute : _attributes)
+            if (valueOf(attribute)) names.push_back(attribute.primvar);
+        return names;
+    }
+    HdDataSourceBaseHandle Get(const TfToken& name) override {
+        for (const Attribute& attribute : _attributes)
+            if (attribute.primvar == name)
+                if (const HdSampledDataSourceHandle value = valueOf(attribute))
+                    return HdPatinaConstantPrimvar(value);
+        return nullptr;
+    }
+
+private:
+    SourcePrimvars(const std::vector<Attribute>& attributes,
+                   const HdContainerDataSourceHandle& prim)
+        : _attributes(attributes), _prim(prim) {}
+
+    HdSampledDataSourceHandle valueOf(const Attribute& attribute) const {
+        return HdSampledDataSource::Cast(HdContainerDataSource::Get(_prim, attribute.locator));
+    }
+
+    const std::vector<Attribute>& _attributes;
+    const HdContainerDataSourceHandle _prim;
+};
+
 /// What the next scene indices know.
 TfToken knownType(const TfToken& type) {
     return type == patina::hermitePrimType ? HdPrimTypeTokens->nurbsCurves : type;
@@ -61,12 +94,10 @@ HdSceneIndexPrim HdPatinaSourceFormsSceneIndex::GetPrim(const SdfPath& path) con
     HdSceneIndexPrim prim = _GetInputSceneIndex()->GetPrim(path);
     const auto found = attributes().find(prim.primType);
     if (found == attributes().end() || !prim.dataSource) return prim;
-    std::vector<std::pair<TfToken, HdSampledDataSourceHandle>> values;
-    for (const Attribute& attribute : found->second)
-        if (const auto value = HdSampledDataSource::Cast(
-                HdContainerDataSource::Get(prim.dataSource, attribute.locator)))
-            values.emplace_back(attribute.primvar, value);
-    HdPatinaOverlayPrimvars(prim, values);
+    prim.dataSource = HdOverlayContainerDataSource::New(
+        HdRetainedContainerDataSource::New(HdPrimvarsSchemaTokens->primvars,
+                                           SourcePrimvars::New(found->second, prim.dataSource)),
+        prim.dataSource);
     prim.primType = knownType(prim.primType);
     return prim;
 }

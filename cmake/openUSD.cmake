@@ -78,13 +78,12 @@ if(ownPython)
 endif()
 
 if(TARGET hd)
-    set(PATINA_PXR_LIBRARIES hd hdsi sdr)
-    if(TARGET ndr) # merged into sdr by OpenUSD 25.08
-        list(APPEND PATINA_PXR_LIBRARIES ndr)
-    endif()
-    if(TARGET usdLod) # since OpenUSD 26.08
-        list(APPEND PATINA_PXR_LIBRARIES usdLod usdImaging)
-    endif()
+    set(PATINA_PXR_LIBRARIES hd hdsi sdr usdImaging)
+    foreach(name ndr usdLod) # merged into sdr by OpenUSD 25.08, new in 26.08
+        if(TARGET ${name})
+            list(APPEND PATINA_PXR_LIBRARIES ${name})
+        endif()
+    endforeach()
 elseif(TARGET usd_ms)
     set(PATINA_PXR_LIBRARIES usd_ms)
 else()

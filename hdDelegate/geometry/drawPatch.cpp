@@ -3,6 +3,8 @@
 
 #include "hdDelegate/geometry/drawnFaces.h"
 #include "hdDelegate/geometry/nurbs.h"
+#include "hdDelegate/geometry/patchGrid.h"
+#include "hdDelegate/geometry/trimLoops.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,59 +18,6 @@ using Rate = MeshAttribute::Rate;
 
 constexpr int maxPieces = 64;      // of a span, along one direction
 constexpr int minCurvedPieces = 4; // of a span that may be curved
-constexpr double poleStep = 1e-4;  // of a span: how far from a pole its normal is looked for
-
-/// A line of vertices: where it is in one direction, and the basis there.
-struct Line {
-    NurbsBasis::Span span;
-    double t = 0.0;
-    std::vector<double> values, slopes;
-    bool joined = false; ///< to the line before it by triangles
-};
-
-class Direction {
-public:
-    explicit Direction(const NurbsDirection& direction) : basis(direction) {}
-
-    void chooseLines(const std::vector<int>& pieces) {
-        const auto& spans = basis.spans();
-        for (size_t s = 0; s < spans.size(); ++s) {
-            // One line ends a span and begins the next, unless there may be an edge.
-            const bool own = s == 0 || basis.breaksBefore(spans[s]);
-            for (int i = own ? 0 : 1; i <= pieces[s]; ++i) {
-                const double x = double(i) / pieces[s];
-                add(spans[s], spans[s].low + (spans[s].high - spans[s].low) * x, i > 0);
-            }
-        }
-    }
-    /// The basis a little further into the span.
-    Line inside(const Line& line) const {
-        Line moved;
-        moved.span = line.span;
-        const double middle = 0.5 * (line.span.low + line.span.high);
-        moved.t = line.t + poleStep * (middle - line.t);
-        evaluate(moved);
-        return moved;
-    }
-
-    NurbsBasis basis;
-    std::vector<Line> lines;
-
-private:
-    void add(const NurbsBasis::Span& span, double t, bool joined) {
-        Line line;
-        line.span = span;
-        line.t = t;
-        line.joined = joined;
-        evaluate(line);
-        lines.push_back(std::move(line));
-    }
-    void evaluate(Line& line) const {
-        line.values.resize(size_t(basis.order()));
-        line.slopes.resize(size_t(basis.order()));
-        basis.evaluate(line.span, line.t, line.values.data(), line.slopes.data());
-    }
-};
 
 class PatchDrawer {
 public:
@@ -78,8 +27,11 @@ public:
 
     TriangleMesh draw(const TessellationOptions& options, Diagnostics& diagnostics) {
         chooseLines(options);
+        const auto loops = trimLoops(options, diagnostics);
+        const bool keepInside = _mesh.patch->trim.keepInside;
+        _grid = loops.empty() ? wholeGrid(_u, _v) : trimmedGrid(_u, _v, loops, keepInside);
         TriangleMesh out;
-        const size_t vertices = _u.lines.size() * _v.lines.size();
+        const size_t vertices = _grid.vertices.size();
         out.positions.resize(_points.steps.size());
         out.normals.resize(_points.steps.size());
         for (size_t step = 0; step < _points.steps.size(); ++step) {
@@ -98,7 +50,7 @@ private:
     void chooseLines(const TessellationOptions& options) {
         std::vector<int> u = piecesOf(_u.basis, 1, _stride, _mesh.patch->v.vertexCount, options);
         std::vector<int> v = piecesOf(_v.basis, _stride, 1, int(_stride), options);
-        const int floor = 1 << std::clamp(_mesh.refineLevel, 0, options.maxRefineLevel);
+        const int floor = refineFloor(options);
         const auto sum = [](const std::vector<int>& list) {
             double all = 0.0;
             for (int n : list)
@@ -124,10 +76,29 @@ private:
                 _pieces = std::max(_pieces, n);
     }
 
+    std::vector<std::vector<glm::dvec2>> trimLoops(const TessellationOptions& options,
+                                                   Diagnostics& diagnostics) const {
+        TrimOptions trim;
+        trim.low = {_u.basis.low(), _v.basis.low()};
+        trim.high = {_u.basis.high(), _v.basis.high()};
+        trim.pieces = std::max(refineFloor(options), minCurvedPieces);
+        trim.longest = double(options.targetEdge);
+        trim.budget = options.triangleBudget / 4;
+        trim.place = [&](const glm::dvec2& at) {
+            return place(_points.steps[0], _u.at(at.x), _v.at(at.y)).p;
+        };
+        return patina::trimLoops(_mesh.patch->trim, _mesh.path, trim, diagnostics);
+    }
+
+    /// Pieces of a span at least.
+    int refineFloor(const TessellationOptions& options) const {
+        return 1 << std::clamp(_mesh.refineLevel, 0, options.maxRefineLevel);
+    }
+
     /// @param stride, across from one control point to the next along this direction and the other
     std::vector<int> piecesOf(const NurbsBasis& basis, size_t stride, size_t across, int rows,
                               const TessellationOptions& options) const {
-        const int floor = 1 << std::clamp(_mesh.refineLevel, 0, options.maxRefineLevel);
+        const int floor = refineFloor(options);
         const int minimum = basis.order() > 2 ? std::max(floor, minCurvedPieces) : floor;
         std::vector<int> pieces;
         for (const NurbsBasis::Span& span : basis.spans()) {
@@ -147,7 +118,8 @@ private:
 
     /// A vertex's value, made from one value per control point, and its derivatives.
     /// @param add (index of control point, weight here, by u, by v)
-    template <class Add> void combine(const Line& u, const Line& v, const Add& add) const {
+    template <class Add>
+    void combine(const PatchLine& u, const PatchLine& v, const Add& add) const {
         const int ou = _u.basis.order(), ov = _v.basis.order();
         double sum = 0.0, sumU = 0.0, sumV = 0.0;
         const auto each = [&](const auto& use) {
@@ -180,7 +152,7 @@ private:
     struct Place {
         dvec3 p{0.0}, byU{0.0}, byV{0.0};
     };
-    Place place(const std::vector<vec3>& points, const Line& u, const Line& v) const {
+    Place place(const std::vector<vec3>& points, const PatchLine& u, const PatchLine& v) const {
         Place at;
         combine(u, v, [&](size_t point, double n, double nu, double nv) {
             const dvec3 p(points[point]);
@@ -202,43 +174,40 @@ private:
         const double flat =
             1e-8 * size * size /
             ((_u.basis.high() - _u.basis.low()) * (_v.basis.high() - _v.basis.low()));
-        for (const Line& v : _v.lines)
-            for (const Line& u : _u.lines) {
-                const Place at = place(points, u, v);
-                positions.push_back(vec3(at.p));
-                dvec3 n = glm::cross(at.byU, at.byV);
-                if (!(glm::length(n) > flat)) { // a pole: an edge that is one point
-                    const Place near = place(points, _u.inside(u), _v.inside(v));
-                    n = glm::cross(near.byU, near.byV);
-                }
-                const double length = glm::length(n);
-                normals.push_back(length > 0.0 && std::isfinite(length) ? vec3(n / length)
-                                                                        : vec3(0, 0, 1));
+        for (const uvec2& vertex : _grid.vertices) {
+            const PatchLine &u = _u.lines[vertex.x], &v = _v.lines[vertex.y];
+            const Place at = place(points, u, v);
+            positions.push_back(vec3(at.p));
+            dvec3 n = glm::cross(at.byU, at.byV);
+            if (!(glm::length(n) > flat)) { // a pole: an edge that is one point
+                const Place near = place(points, _u.inside(u), _v.inside(v));
+                n = glm::cross(near.byU, near.byV);
             }
+            const double length = glm::length(n);
+            normals.push_back(length > 0.0 && std::isfinite(length) ? vec3(n / length)
+                                                                    : vec3(0, 0, 1));
+        }
     }
 
     void addTriangles(TriangleMesh& out) const {
-        const uint32_t row = uint32_t(_u.lines.size());
         const auto& p = out.positions[0];
-        const auto add = [&](uint32_t a, uint32_t b, uint32_t c, int segment) {
-            if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return; // at a pole
-            out.triangles.push_back(_mesh.leftHanded ? uvec3(a, c, b) : uvec3(a, b, c));
-            out.triangleFace.push_back(segment);
-        };
-        for (uint32_t j = 1; j < _v.lines.size(); ++j) {
-            if (!_v.lines[j].joined) continue;
-            const int segmentRow = _v.basis.segment(_v.lines[j].span) * _u.basis.segments();
-            for (uint32_t i = 1; i < row; ++i) {
-                if (!_u.lines[i].joined) continue;
-                const int segment = segmentRow + _u.basis.segment(_u.lines[i].span);
-                const uint32_t d = j * row + i, c = d - 1, b = d - row, a = b - 1;
-                if (glm::dot(p[d] - p[a], p[d] - p[a]) <= glm::dot(p[c] - p[b], p[c] - p[b])) {
-                    add(a, b, d, segment);
-                    add(a, d, c, segment);
-                } else {
-                    add(a, b, c, segment);
-                    add(b, d, c, segment);
-                }
+        for (const PatchFace& f : _grid.faces) {
+            const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
+                if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return; // at a pole
+                out.triangles.push_back(_mesh.leftHanded ? uvec3(a, c, b) : uvec3(a, b, c));
+                out.triangleFace.push_back(f.segment);
+            };
+            const auto squared = [&](uint32_t a, uint32_t b) {
+                return glm::dot(p[b] - p[a], p[b] - p[a]);
+            };
+            if (!f.whole) {
+                add(f.a, f.b, f.c);
+            } else if (squared(f.a, f.d) <= squared(f.b, f.c)) {
+                add(f.a, f.b, f.d);
+                add(f.a, f.d, f.c);
+            } else {
+                add(f.a, f.b, f.c);
+                add(f.b, f.d, f.c);
             }
         }
         if (_mesh.leftHanded)
@@ -286,32 +255,32 @@ private:
 
     void varying(const std::vector<float>& values, MeshAttribute& out) const {
         const size_t row = size_t(_u.basis.segments()) + 1, n = size_t(out.components);
-        for (const Line& v : _v.lines)
-            for (const Line& u : _u.lines) {
-                const float x = float(_u.basis.along(u.span, u.t));
-                const float y = float(_v.basis.along(v.span, v.t));
-                const size_t corner =
-                    size_t(_v.basis.segment(v.span)) * row + size_t(_u.basis.segment(u.span));
-                const float* a = &values[corner * n];
-                const float* b = a + row * n;
-                for (size_t k = 0; k < n; ++k)
-                    out.data.push_back((1.0f - y) * ((1.0f - x) * a[k] + x * a[n + k]) +
-                                       y * ((1.0f - x) * b[k] + x * b[n + k]));
-            }
+        for (const uvec2& vertex : _grid.vertices) {
+            const PatchLine &u = _u.lines[vertex.x], &v = _v.lines[vertex.y];
+            const float x = float(_u.basis.along(u.span, u.t));
+            const float y = float(_v.basis.along(v.span, v.t));
+            const size_t corner =
+                size_t(_v.basis.segment(v.span)) * row + size_t(_u.basis.segment(u.span));
+            const float* a = &values[corner * n];
+            const float* b = a + row * n;
+            for (size_t k = 0; k < n; ++k)
+                out.data.push_back((1.0f - y) * ((1.0f - x) * a[k] + x * a[n + k]) +
+                                   y * ((1.0f - x) * b[k] + x * b[n + k]));
+        }
     }
 
     void vertex(const std::vector<float>& values, MeshAttribute& out) const {
         const size_t n = size_t(out.components);
         double sum[16];
-        for (const Line& v : _v.lines)
-            for (const Line& u : _u.lines) {
-                std::fill_n(sum, n, 0.0);
-                combine(u, v, [&](size_t point, double weight, double, double) {
-                    for (size_t k = 0; k < n; ++k)
-                        sum[k] += weight * double(values[point * n + k]);
-                });
-                out.data.insert(out.data.end(), sum, sum + n);
-            }
+        for (const uvec2& vertex : _grid.vertices) {
+            const PatchLine &u = _u.lines[vertex.x], &v = _v.lines[vertex.y];
+            std::fill_n(sum, n, 0.0);
+            combine(u, v, [&](size_t point, double weight, double, double) {
+                for (size_t k = 0; k < n; ++k)
+                    sum[k] += weight * double(values[point * n + k]);
+            });
+            out.data.insert(out.data.end(), sum, sum + n);
+        }
     }
 
     void addSt(TriangleMesh& out) const {
@@ -322,11 +291,11 @@ private:
         const auto across = [](const NurbsBasis& basis, double t) {
             return float((t - basis.low()) / (basis.high() - basis.low()));
         };
-        for (const Line& v : _v.lines)
-            for (const Line& u : _u.lines) {
-                st.data.push_back(across(_u.basis, u.t));
-                st.data.push_back(across(_v.basis, v.t));
-            }
+        for (const uvec2& vertex : _grid.vertices) {
+            const PatchLine &u = _u.lines[vertex.x], &v = _v.lines[vertex.y];
+            st.data.push_back(across(_u.basis, u.t));
+            st.data.push_back(across(_v.basis, v.t));
+        }
         out.attributes.push_back(std::move(st));
     }
 
@@ -342,7 +311,8 @@ private:
     const Mesh& _mesh;
     const PointSteps& _points;
     std::vector<double> _weights;
-    Direction _u, _v;
+    PatchDirection _u, _v;
+    PatchGrid _grid;
     size_t _stride;
     int _pieces = 1;
 };

@@ -8,12 +8,14 @@ namespace patina {
 
 namespace {
 
-float turn(const vec2& a, const vec2& b, const vec2& c) {
+using glm::dvec2;
+
+double turn(const dvec2& a, const dvec2& b, const dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-bool inTriangle(const vec2& p, const vec2& a, const vec2& b, const vec2& c) {
-    return turn(a, b, p) >= 0.0f && turn(b, c, p) >= 0.0f && turn(c, a, p) >= 0.0f;
+bool inTriangle(const dvec2& p, const dvec2& a, const dvec2& b, const dvec2& c) {
+    return turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
 }
 
 void fan(int count, std::vector<uvec3>& out) {
@@ -22,14 +24,14 @@ void fan(int count, std::vector<uvec3>& out) {
 }
 
 /// A polygon in its plane, counterclockwise.
-std::vector<vec2> project(const vec3* corners, int count, const vec3& normal) {
+std::vector<dvec2> project(const vec3* corners, int count, const vec3& normal) {
     const vec3 axis = glm::abs(normal);
     int drop = axis.x > axis.y ? (axis.x > axis.z ? 0 : 2) : (axis.y > axis.z ? 1 : 2);
     int u = (drop + 1) % 3, v = (drop + 2) % 3;
     if (normal[drop] < 0.0f) std::swap(u, v);
-    std::vector<vec2> flat(count);
+    std::vector<dvec2> flat(count);
     for (int i = 0; i < count; ++i)
-        flat[i] = vec2(corners[i][u] - corners[0][u], corners[i][v] - corners[0][v]);
+        flat[i] = dvec2(corners[i][u] - corners[0][u], corners[i][v] - corners[0][v]);
     return flat;
 }
 
@@ -51,7 +53,9 @@ void quad(const vec3* p, std::vector<uvec3>& out) {
     }
 }
 
-void clipEars(const std::vector<vec2>& p, std::vector<uvec3>& out) {
+} // namespace
+
+void clipEars(const std::vector<glm::dvec2>& p, std::vector<uvec3>& out) {
     const int count = int(p.size());
     std::vector<int> next(count), previous(count);
     for (int i = 0; i < count; ++i) {
@@ -61,7 +65,7 @@ void clipEars(const std::vector<vec2>& p, std::vector<uvec3>& out) {
     // Only reflex corners can lie inside an ear; a corner never becomes reflex by clipping.
     std::vector<int> reflex;
     for (int i = 0; i < count; ++i)
-        if (turn(p[previous[i]], p[i], p[next[i]]) <= 0.0f) reflex.push_back(i);
+        if (turn(p[previous[i]], p[i], p[next[i]]) <= 0.0) reflex.push_back(i);
     std::vector<uint8_t> gone(count);
     // A polygon that crosses itself may be tried at each corner again and again: after as many
     // tests as four rounds take, any corner will do.
@@ -69,7 +73,7 @@ void clipEars(const std::vector<vec2>& p, std::vector<uvec3>& out) {
     const auto isEar = [&](int i) {
         const int a = previous[i], c = next[i];
         if (tests < 0) return true;
-        if (turn(p[a], p[i], p[c]) <= 0.0f) return false;
+        if (turn(p[a], p[i], p[c]) <= 0.0) return false;
         tests -= int64_t(reflex.size());
         for (int r : reflex)
             if (!gone[r] && r != a && r != i && r != c && p[r] != p[a] && p[r] != p[i] &&
@@ -97,8 +101,6 @@ void clipEars(const std::vector<vec2>& p, std::vector<uvec3>& out) {
     out.push_back(uvec3(previous[corner], corner, next[corner]));
 }
 
-} // namespace
-
 vec3 newellNormal(const vec3* corners, int count) {
     vec3 normal(0.0f);
     for (int i = 1; i + 1 < count; ++i)
@@ -115,10 +117,10 @@ void triangulatePolygon(const vec3* corners, int count, std::vector<uvec3>& out)
         quad(corners, out);
         return;
     }
-    const std::vector<vec2> flat = project(corners, count, newellNormal(corners, count));
+    const std::vector<dvec2> flat = project(corners, count, newellNormal(corners, count));
     bool convex = true;
     for (int i = 0; i < count && convex; ++i)
-        convex = turn(flat[i], flat[(i + 1) % count], flat[(i + 2) % count]) > 0.0f;
+        convex = turn(flat[i], flat[(i + 1) % count], flat[(i + 2) % count]) > 0.0;
     // Local turns alone do not tell a convex polygon from one that winds twice, but a fan is then
     // as good as anything.
     if (convex || count > maxEarClipping)

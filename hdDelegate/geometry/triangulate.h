@@ -12,6 +12,9 @@ namespace patina {
 /// @param corners the polygon, count >= 3 finite points
 void triangulatePolygon(const vec3* corners, int count, std::vector<uvec3>& out);
 
+/// Cuts a counterclockwise polygon of a plane into count - 2 triangles; it may touch itself.
+void clipEars(const std::vector<glm::dvec2>& corners, std::vector<uvec3>& out);
+
 /// Above this many corners a concave polygon is cut as a fan, since ear clipping is quadratic.
 constexpr int maxEarClipping = 8192;
 

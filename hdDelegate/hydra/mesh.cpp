@@ -30,7 +30,10 @@ void setRule(const TfToken& token, const std::string& fallback, std::string& rul
 void HdPatinaMesh::syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                              HdDirtyBits dirtyBits, bool all, const TfToken&, Mesh& mesh) {
     const SdfPath& id = GetId();
-    if (all || HdChangeTracker::IsTopologyDirty(dirtyBits, id)) readTopology(delegate, param, mesh);
+    // Attributes of a source form are among the primvars.
+    if (all || HdChangeTracker::IsTopologyDirty(dirtyBits, id) ||
+        ((mesh.patch || !_tets.empty()) && HdChangeTracker::IsAnyPrimvarDirty(dirtyBits, id)))
+        readTopology(delegate, param, mesh);
     if (all || HdChangeTracker::IsSubdivTagsDirty(dirtyBits, id)) readTags(delegate, mesh);
     if (all || HdChangeTracker::IsDisplayStyleDirty(dirtyBits, id) ||
         HdChangeTracker::IsTopologyDirty(dirtyBits, id)) {
@@ -53,8 +56,7 @@ void HdPatinaMesh::readTopology(HdSceneDelegate& delegate, HdPatinaRenderParam& 
     mesh.patch = nullptr;
     _tets.clear();
     // UsdImaging makes subdivision surfaces of both.
-    if (_authored == SubdivisionScheme::CatmullClark &&
-        !readPatch(delegate, GetId(), param.scene()->diagnostics(), mesh))
+    if (_authored == SubdivisionScheme::CatmullClark && !readPatch(delegate, GetId(), mesh))
         readTets(delegate, GetId(), _tets, _surface);
     mesh.subsets.clear();
     for (const HdGeomSubset& subset : topology.GetGeomSubsets()) {

@@ -5,6 +5,7 @@
 #include "hdDelegate/hydra/values.h"
 
 #include <pxr/base/gf/vec2d.h>
+#include <pxr/base/gf/vec3d.h>
 #include <pxr/base/gf/vec3i.h>
 #include <pxr/base/gf/vec4i.h>
 #include <pxr/base/tf/token.h>
@@ -18,8 +19,17 @@ VtValue sourceOf(HdSceneDelegate& delegate, const SdfPath& id, const std::string
 
 namespace {
 
+template <class Vector> std::vector<double> flatDoubles(const VtValue& value) {
+    std::vector<double> out;
+    for (const Vector& v : value.UncheckedGet<VtArray<Vector>>())
+        out.insert(out.end(), v.data(), v.data() + Vector::dimension);
+    return out;
+}
+
 std::vector<double> doublesOf(const VtValue& value) {
     if (value.IsHolding<VtArray<double>>()) return toVector(value.UncheckedGet<VtArray<double>>());
+    if (value.IsHolding<VtArray<GfVec2d>>()) return flatDoubles<GfVec2d>(value);
+    if (value.IsHolding<VtArray<GfVec3d>>()) return flatDoubles<GfVec3d>(value);
     int components = 0;
     const std::vector<float> floats = floatsOf(value, components);
     return std::vector<double>(floats.begin(), floats.end());
@@ -59,15 +69,24 @@ NurbsDirection directionOf(HdSceneDelegate& delegate, const SdfPath& id, const s
 
 } // namespace
 
-bool readPatch(HdSceneDelegate& delegate, const SdfPath& id, Diagnostics& diagnostics, Mesh& mesh) {
+bool readPatch(HdSceneDelegate& delegate, const SdfPath& id, Mesh& mesh) {
     if (integerOf(sourceOf(delegate, id, "uOrder")) == 0) return false;
     auto patch = std::make_shared<NurbsPatch>();
     patch->u = directionOf(delegate, id, "u");
     patch->v = directionOf(delegate, id, "v");
     patch->weights = doublesOf(sourceOf(delegate, id, "pointWeights"));
+    TrimCurves& trim = patch->trim;
+    trim.counts = intsOf(sourceOf(delegate, id, "trimCurve:counts"));
+    if (!trim.counts.empty()) {
+        trim.orders = intsOf(sourceOf(delegate, id, "trimCurve:orders"));
+        trim.vertexCounts = intsOf(sourceOf(delegate, id, "trimCurve:vertexCounts"));
+        trim.knots = doublesOf(sourceOf(delegate, id, "trimCurve:knots"));
+        trim.ranges = doublesOf(sourceOf(delegate, id, "trimCurve:ranges"));
+        trim.points = doublesOf(sourceOf(delegate, id, "trimCurve:points"));
+        const TfToken sense("ri:attributes:trimcurve:sense");
+        trim.keepInside = textOf(delegate.Get(id, sense)) == "outside";
+    }
     mesh.patch = std::move(patch);
-    if (!intsOf(sourceOf(delegate, id, "trimCurve:counts")).empty())
-        diagnostics.warn(id.GetString(), "trimCurve:counts", messages::trimCurvesIgnored);
     return true;
 }
 
@@ -99,7 +118,8 @@ std::shared_ptr<const Curves> bezierOf(HdSceneDelegate& delegate, const SdfPath&
     HermiteCurves hermite;
     static_cast<Curves&>(hermite) = curves;
     hermite.tangents = tangents;
-    if (!hermite.primvar("widths"))
+    const TfToken handedOn(std::string(sourcePrefix) + "tangents"); // by the plugin's adapter
+    if (!hermite.primvar("widths") && delegate.Get(id, handedOn).IsEmpty())
         diagnostics.warn(id.GetString(), "widths", messages::hermiteWidths);
     return toBezier(hermite, diagnostics);
 }

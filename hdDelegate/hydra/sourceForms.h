@@ -13,6 +13,9 @@ namespace patina {
 /// Hydra's own prims have no place. They are no primvars of the prim.
 inline constexpr const char* sourcePrefix = "patina:source:";
 
+/// The type of Hermite curves before the plugin's scene index makes NURBS curves of them.
+inline constexpr const char* hermitePrimType = "patinaHermiteCurves";
+
 /// An attribute of the stage's prim, as it was handed on or as the delegate gives it.
 VtValue sourceOf(HdSceneDelegate& delegate, const SdfPath& id, const std::string& name);
 
@@ -20,7 +23,7 @@ VtValue sourceOf(HdSceneDelegate& delegate, const SdfPath& id, const std::string
 /// plugin's scene index hands its attributes on, UsdImagingDelegate gives any attribute by name.
 ///
 /// @returns false where it was no NURBS patch; else the mesh is one
-bool readPatch(HdSceneDelegate& delegate, const SdfPath& id, Diagnostics& diagnostics, Mesh& mesh);
+bool readPatch(HdSceneDelegate& delegate, const SdfPath& id, Mesh& mesh);
 
 /// @returns false where it was no mesh of tetrahedra
 bool readTets(HdSceneDelegate& delegate, const SdfPath& id, std::vector<int>& tets,

@@ -102,10 +102,22 @@ struct NurbsDirection {
     double low = 0.0, high = 0.0; ///< part that is drawn; all of it where low is not below high
 };
 
+/// The trim curves of a UsdGeomNurbsPatch, as authored. A point is inside of them where a ray from
+/// it crosses them an odd number of times (RenderMan Interface, RiTrimCurve).
+struct TrimCurves {
+    std::vector<int> counts;               ///< curves of each loop
+    std::vector<int> orders, vertexCounts; ///< of each curve
+    std::vector<double> knots;             ///< vertex count + order of each curve
+    std::vector<double> ranges;            ///< two per curve: the part that counts; empty: all
+    std::vector<double> points;            ///< three each: u and v, multiplied by w, and w
+    bool keepInside = false;               ///< what is inside is drawn, and not what is outside
+};
+
 /// The attributes of a UsdGeomNurbsPatch, in a mesh.
 struct NurbsPatch {
     NurbsDirection u, v;
     std::vector<double> weights; ///< one per control point, not multiplied into it; empty: all 1
+    TrimCurves trim;
 };
 
 /// UsdGeomMesh, or a UsdGeomNurbsPatch.

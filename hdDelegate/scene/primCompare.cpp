@@ -31,9 +31,16 @@ bool same(const NurbsDirection& a, const NurbsDirection& b) {
            a.low == b.low && a.high == b.high;
 }
 
+bool same(const TrimCurves& a, const TrimCurves& b) {
+    return a.counts == b.counts && a.orders == b.orders && a.vertexCounts == b.vertexCounts &&
+           a.knots == b.knots && a.ranges == b.ranges && a.points == b.points &&
+           a.keepInside == b.keepInside;
+}
+
 bool same(const std::shared_ptr<const NurbsPatch>& a, const std::shared_ptr<const NurbsPatch>& b) {
     if (!a || !b || a == b) return a == b;
-    return same(a->u, b->u) && same(a->v, b->v) && a->weights == b->weights;
+    return same(a->u, b->u) && same(a->v, b->v) && a->weights == b->weights &&
+           same(a->trim, b->trim);
 }
 
 bool sameKind(const Mesh& a, const Mesh& b) {

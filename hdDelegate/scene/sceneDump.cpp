@@ -181,6 +181,14 @@ void writeMesh(Writer& w, const Mesh& m) {
     writeDirection(w, "patch u", m.patch->u);
     writeDirection(w, "patch v", m.patch->v);
     w.array("patch weights", m.patch->weights);
+    const TrimCurves& trim = m.patch->trim;
+    w.array("trim counts", trim.counts);
+    w.array("trim orders", trim.orders);
+    w.array("trim vertexCounts", trim.vertexCounts);
+    w.array("trim knots", trim.knots);
+    w.array("trim ranges", trim.ranges);
+    w.array("trim points", trim.points);
+    w.field("trim keepInside", trim.keepInside, false);
 }
 
 void writeSplats(Writer& w, const Splats& s) {

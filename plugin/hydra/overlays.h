@@ -15,6 +15,14 @@
 
 PXR_NAMESPACE_OPEN_SCOPE
 
+inline HdContainerDataSourceHandle HdPatinaConstantPrimvar(const HdSampledDataSourceHandle& value) {
+    return HdPrimvarSchema::Builder()
+        .SetPrimvarValue(value)
+        .SetInterpolation(
+            HdPrimvarSchema::BuildInterpolationDataSource(HdPrimvarSchemaTokens->constant))
+        .Build();
+}
+
 /// Lays constant primvars over those of a prim.
 inline void
 HdPatinaOverlayPrimvars(HdSceneIndexPrim& prim,
@@ -24,11 +32,7 @@ HdPatinaOverlayPrimvars(HdSceneIndexPrim& prim,
     std::vector<HdDataSourceBaseHandle> primvars;
     for (const auto& [name, value] : values) {
         names.push_back(name);
-        primvars.push_back(HdPrimvarSchema::Builder()
-                               .SetPrimvarValue(value)
-                               .SetInterpolation(HdPrimvarSchema::BuildInterpolationDataSource(
-                                   HdPrimvarSchemaTokens->constant))
-                               .Build());
+        primvars.push_back(HdPatinaConstantPrimvar(value));
     }
     prim.dataSource = HdOverlayContainerDataSource::New(
         HdRetainedContainerDataSource::New(

@@ -4,6 +4,8 @@
 #include "hdDelegate/hydra/sourceForms.h"
 #include "plugin/hydra/overlays.h"
 
+#include <pxr/imaging/hd/tokens.h>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -32,10 +34,13 @@ const std::map<TfToken, std::vector<Attribute>>& attributes() {
         };
         plain("nurbsPatch", {"uVertexCount", "vVertexCount", "uOrder", "vOrder", "uKnots", "vKnots",
                              "uRange", "vRange"});
-        map[TfToken("nurbsPatch")].push_back(attribute(
-            "trimCurve:counts",
-            HdDataSourceLocator(TfToken("nurbsPatch"), TfToken("trimCurve"), TfToken("counts"))));
+        for (const std::string name :
+             {"counts", "orders", "vertexCounts", "knots", "ranges", "points"})
+            map[TfToken("nurbsPatch")].push_back(attribute(
+                "trimCurve:" + name,
+                HdDataSourceLocator(TfToken("nurbsPatch"), TfToken("trimCurve"), TfToken(name))));
         plain("nurbsCurves", {"order", "knots", "ranges"});
+        plain(patina::hermitePrimType, {"tangents"});
         plain("plane", {"width", "length", "axis"});
         for (const char* name : {"tetVertexIndices", "surfaceFaceVertexIndices"})
             map[TfToken("tetMesh")].push_back(attribute(
@@ -45,19 +50,64 @@ const std::map<TfToken, std::vector<Attribute>>& attributes() {
     return all;
 }
 
+/// The attributes of a prim as primvars, looked up when they are asked for: a source of an
+/// attribute does not see opinions that come later.
+class SourcePrimvars final : public HdContainerDataSource {
+public:
+    HD_DECLARE_DATASOURCE(SourcePrimvars);
+
+    TfTokenVector GetNames() override {
+        TfTokenVector names;
+        for (const Attribute& attribute : _attributes)
+            if (valueOf(attribute)) names.push_back(attribute.primvar);
+        return names;
+    }
+    HdDataSourceBaseHandle Get(const TfToken& name) override {
+        for (const Attribute& attribute : _attributes)
+            if (attribute.primvar == name)
+                if (const HdSampledDataSourceHandle value = valueOf(attribute))
+                    return HdPatinaConstantPrimvar(value);
+        return nullptr;
+    }
+
+private:
+    SourcePrimvars(const std::vector<Attribute>& attributes,
+                   const HdContainerDataSourceHandle& prim)
+        : _attributes(attributes), _prim(prim) {}
+
+    HdSampledDataSourceHandle valueOf(const Attribute& attribute) const {
+        return HdSampledDataSource::Cast(HdContainerDataSource::Get(_prim, attribute.locator));
+    }
+
+    const std::vector<Attribute>& _attributes;
+    const HdContainerDataSourceHandle _prim;
+};
+
+/// What the next scene indices know.
+TfToken knownType(const TfToken& type) {
+    return type == patina::hermitePrimType ? HdPrimTypeTokens->nurbsCurves : type;
+}
+
 } // namespace
 
 HdSceneIndexPrim HdPatinaSourceFormsSceneIndex::GetPrim(const SdfPath& path) const {
     HdSceneIndexPrim prim = _GetInputSceneIndex()->GetPrim(path);
     const auto found = attributes().find(prim.primType);
     if (found == attributes().end() || !prim.dataSource) return prim;
-    std::vector<std::pair<TfToken, HdSampledDataSourceHandle>> values;
-    for (const Attribute& attribute : found->second)
-        if (const auto value = HdSampledDataSource::Cast(
-                HdContainerDataSource::Get(prim.dataSource, attribute.locator)))
-            values.emplace_back(attribute.primvar, value);
-    HdPatinaOverlayPrimvars(prim, values);
+    prim.dataSource = HdOverlayContainerDataSource::New(
+        HdRetainedContainerDataSource::New(HdPrimvarsSchemaTokens->primvars,
+                                           SourcePrimvars::New(found->second, prim.dataSource)),
+        prim.dataSource);
+    prim.primType = knownType(prim.primType);
     return prim;
+}
+
+void HdPatinaSourceFormsSceneIndex::_PrimsAdded(
+    const HdSceneIndexBase&, const HdSceneIndexObserver::AddedPrimEntries& entries) {
+    HdSceneIndexObserver::AddedPrimEntries added = entries;
+    for (auto& entry : added)
+        entry.primType = knownType(entry.primType);
+    _SendPrimsAdded(added);
 }
 
 void HdPatinaSourceFormsSceneIndex::_PrimsDirtied(

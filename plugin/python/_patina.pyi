@@ -121,8 +121,8 @@ class SceneEdit:
         """
     def set_nurbs_patch(self, path: str, **kwargs: typing.Any) -> None:
         """
-        A UsdGeomNurbsPatch; weights are one per point, ranges two numbers.
-        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, points, u_vertex_count, v_vertex_count, u_order, v_order, u_knots, v_knots, u_range, v_range, weights, refine_level.
+        A UsdGeomNurbsPatch; weights are one per point, ranges two numbers; trim points three each: u and v, multiplied by w, and w.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, points, u_vertex_count, v_vertex_count, u_order, v_order, u_knots, v_knots, u_range, v_range, weights, trim_counts, trim_orders, trim_vertex_counts, trim_knots, trim_ranges, trim_points, trim_keep_inside, refine_level.
         """
     def set_points(self, path: str, **kwargs: typing.Any) -> None:
         """

@@ -86,6 +86,13 @@ void setNurbsPatch(PythonEdit& edit, const std::string& path, const py::kwargs& 
         .read("u_range", rangeU)
         .read("v_range", rangeV)
         .read("weights", patch->weights)
+        .read("trim_counts", patch->trim.counts)
+        .read("trim_orders", patch->trim.orders)
+        .read("trim_vertex_counts", patch->trim.vertexCounts)
+        .read("trim_knots", patch->trim.knots)
+        .read("trim_ranges", patch->trim.ranges)
+        .read("trim_points", patch->trim.points)
+        .read("trim_keep_inside", patch->trim.keepInside)
         .read("refine_level", mesh->refineLevel)
         .finish();
     if (rangeU.size() == 2) patch->u.low = rangeU[0], patch->u.high = rangeU[1];
@@ -226,8 +233,10 @@ void bindSceneGeometry(py::class_<PythonEdit>& edit) {
              "A UsdGeomMesh; keywords are the fields of Mesh.")
         .def("set_curves", &setCurves, py::arg("path"),
              "A UsdGeomBasisCurves; keywords are the fields of Curves.")
-        .def("set_nurbs_patch", &setNurbsPatch, py::arg("path"),
-             "A UsdGeomNurbsPatch; weights are one per point, ranges two numbers.")
+        .def(
+            "set_nurbs_patch", &setNurbsPatch, py::arg("path"),
+            "A UsdGeomNurbsPatch; weights are one per point, ranges two numbers; trim points three "
+            "each: u and v, multiplied by w, and w.")
         .def("set_tet_mesh", &setTetMesh, py::arg("path"),
              "A UsdGeomTetMesh; tets are four indices of points each, surface three or nothing.")
         .def("set_hermite_curves", &setHermiteCurves, py::arg("path"),

@@ -181,6 +181,70 @@ def test_package(tmp_path, scene_index):
     compare(plain, image, scene_index)
 
 
+TILED = """
+def Mesh "@name@" (prepend apiSchemas = ["MaterialBindingAPI"])
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-2, @low@, 0), (2, @low@, 0), (2, @high@, 0), (-2, @high@, 0)]
+    texCoord2f[] primvars:st = [(0, 0), (2, 0), (2, 1), (0, 1)] (interpolation = "vertex")
+    uniform token subdivisionScheme = "none"
+    rel material:binding = </@name@Look>
+}
+def Material "@name@Look"
+{
+    token outputs:surface.connect = </@name@Look/surface.outputs:surface>
+    def Shader "surface"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor = (0, 0, 0)
+        color3f inputs:emissiveColor.connect = </@name@Look/tiles.outputs:rgb>
+        token outputs:surface
+    }
+    def Shader "tiles"
+    {
+        uniform token info:id = "UsdUVTexture"
+        asset inputs:file = @@file@@
+        float2 inputs:st.connect = </@name@Look/st.outputs:result>
+        float3 outputs:rgb
+    }
+    def Shader "st"
+    {
+        uniform token info:id = "UsdPrimvarReader_float2"
+        string inputs:varname = "st"
+        float2 outputs:result
+    }
+}
+"""
+
+
+@MODES
+@pytest.mark.parametrize("prefix", ["", "./"])
+def test_tiles_in_and_beside_a_package(tmp_path, scene_index, prefix):
+    """Paths that begin with a dot stay in the package, as OpenUSD resolves them; what is not there is magenta."""
+    import _patina
+    from pxr import Sdf
+
+    text = stages.front(4, 4)
+    for name, low, file in (("inside", 0, "in/a.<UDIM>.png"), ("beside", -2, "out/b.<UDIM>.png")):
+        tiled = TILED.replace("@@file@@", f"@{prefix}{file}@")
+        text += tiled.replace("@name@", name).replace("@low@", str(low)).replace("@high@", str(low + 2))
+    (tmp_path / "stage.usda").write_text(text)
+    for folder in ("in", "out"):
+        (tmp_path / folder).mkdir()
+        for tile, level in ((1001, 1.0), (1002, 0.25)):
+            pixels = np.full((2, 2, 3), level, np.float32) * ((1, 0, 0) if folder == "in" else (0, 1, 0))
+            _patina.write_image(str(tmp_path / folder / f"{'a' if folder == 'in' else 'b'}.{tile}.png"), pixels)
+    package = str(tmp_path / "package.usdz")
+    with Sdf.ZipFileWriter.CreateNew(package) as writer:
+        for file in ("stage.usda", "in/a.1001.png", "in/a.1002.png"):
+            writer.AddFile(str(tmp_path / file), file)
+    shot = stages.Shot(package, tmp_path)
+    image, _ = render_with_hydra(shot, tmp_path, scene_index)
+    compare(shot, image, scene_index)
+    assert image[8, 8].argmax() == 0 and (image[48:, :32].argmin(axis=2) == 1).all() == bool(prefix)
+
+
 BOUND_TWICE = """#usda 1.0
 def Mesh "triangle" (prepend apiSchemas = ["MaterialBindingAPI"])
 {
@@ -298,17 +362,21 @@ def test_forms_that_hydra_has_no_place_for(tmp_path, scene_index):
     compare(shot, image, scene_index)
 
 
-def test_hermite_curves(tmp_path):
-    """Through UsdImagingDelegate alone: the scene index leaves them out. It hands on no widths, so the stage has none here."""
-    with open(os.path.join(HERE, "hermiteCurves.usda"), encoding="utf-8") as file:
-        text = file.read()
-    begin = text.index("    float[] widths")
-    stage = tmp_path / "withoutWidths.usda"
-    stage.write_text(text[:begin] + text[text.index(")", text.index("interpolation", begin)) + 1:], encoding="utf-8")
-    shot = stages.Shot(str(stage), tmp_path)
-    image, dump = render_with_hydra(shot, tmp_path, False)
+@MODES
+def test_hermite_curves(tmp_path, scene_index):
+    """UsdImagingDelegate hands on no widths, so the stage has none there."""
+    stage = os.path.join(HERE, "hermiteCurves.usda")
+    if not scene_index:
+        with open(stage, encoding="utf-8") as file:
+            text = file.read()
+        begin = text.index("    float[] widths")
+        stage = str(tmp_path / "withoutWidths.usda")
+        with open(stage, "w", encoding="utf-8") as file:
+            file.write(text[:begin] + text[text.index(")", text.index("interpolation", begin)) + 1:])
+    shot = stages.Shot(stage, tmp_path)
+    image, dump = render_with_hydra(shot, tmp_path, scene_index)
     assert sceneText.difference(dump, shot.scene.dump()) == ""
-    compare(shot, image, False)
+    compare(shot, image, scene_index)
 
 
 def test_widths_of_hermite_curves_are_missed_aloud(tmp_path):

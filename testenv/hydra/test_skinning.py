@@ -65,9 +65,9 @@ BEND = "quatf[] rotations = [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]"
 BENDING = "quatf[] rotations.timeSamples = {1: [(1, 0, 0, 0), (1, 0, 0, 0)], 2: [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]}"
 
 
-def points_of(text):
-    """:returns: array (samples, points, 3) of what a dump says of the mesh"""
-    lines = [line for line in block(text, "/root/leg") if line.startswith("points")]
+def points_of(text, path="/root/leg"):
+    """:returns: array (samples, points, 3) of what a dump says of a mesh"""
+    lines = [line for line in block(text, path) if line.startswith("points")]
     return np.array([[float(x) for x in re.findall(r"[-+.\de]+", line.split(" = ", 1)[1])] for line in lines]).reshape(
         len(lines), -1, 3)
 
@@ -88,3 +88,18 @@ def test_a_leg_bends(tmp_path, scene_index, bend, shutter, samples):
     assert len(found) == samples, dump
     # The reader samples also what does not move. Some ten operations on numbers below 4, each rounded to 24 bits.
     assert np.abs(found - wanted).max() <= 10 * 4 * 2.0 ** -24
+
+
+@MODES
+@pytest.mark.parametrize("bend", [BEND, BENDING], ids=["still", "animated"])
+def test_bones_are_guides(tmp_path, scene_index, bend):
+    """Both hosts show the same pyramid for the one bone, where guides are asked for."""
+    stage = tmp_path / "leg.usda"
+    stage.write_text(STAGE.replace(BEND, bend).replace("SHUTTER_OPEN", "0").replace("SHUTTER_CLOSE", "0"))
+    shot = stages.Shot(str(stage), tmp_path, width=8, purposes=("default", "render", "guide"))
+    dump = tmp_path / "hydra.txt"
+    hydraBuild.run_host(shot.stage, tmp_path / "hydra.exr", *shot.host_flags(), "--purposes", "default,render,guide",
+                        "--dump", dump, scene_index=scene_index)
+    found, wanted = (points_of(text, "/root/skeleton") for text in (dump.read_text(), shot.scene.dump()))
+    assert found.shape == wanted.shape == (1, 5, 3)
+    assert np.abs(found - wanted).max() <= 10 * 4 * 2.0 ** -24  # as of the leg

@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from . import kinds, marks, meshes, parametric, skinning, splats, volumes
+from . import kinds, marks, meshes, parametric, skeletons, skinning, splats, volumes
 from .context import array, get, number, shown
 from .primvars import add_builtin, read_primvars, text
 from .transforms import transform_of
@@ -55,6 +55,8 @@ def emit(context, found, kind, bound, categories, fallbacks):
         emit_form = parametric.emit_nurbs_curves if kind == "nurbsCurves" else parametric.emit_hermite
         _add_builtins(context, prim, UsdGeom.Curves(prim), common["primvars"])
         emit_form(context, found, common, points_of(context, prim, skin))
+    elif kind == "skeleton":
+        skeletons.emit(context, found, common)
     elif kind == "splats":
         splats.emit(context, found, common)
     elif kind == "volume":

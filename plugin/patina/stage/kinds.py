@@ -10,6 +10,7 @@ GPRIMS = {
     "Capsule_1": "capsule", "Plane": "plane",
     "Volume": "volume", "NurbsPatch": "nurbsPatch", "TetMesh": "tetMesh",
     "NurbsCurves": "nurbsCurves", "HermiteCurves": "hermiteCurves", "ParticleField3DGaussianSplat": "splats",
+    "Skeleton": "skeleton",
 }
 UNSUPPORTED = {"PortalLight", "PluginLight", "ParticleField"}
 OTHER = {"Camera": "camera", "PointInstancer": "instancer", "SkelRoot": "skelRoot"}

@@ -4,13 +4,15 @@ import numpy as np
 from pxr import UsdGeom
 
 from .context import array, get
-from .primvars import add_builtin
+from .primvars import add_builtin, text
 
 _DIRECTION = {"VertexCount": "vertex_count", "Order": "order"}
+_TRIM = {"counts": (1, np.int32), "orders": (1, np.int32), "vertexCounts": (1, np.int32), "knots": (1, np.float64),
+         "ranges": (2, np.float64), "points": (3, np.float64)}
 
 
 def emit_patch(context, found, common, points):
-    """UsdGeomNurbsPatch. Trim curves are not cut; a warning tells."""
+    """UsdGeomNurbsPatch."""
     prim, time = found.prim, context.time
     fields = {}
     for side in "uv":
@@ -18,8 +20,12 @@ def emit_patch(context, found, common, points):
             fields[f"{side}_{key}"] = _integer(context, prim, side + name)
         fields[f"{side}_knots"] = _doubles(context, prim, f"{side}Knots")
         fields[f"{side}_range"] = _range(context, prim, f"{side}Range")
-    if len(array(context, prim, "trimCurve:counts", get(prim, "trimCurve:counts", time), 1, np.int32)):
-        context.warn(prim.GetPath(), "trimCurve:counts", "trimCurvesIgnored")
+    if get(prim, "trimCurve:counts", time):
+        for name, (components, kind) in _TRIM.items():
+            values = array(context, prim, f"trimCurve:{name}", get(prim, f"trimCurve:{name}", time), components, kind)
+            fields["trim_" + name.replace("Counts", "_counts")] = values.ravel()
+        sense = text(context, prim, found.state.primvars, "ri:attributes:trimcurve:sense")
+        fields["trim_keep_inside"] = sense == "outside"
     context.edit.set_nurbs_patch(found.path, points=points, weights=_doubles(context, prim, "pointWeights"),
                                  refine_level=context.options.refine_level, **fields, **common)
 

@@ -10,7 +10,7 @@ from pxr import Usd, UsdGeom
 
 from patina import limits
 
-from . import drawModes, marks, portals
+from . import drawModes, marks, portals, skeletons
 from .context import Guard, get
 from .instanceValues import InstanceValues
 from .kinds import GPRIM_KINDS, Kinds
@@ -116,8 +116,9 @@ class Walk:
         elif kind == "unsupported" and not portals.is_used(self.context, prim):
             self.context.warn(prim.GetPath(), "", "typeNotDrawn", prim.GetTypeName())
         elif kind in GPRIM_KINDS:
-            if self._drawn(state):
-                self._add(prim, state, names, self.walked.gprims)
+            shown = state.with_(purpose=skeletons.purpose_of(prim, state.purpose)) if kind == "skeleton" else state
+            if self._drawn(shown):
+                self._add(prim, shown, names, self.walked.gprims)
             if prim.IsInstance():
                 return None
         if prim.IsInstance() and state.skinning is None:

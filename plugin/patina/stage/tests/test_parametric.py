@@ -21,9 +21,24 @@ def test_a_patch_keeps_its_knots_weights_and_side(read):
     assert patch["faceVertexIndices"] == "0 1 4 3 1 2 5 4"  # the grid of control points, u fastest
 
 
-def test_trim_curves_are_told_of(read):
-    reading = read("""def NurbsPatch "p" { """ + PATCH + """ int[] trimCurve:counts = [1] }""")
-    assert reading.has("/p") and reading.warnings == ["/p trimCurve:counts: is not supported: nothing is cut out of the patch"]
+TRIM = """ int[] trimCurve:counts = [2]  int[] trimCurve:orders = [2, 2]  int[] trimCurve:vertexCounts = [2, 3]
+    double[] trimCurve:knots = [0, 0, 1, 1, 0, 0, 1, 2, 2]  double2[] trimCurve:ranges = [(0, 1), (0, 2)]
+    double3[] trimCurve:points = [(0.2, 0.2, 1), (0.8, 0.2, 1), (0.8, 0.2, 1), (1, 1.6, 2), (0.2, 0.2, 1)] """
+
+
+def test_a_patch_keeps_its_trim_curves(read, numbers):
+    patch = read("""def NurbsPatch "p" { """ + PATCH + TRIM + "}").prim("/p")
+    assert patch["trim counts"] == "2" and patch["trim orders"] == "2 2" and patch["trim vertexCounts"] == "2 3"
+    assert patch["trim knots"] == "0 0 1 1 0 0 1 2 2" and patch["trim ranges"] == "0 1 0 2"
+    assert numbers(patch["trim points"]) == [0.2, 0.2, 1, 0.8, 0.2, 1, 0.8, 0.2, 1, 1, 1.6, 2, 0.2, 0.2, 1]
+    assert "trim keepInside" not in patch
+
+
+def test_which_side_of_trim_curves_stays(read):
+    """RenderMan's attribute, also from a prim above."""
+    reading = read("""def Scope "s" { string primvars:ri:attributes:trimcurve:sense = "outside"
+        def NurbsPatch "p" { """ + PATCH + TRIM + "} }")
+    assert reading.prim("/s/p")["trim keepInside"] == "true"
 
 
 @pytest.mark.parametrize("oriented", ["", ' uniform token orientation = "leftHanded"'])
@@ -96,7 +111,8 @@ def test_what_is_broken_is_named(read):
 
 
 def test_both_back_ends_draw_them(read):
-    """A patch, tetrahedra and both kinds of curves, each in its quarter of a small image, are there in both."""
+    """A patch, tetrahedra and both kinds of curves, each in its quarter of a small image, are there in both. A square is cut
+    out of the patch; of a second one nothing is left."""
     import _patina
 
     reading = read("""def Camera "cam" { token projection = "orthographic"
@@ -106,7 +122,16 @@ def test_both_back_ends_draw_them(read):
     def NurbsPatch "p" { int uVertexCount = 2  int vVertexCount = 2  int uOrder = 2  int vOrder = 2
         double[] uKnots = [0, 0, 1, 1]  double[] vKnots = [0, 0, 1, 1]
         point3f[] points = [(-1.9,0.1,0), (-0.1,0.1,0), (-1.9,1.9,0), (-0.1,1.9,0)]
+        int[] trimCurve:counts = [1]  int[] trimCurve:orders = [2]  int[] trimCurve:vertexCounts = [5]
+        double[] trimCurve:knots = [0, 0, 1, 2, 3, 4, 4]
+        double3[] trimCurve:points = [(0.35,0.1,1), (0.95,0.1,1), (0.95,0.9,1), (0.35,0.9,1), (0.35,0.1,1)]
         color3f[] primvars:displayColor = [(1, 0, 0)] }
+    def NurbsPatch "gone" { int uVertexCount = 2  int vVertexCount = 2  int uOrder = 2  int vOrder = 2
+        double[] uKnots = [0, 0, 1, 1]  double[] vKnots = [0, 0, 1, 1]
+        point3f[] points = [(-2,-2,1), (2,-2,1), (-2,2,1), (2,2,1)]
+        int[] trimCurve:counts = [1]  int[] trimCurve:orders = [2]  int[] trimCurve:vertexCounts = [5]
+        double[] trimCurve:knots = [0, 0, 1, 2, 3, 4, 4]
+        double3[] trimCurve:points = [(0,0,1), (1,0,1), (1,1,1), (0,1,1), (0,0,1)] }
     def TetMesh "t" { point3f[] points = [(0.1,0.1,0), (1.9,0.1,0), (0.1,1.9,0), (0.1,0.1,1)]
         int4[] tetVertexIndices = [(0,1,2,3)]  color3f[] primvars:displayColor = [(0, 1, 0)] }
     def HermiteCurves "h" { int[] curveVertexCounts = [2]  point3f[] points = [(-1.9,-1,0), (-0.1,-1,0)]
@@ -122,7 +147,8 @@ def test_both_back_ends_draw_them(read):
         while not renderer.wait(1.0):
             pass
         image = np.array(film.resolve("color"))[..., :3]
-        for name, (row, column), wanted in (("patch", (4, 4), (1, 0, 0)), ("tets", (5, 9), (0, 1, 0)),
+        assert (image[3:5, 5] > 0.99).all(), (backend, image[3:5, 5])  # the sky
+        for name, (row, column), wanted in (("patch", (4, 1), (1, 0, 0)), ("tets", (5, 9), (0, 1, 0)),
                                             ("hermite", (12, 4), (0, 0, 1)), ("nurbs", (12, 12), (1, 1, 0))):
             pixel = image[row, column]
             # Beside its colour a form shows the white sky in its interface of ior 1.5: below a quarter, Fresnel's share at 75

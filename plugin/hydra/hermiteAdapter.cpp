@@ -65,7 +65,7 @@ public:
     InvalidateImagingSubprim(const UsdPrim& prim, const TfToken& subprim, const TfToken&,
                              const TfTokenVector& properties,
                              UsdImagingPropertyInvalidationType type) override {
-        if (!isHermite(prim, subprim)) return {};
+        if (!isHermite(prim, subprim)) return HdDataSourceLocatorSet();
         HdDataSourceLocatorSet dirty =
             _curves->InvalidateImagingSubprim(prim, subprim, properties, type);
         if (std::count(properties.begin(), properties.end(), tangents))

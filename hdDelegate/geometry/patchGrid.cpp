@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 
 namespace patina {
 
@@ -170,12 +171,13 @@ PatchGrid trimmedGrid(PatchDirection& u, PatchDirection& v,
     }
     const std::vector<double> x = cutU.ends(), y = cutV.ends();
     PatchGrid grid;
-    std::map<std::pair<uint32_t, uint32_t>, uint32_t> numbers;
+    std::unordered_map<uint64_t, uint32_t> numbers;
     trimCells(x, y, loops, keepInside, [&](const TrimmedCell& cell) {
         std::vector<uint32_t> corners;
         for (const dvec2& p : cell.corners) {
             const uint32_t i = cutU.line(cell.column, p.x), j = cutV.line(cell.row, p.y);
-            const auto made = numbers.emplace(std::make_pair(i, j), uint32_t(grid.vertices.size()));
+            const auto made =
+                numbers.emplace(uint64_t(i) << 32 | j, uint32_t(grid.vertices.size()));
             if (made.second) grid.vertices.push_back({i, j});
             corners.push_back(made.first->second);
         }

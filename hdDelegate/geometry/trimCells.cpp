@@ -12,6 +12,8 @@ namespace patina {
 
 namespace {
 
+constexpr int mostRounds = 8; // of cutting pieces where they meet
+
 double cross(const dvec2& a, const dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
@@ -37,11 +39,16 @@ bool turnsBefore(const dvec2& a, const dvec2& b) {
 /// The faces between lines that meet only at their ends.
 class Faces {
 public:
+    /// A second line between the same ends takes the first away: nothing lies between them.
     void line(const dvec2& a, const dvec2& b) {
         if (a == b) return;
         const size_t i = node(a), j = node(b);
-        _next[i].insert(j);
-        _next[j].insert(i);
+        if (_next[i].erase(j)) {
+            _next[j].erase(i);
+        } else {
+            _next[i].insert(j);
+            _next[j].insert(i);
+        }
     }
 
     /// @param use (corners, counterclockwise) of each face that is bounded
@@ -111,7 +118,9 @@ public:
             return a.row != b.row ? a.row < b.row : a.column < b.column;
         };
         std::sort(_pieces.begin(), _pieces.end(), order);
-        cutWhereTheyMeet();
+        // What is cut moves to whole steps, and may then meet others anew.
+        for (int round = 0; round < mostRounds && cutWhereTheyMeet(); ++round) {
+        }
         for (const Piece& piece : _pieces)
             for (const dvec2& p : {piece.a, piece.b}) {
                 _onX[p.x].insert(p.y);
@@ -176,8 +185,8 @@ private:
         _pieces.push_back({cellOf(_y, middle.y), cellOf(_x, middle.x), a, b});
     }
 
-    /// Cuts pieces where they meet others of their cell.
-    void cutWhereTheyMeet() {
+    /// Cuts pieces where they meet others of their cell. @returns whether any do
+    bool cutWhereTheyMeet() {
         std::vector<Piece> out;
         for (size_t begin = 0, end; begin < _pieces.size(); begin = end) {
             end = begin;
@@ -203,7 +212,9 @@ private:
                 }
             }
         }
+        const bool any = out.size() > _pieces.size();
         _pieces = std::move(out);
+        return any;
     }
 
     static void meet(const Piece& p, const Piece& q, std::vector<dvec2>& onP,

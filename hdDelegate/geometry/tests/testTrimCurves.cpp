@@ -203,6 +203,9 @@ TEST(TrimCurves, anyLoopsLeaveWhatRaysTell) {
             if (round % 3 == 0) // corners on lines of the grid, and sides along them
                 for (dvec2& p : loop)
                     p = glm::round(p * 10.0) / 10.0;
+            if (round % 5 == 0) // and back again beside itself, by a few steps of the parameters
+                for (size_t i = loop.size(); i-- > 0;)
+                    loop.push_back(loop[i] + 2e-7 * dvec2(uniform(random), uniform(random)));
             addPolygon(patch.trim, loop);
         }
         Mesh mesh = square(patch);

@@ -43,7 +43,7 @@ float Integrator::passSplats(Path& path, float end, float way) const {
             path.screen = splats.primId(hit);
             path.screenPosition = path.origin + path.direction * hit.distance;
         }
-        if (left < splatEnd) left = 0.0f;
+        if (left < shSplats::SPLAT_END) left = 0.0f;
         return left > 0.0f;
     });
     if (inVolumes && chosenWeight > 0.0f)

@@ -7,7 +7,7 @@ from pxr import Gf, Usd, UsdGeom, UsdLux, UsdShade, UsdVol, Vt
 from scipy.spatial.transform import Rotation
 from scipy.special import factorial, lpmv
 
-CUT = 1 / 1024  # hdDelegate/embree/media/splatKernels.h: kernels end where their alpha is that
+CUT = 1 / 1024  # shaders/lib/splat.glsl: kernels end where their alpha is that
 END = 1e-4  # and rays where so little is left
 DC = 0.5 * np.sqrt(1 / np.pi)  # of the harmonic of degree 0
 
@@ -159,14 +159,17 @@ _TOKEN = Sdf.ValueTypeNames.Token
 COLOR, FLOAT = Sdf.ValueTypeNames.Color3f, Sdf.ValueTypeNames.Float
 
 
-def sharp_image(stage, folder, pixels=32, samples=1, settings=(), aovs=("color", "alpha")):
+def sharp_image(stage, folder, pixels=32, samples=1, settings=(), aovs=("color", "alpha"), backend="embree"):
     """:returns: images by AOV, every sample at its pixel's middle"""
-    from inProcess import Stage
+    from inProcess import Stage, needs_opengl
+
+    if backend == "raster":
+        needs_opengl()
 
     path = folder / "stage.usda"
     stage.Export(str(path))
     rendered = Stage(path, "--camera", "/camera", "--imageWidth", pixels, "--imageHeight", pixels, "--disableCameraLight",
-                     "--backend", "embree", *settings)
+                     "--backend", backend, *settings)
     film = rendered.module.Film()
     rendered.renderer.start(rendered.scene, rendered.camera,
                             {**rendered.settings, "filterRadius": 0.0, "samples": samples, "aovs": list(aovs)}, film)

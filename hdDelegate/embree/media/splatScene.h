@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/embree/media/splatKernels.h"
-#include "materialNetwork/color/colorSpaces.h"
+#include "hdDelegate/embree/media/splatTree.h"
 
 #include <functional>
 #include <map>
@@ -40,9 +39,10 @@ public:
     /// Takes over the splats of a scene.
     /// @param open, close times of the shutter
     /// @param origin of the space that they are wanted in, see seenFrom()
-    void update(RTCDevice device, const std::vector<Prim>& prims, const PlacesOf& placesOf,
-                float open, float close, const dvec3& origin, const RenderingSpace& space,
-                const std::atomic<bool>& stop, Diagnostics& diagnostics);
+    void update(RTCDevice device, CompiledSplats& compiled, const std::vector<Prim>& prims,
+                const PlacesOf& placesOf, float open, float close, const dvec3& origin,
+                const RenderingSpace& space, const std::atomic<bool>& stop,
+                Diagnostics& diagnostics);
     void clear();
 
     bool empty() const { return _placed.empty(); }
@@ -84,12 +84,12 @@ public:
         const SplatScene& _scene;
         const Ray& _ray;
         int64_t _place = -1; ///< that the basis is for
-        float _basis[splatBasisSize];
+        shSplats::SplatBasis _basis;
     };
 
 private:
     struct Placed {
-        std::shared_ptr<const SplatKernels> kernels;
+        std::shared_ptr<const SplatTree> tree;
         std::vector<mat4> toWorld; ///< steps
         mat4 toLocal{1.0f};        ///< where there is one
         unsigned mask = RayAny;
@@ -101,13 +101,13 @@ private:
     };
     void gather(const Ray& ray, SplatQuery& query) const;
     void trace(const Ray& ray, SplatQuery& query) const;
-    void place(const Prim& prim, const std::shared_ptr<const SplatKernels>& kernels,
+    void place(const Prim& prim, const std::shared_ptr<const SplatTree>& tree,
                const PlacesOf& placesOf, float open, float close, const dvec3& origin,
                const RenderingSpace& space, Diagnostics& diagnostics);
     static void boundsOf(const RTCBoundsFunctionArguments* args);
     static void enter(const RTCIntersectFunctionNArguments* args);
 
-    std::map<std::shared_ptr<const SplatCloud>, std::shared_ptr<const SplatKernels>> _kernels;
+    std::map<std::shared_ptr<const SplatCloud>, std::shared_ptr<const SplatTree>> _trees;
     std::vector<Placed> _placed;
     RTCScene _scene = nullptr; ///< of the places
     size_t _bytes = 0;

@@ -27,8 +27,11 @@ SplatKernel kernelOf(const SplatCloud& cloud, const dvec3& middle, size_t i) {
         cloud.orientations.empty() ? mat3(1.0f) : glm::transpose(rotationOf(cloud.orientations[i]));
     for (int column = 0; column < 3; ++column)
         kernel.toUnit[column] /= scale;
-    kernel.reach = 2.0f * std::log(kernel.opacity / shSplats::SPLAT_CUT);
+    kernel.reach = cloud.shape == SplatShape::ConstantSurflet
+                       ? 1.0f
+                       : 2.0f * std::log(kernel.opacity / shSplats::SPLAT_CUT);
     kernel.particle = uint32_t(i);
+    kernel.shape = int32_t(cloud.shape);
     return kernel;
 }
 

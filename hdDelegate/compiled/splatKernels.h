@@ -11,13 +11,14 @@
 
 namespace patina {
 
-/// See shaders/raster/splats.glsl, which reads it as four rows.
+/// shaders/raster/splats.frag.glsl reads it as four rows.
 struct alignas(64) SplatKernel {
     vec3 center;
     float opacity;
-    mat3 toUnit; ///< into the space where the kernel is exp(-r²/2)
+    mat3 toUnit; ///< into the kernel's own space, see shaders/lib/splat.glsl
     float reach; ///< r² where it ends
     uint32_t particle;
+    int32_t shape;
 };
 
 /// The kernels of a cloud that show, in the cloud's own space, whose origin is moved to their

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gaussian kernels of particle fields: what a ray meets of one, and the harmonics of its radiance.
+// The kernels of particle fields: what a ray meets of one, and the harmonics of its radiance.
+
+// In the space of a kernel it is exp(-r²/2) everywhere, or on the xy plane alone, or 1 on the unit disk of that plane.
+const int SPLAT_ELLIPSOID = 0;
+const int SPLAT_SURFLET = 1;
+const int SPLAT_CONSTANT_SURFLET = 2;
 
 // A kernel ends where its alpha falls below this. It then lacks the share SPLAT_CUT / opacity of its integral over
 // the image: of a Gaussian exp(-r²/2) as much lies outside of r as it is there.
@@ -7,29 +12,32 @@ const float SPLAT_CUT = 1.0f / 1024.0f;
 // What kernels let through counts as nothing below this.
 const float SPLAT_END = 1e-4f;
 
-// The point of a ray where a kernel is densest (Knoll et al. 2021; Moenne-Loccoz et al. 2024).
+// The point of a ray where a kernel is densest (Knoll et al. 2021; Moenne-Loccoz et al. 2024): of a flat one, that of its
+// plane.
 struct SplatPoint {
     float distance; // along the ray, in lengths of its direction
     float away;     // square of the distance from the middle, in standard deviations
 };
 
-// toUnit: into the space where the kernel is exp(-r²/2).
-PATINA_FN SplatPoint splatPoint(vec3 center, PATINA_IN(mat3) toUnit, vec3 origin, vec3 direction) {
+// toUnit: into the space of the kernel.
+PATINA_FN SplatPoint splatPoint(int shape, vec3 center, PATINA_IN(mat3) toUnit, vec3 origin, vec3 direction) {
     vec3 from = origin - center;
     // From the point nearest to the middle, so that no digits are lost on a long way.
     float nearest = -dot(from, direction) / dot(direction, direction);
     vec3 start = toUnit * (from + direction * nearest);
     vec3 along = toUnit * direction;
-    float further = -dot(start, along) / dot(along, along);
+    bool isFlat = shape != SPLAT_ELLIPSOID;
+    float further = select(-start.z / along.z, -dot(start, along) / dot(along, along), isFlat);
     vec3 densest = start + along * further;
+    densest.z = select(0.0f, densest.z, isFlat);
     SplatPoint point;
     point.distance = nearest + further;
-    point.away = dot(densest, densest);
+    point.away = select(1e38f, dot(densest, densest), isFlat && along.z == 0.0f);
     return point;
 }
 
-PATINA_FN float splatAlpha(float opacity, float away) {
-    return opacity * exp(-0.5f * away);
+PATINA_FN float splatAlpha(int shape, float opacity, float away) {
+    return select(opacity, opacity * exp(-0.5f * away), shape == SPLAT_CONSTANT_SURFLET);
 }
 
 const int SPLAT_BASIS = 16; // bands 0 to 3

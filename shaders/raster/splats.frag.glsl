@@ -75,7 +75,7 @@ vec3 radianceOf(ivec4 of, int particle) {
 #endif
 
 // Kernels come in the order of another ray of the tile. Each waits for some that come after it.
-const int WAITING = 8;
+const int WAITING = 24;
 struct Met {
     float distance, alpha;
     int entry;
@@ -114,12 +114,15 @@ void main() {
             }
             Kernel k = kernels[entry.y];
             mat3 toUnit = mat3(k.rows[1].xyz, vec3(k.rows[1].w, k.rows[2].xy), vec3(k.rows[2].zw, k.rows[3].x));
-            SplatPoint point = splatPoint(k.rows[0].xyz, toUnit, origin, along);
+            int shape = floatBitsToInt(k.rows[3].w);
+            SplatPoint point = splatPoint(shape, k.rows[0].xyz, toUnit, origin, along);
             if (!(point.away < k.rows[3].y && point.distance >= range.x && point.distance <= range.y)) continue;
-            met = Met(point.distance, splatAlpha(k.rows[0].w, point.away), e);
+            met = Met(point.distance, splatAlpha(shape, k.rows[0].w, point.away), e);
         }
         // Written out, since llvmpipe counts the turns of all loops together, and ends them after some 16000.
 
+        WAIT(23) WAIT(22) WAIT(21) WAIT(20) WAIT(19) WAIT(18) WAIT(17) WAIT(16)
+        WAIT(15) WAIT(14) WAIT(13) WAIT(12) WAIT(11) WAIT(10) WAIT(9) WAIT(8)
         WAIT(7) WAIT(6) WAIT(5) WAIT(4) WAIT(3) WAIT(2) WAIT(1) WAIT(0)
         if (met.alpha == 0.0) continue;
         float share = left * met.alpha;

@@ -106,6 +106,36 @@ def test_many_turned_kernels_match_the_closed_form(tmp_path, backend, degree):
     assert images["alpha"].ravel() == pytest.approx(alpha, abs=2 * CUT)
 
 
+@BOTH
+@pytest.mark.parametrize("shape", ["GaussianSurflet", "ConstantSurflet"])
+def test_flat_kernels_match_the_closed_form(tmp_path, backend, shape):
+    """Disks that stand in each other: their order differs from pixel to pixel, and the constant ones have an edge. It takes one
+    float more or less at a pixel on an edge: few pixels."""
+    cloud = random_cloud(120, 21, size=0.3, degree=1)
+    cloud.shape = shape
+    matrix = np.eye(4)
+    matrix[:3, :3] = Rotation.from_euler("xyz", [40, 10, 70], degrees=True).as_matrix() @ np.diag([1, 0.6, 1.3])
+    stage = new_stage()
+    place(cloud.define(stage), matrix)
+    images, rendered = sharp_image(stage, tmp_path, PIXELS, backend=backend)
+    assert not rendered.warnings()
+    light, alpha = cloud.seen(*rays(PIXELS), matrix)
+    difference = np.abs(images["color"][..., :3].reshape(-1, 3) - light).max(1)
+    assert alpha.std() > 0.2
+    assert np.mean(difference > 1e-4) < 0.01
+    assert np.mean(np.abs(images["alpha"].ravel() - alpha) > 2 * CUT) < 0.01
+
+
+@BOTH
+def test_a_flat_kernel_is_seen_from_both_sides_and_not_along_its_plane(tmp_path, backend):
+    for angle, seen in ((0, 0.5), (180, 0.5), (60, 0.5), (90, 0.0)):
+        stage = new_stage(0.001)
+        Cloud([0, 0.001, 0], 0.3, 0.5, 1.0, turns=Rotation.from_euler("x", [[angle]], degrees=True),
+              shape="GaussianSurflet").define(stage)
+        images, _ = sharp_image(stage, tmp_path, 1, backend=backend)
+        assert images["alpha"].item() == pytest.approx(seen, abs=1e-4), angle
+
+
 def test_harmonics_of_a_known_direction():
     """Bands 0 and 1 as 3D Gaussian splatting writes them, so that the closed form's signs are not its own."""
     x, y, z = direction = np.array([0.48, -0.6, 0.64])

@@ -41,6 +41,7 @@ void SplatScene::clear() {
     if (_scene) rtcReleaseScene(_scene);
     _scene = nullptr;
     _placed.clear();
+    _lights.clear();
     _trees.clear();
     _bytes = 0;
     _min = vec3(INFINITY);
@@ -114,6 +115,12 @@ void SplatScene::update(RTCDevice device, CompiledSplats& compiled, const std::v
     for (const auto& item : _trees)
         _bytes += item.second->kernels().list().capacity() * sizeof(SplatKernel);
     if (_placed.empty()) return;
+    // Kinds of rays differ in what they see, but not in what light samples find.
+    const bool all = std::all_of(_placed.begin(), _placed.end(), [](const Placed& placed) {
+        return (placed.mask & RayIndirect) == RayIndirect;
+    });
+    for (const Placed& placed : _placed)
+        if (all) _lights.add(placed.tree->kernels(), placed.toWorld[0], _placed.size());
     size_t steps = 1;
     for (const Placed& placed : _placed)
         steps = std::max(steps, placed.toWorld.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/embree/media/splatLights.h"
 #include "hdDelegate/embree/media/splatTree.h"
 
 #include <functional>
@@ -71,6 +72,7 @@ public:
     /// What the kernels along a ray let through.
     float transmittance(const Ray& ray) const;
 
+    const SplatLights& lights() const { return _lights; }
     bool isMatte(const SplatHit& hit) const { return _placed[hit.place].matte; }
     int primId(const SplatHit& hit) const { return _placed[hit.place].id; }
 
@@ -109,6 +111,7 @@ private:
 
     std::map<std::shared_ptr<const SplatCloud>, std::shared_ptr<const SplatTree>> _trees;
     std::vector<Placed> _placed;
+    SplatLights _lights;
     RTCScene _scene = nullptr; ///< of the places
     size_t _bytes = 0;
     vec3 _min{INFINITY}, _max{-INFINITY};

@@ -78,12 +78,12 @@ void SplatTree::meet(const RTCIntersectFunctionNArguments* args) {
     RTCRay& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
     const SplatKernel& kernel = kernels.list()[args->primID];
     const shSplats::SplatPoint point =
-        shSplats::splatPoint(kernel.center, kernel.toUnit, {ray.org_x, ray.org_y, ray.org_z},
-                             {ray.dir_x, ray.dir_y, ray.dir_z});
+        shSplats::splatPoint(kernel.shape, kernel.center, kernel.toUnit,
+                             {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z});
     if (!(point.away < kernel.reach)) return;
     if (!(point.distance >= ray.tnear) || !(point.distance <= ray.tfar)) return;
-    query.add({point.distance, shSplats::splatAlpha(kernel.opacity, point.away), query.place,
-               args->primID},
+    query.add({point.distance, shSplats::splatAlpha(kernel.shape, kernel.opacity, point.away),
+               query.place, args->primID},
               ray.tfar);
 }
 

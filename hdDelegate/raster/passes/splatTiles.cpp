@@ -171,7 +171,7 @@ SplatTiles::SplatTiles(const std::vector<RasterSplatPlace>& placed, const Raster
             const vec2 middle = clip.w > 0.0f ? vec2(clip) / clip.w : 0.5f * (low + high);
             vec3 origin, direction;
             rays.at(glm::clamp(middle, low, high), origin, direction);
-            const float distance = shSplats::splatPoint(kernel.center, kernel.toUnit,
+            const float distance = shSplats::splatPoint(kernel.shape, kernel.center, kernel.toUnit,
                                                         vec3(place.toLocal * vec4(origin, 1.0f)),
                                                         mat3(place.toLocal) * direction)
                                        .distance;

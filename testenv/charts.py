@@ -5,7 +5,7 @@
     charts.py [--out FOLDER] [--only KIND]... [--quick]
     charts.py --redraw           draws those that have a table anew, from the table: nothing is measured
 
-Kinds are those of `patina chart`: lobes, scenes, stability, predictions; and features, of `patina bench`. Each runs in a
+Kinds are those of `patina chart`: lobes, scenes, splats, stability, predictions; and features, of `patina bench`. Each runs in a
 process of its own; of what it writes the files named below go to the folder (default: docs/charts). --quick takes small
 pictures and few samples, to see whether it all works. The whole takes about an hour on two cores.
 """
@@ -49,6 +49,11 @@ KINDS = {
                + ["--imageWidth", "128", "--maxSamples", "64", "--seconds", "240", "--quiet"]],
                [f"testenv/scenes/{SCENES[0]}.usda", "--imageWidth", "32", "--maxSamples", "4", "--quiet"],
                ["scenes.csv", "*-relMSE.svg", "*-flip.svg", "*-rmse.svg"]),
+    # "knot": testenv/splatKnot.py --alone, which leaves nothing to the rasterizer that it draws otherwise
+    "splats": ([["knot", "--imageWidth", "128", "--maxSamples", "64", "--tolerances", "none", "--referenceSamples", "1024",
+                 "--quiet"]],
+               ["knot", "--imageWidth", "32", "--maxSamples", "4", "--tolerances", "none", "--quiet"],
+               ["splatKnot-relMSE.svg"]),
     "predictions": ([PREDICTIONS + EVERY + ["--imageWidth", "12", "--tolerances", "0.05,0.01", "--seconds", "300"],
                      PREDICTIONS + named(CHEAP) + ["--imageWidth", "6", "--tolerances", "0.001", "--seconds", "600"],
                      PREDICTIONS + FEW + ["--imageWidth", "3", "--tolerances", "0.001", "--seconds", "600"]],
@@ -69,6 +74,10 @@ def run(kind, folder, quick):
     for arguments in [small] if quick else commands:
         with tempfile.TemporaryDirectory() as made:
             bench = arguments[0] == "bench"
+            if arguments[0] == "knot":
+                arguments = [os.path.join(made, "splatKnot.usdc"), *arguments[1:]]
+                knot = os.path.join(ROOT, "testenv", "splatKnot.py")
+                subprocess.run([sys.executable, knot, arguments[0], "--alone"], check=True)
             command = [sys.executable, "-m", "patina", *([] if bench else ["chart"]), *arguments,
                        "--charts" if bench else "--out", made]
             print("patina", *command[3:-2], flush=True)

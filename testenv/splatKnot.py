@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes a stage with a knot of Gaussian splats over a floor that mirrors.
 
-    ./patina python testenv/splatKnot.py FILE.usdc
+    ./patina python testenv/splatKnot.py FILE.usdc [--alone]
 
 Its kernels lie flat on the knot, as those of captures lie on what was seen. Band 1 of their harmonics is a highlight."""
 import argparse
@@ -51,7 +51,8 @@ def knot(count):
     return Cloud(curve(t) + 0.14 * normals, scales, random.uniform(0.6, 1, count), turns=turns, coefficients=harmonics)
 
 
-def write(path, count=10000):
+def write(path, count=10000, alone=False):
+    """:param alone: without floor and lights"""
     stage = Usd.Stage.CreateNew(path)
     UsdGeom.SetStageUpAxis(stage, "Y")
     camera = UsdGeom.Camera.Define(stage, "/camera")
@@ -62,6 +63,12 @@ def write(path, count=10000):
     view = Gf.Matrix4d().SetLookAt(Gf.Vec3d(0, 1.9, 4.6), Gf.Vec3d(0, -0.12, 0), Gf.Vec3d(0, 1, 0))
     UsdGeom.Xformable(camera).MakeMatrixXform().Set(view.GetInverse())
     knot(count).define(stage, "/knot", half=True)
+    if not alone:
+        _surround(stage)
+    stage.Save()
+
+
+def _surround(stage):
     floor = UsdGeom.Mesh.Define(stage, "/floor")
     floor.CreatePointsAttr([(-6, -0.75, 6), (6, -0.75, 6), (6, -0.75, -6), (-6, -0.75, -6)])
     floor.CreateFaceVertexCountsAttr([4])
@@ -80,10 +87,11 @@ def write(path, count=10000):
     sun.CreateIntensityAttr(2.2)
     sun.CreateAngleAttr(3.0)
     UsdGeom.Xformable(sun).AddRotateXYZOp().Set((-55, 35, 0))
-    stage.Save()
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", metavar="FILE.usdc", help="is overwritten")
-    write(parser.parse_args().file)
+    parser.add_argument("--alone", action="store_true", help="without floor and lights")
+    arguments = parser.parse_args()
+    write(arguments.file, alone=arguments.alone)

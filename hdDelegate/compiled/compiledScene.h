@@ -8,6 +8,7 @@
 #include "hdDelegate/compiled/materialUsers.h"
 #include "hdDelegate/compiled/meshLights.h"
 #include "hdDelegate/compiled/placements.h"
+#include "hdDelegate/compiled/splatKernels.h"
 #include "hdDelegate/compiled/subdivision.h"
 #include "hdDelegate/image/textureSystem.h"
 #include "hdDelegate/lights/lightImages.h"
@@ -34,7 +35,7 @@ struct SceneEdits {
 };
 
 /// The part of a scene that every back end needs, made once for all its renderers: texels, images
-/// of lights, programs of materials, shapes, media of volumes, where instances are, how finely
+/// of lights, programs of materials, shapes, media of volumes, kernels of splats, where instances are, how finely
 /// surfaces are drawn, and what edits touch. Thread safe.
 class CompiledScene {
 public:
@@ -49,6 +50,7 @@ public:
     CompiledMaterials& materials() { return _materials; }
     CompiledShapes& shapes() { return _shapes; }
     CompiledVolumes& volumes() { return _volumes; }
+    CompiledSplats& splats() { return _splats; }
     Extents& extents() { return _extents; }
     SubdivisionChoice& subdivision() { return _subdivision; }
 
@@ -64,6 +66,7 @@ private:
     CompiledMaterials _materials;
     CompiledShapes _shapes;
     CompiledVolumes _volumes;
+    CompiledSplats _splats;
     Extents _extents;
     SubdivisionChoice _subdivision;
 

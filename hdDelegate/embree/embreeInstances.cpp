@@ -172,7 +172,7 @@ void EmbreeScene::updateSplats(const View& view, const std::vector<SplatScene::P
             [&](const MovingPlace& place) { places.push_back(place); });
         return places;
     };
-    _splats.update(_device, prims, placesOf, _shutterOpen, _shutterClose, _origin,
+    _splats.update(_device, _compiled.splats(), prims, placesOf, _shutterOpen, _shutterClose, _origin,
                    *view.state.renderingSpace, view.stop, _diagnostics);
 }
 

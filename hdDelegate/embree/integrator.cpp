@@ -120,6 +120,7 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit,
                 : next.diffuse                        ? RayDiffuse
                                                       : RaySpecular;
     path.specular = (next.event & sh::LOBE_DELTA) != 0;
+    path.splatsSampled = false;
     path.pdf = next.pdf;
     path.vertex = s.position;
     path.vertexNormal = back ? -s.normal : s.normal;
@@ -206,6 +207,7 @@ Integrator::Step Integrator::meet(Path& path, SurfacePoint& point, const Hit& hi
     if (program.passThroughEnters() && !culled) path.media.cross(program, s, priorityOf(hit));
     path.origin = s.position + path.direction * std::max(point.offset, 1e-7f);
     path.near = 0.0f;
+    path.splatsSampled = false;
     return Step::GoesOn;
 }
 
@@ -250,6 +252,9 @@ bool Integrator::goOn(Path& path, const SurfacePoint& point, const Hit& hit, con
             addRadiance(path, directLight(path, point, vertex, hit, draw, counters));
         }
 
+    const bool litBySplats = vertex.hasNonDelta() && !_scene.splats().lights().empty();
+    if (litBySplats) addRadiance(path, splatLight(path, point, vertex, counters));
+
     const vec4 u = path.sampler.next4();
     const BsdfSample next =
         dispersed ? dispersed->sample(vec3(u), u.w, path.waves) : bsdf.sample(vec3(u), u.w);
@@ -264,6 +269,7 @@ bool Integrator::goOn(Path& path, const SurfacePoint& point, const Hit& hit, con
             path.media.cross(*point.slot->program, point.shading, priorityOf(hit),
                              bsdf.ior() * point.shading.surroundingIor);
         depart(path, point, hit, vertex, next);
+        path.splatsSampled = litBySplats && !path.specular && staysOutside(point, next.wi);
     }
     ++path.depth;
     return survivesRoulette(path);
@@ -285,6 +291,7 @@ bool Integrator::advance(Path& path, const AovTarget& target, TraceCounters& cou
     if (_scene.ranksMedia() && !isThere(path.media, point, hit)) {
         path.origin = point.shading.position + path.direction * std::max(point.offset, 1e-7f);
         path.near = 0.0f;
+        path.splatsSampled = false;
         return ++path.passThroughs <= maxPassThroughs;
     }
     const bool caught = path.fromCamera() && catchingOf(hit).any();

@@ -32,6 +32,12 @@ inline vec3 facingNormal(const ShadingPoint& s) {
     return glm::dot(s.viewDirection, s.geometricNormal) < 0.0f ? -s.normal : s.normal;
 }
 
+/// Whether a direction leaves a surface on the side that it is seen from.
+inline bool staysOutside(const SurfacePoint& point, const vec3& direction) {
+    const vec3& n = point.shading.geometricNormal;
+    return (glm::dot(point.shading.viewDirection, n) < 0.0f) == (glm::dot(direction, n) < 0.0f);
+}
+
 /// The lobes of a vertex of a path.
 inline void setUpLobes(const SurfacePoint& point, Bsdf& bsdf) {
     const MaterialProgram& program = *point.slot->program;
@@ -136,6 +142,11 @@ private:
     /// Adds what splats along the path's ray shine, up to `end`.
     /// @returns what they let through up to `way`
     float passSplats(Path& path, float end, float way) const;
+    /// What they shine. @param left of the light, up to `way`
+    vec3 splatsAlong(Path& path, float end, float way, float& left) const;
+    /// Light of splats at a vertex, from one sample.
+    vec3 splatLight(Path& path, const SurfacePoint& point, const VertexBsdf& bsdf,
+                    TraceCounters& counters) const;
     /// Transmittance along the path's ray up to a distance.
     vec3 transmittanceTo(Path& path, float distance) const;
     Step scatterInside(Path& path, const Medium& medium, float distance,

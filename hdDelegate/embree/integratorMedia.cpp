@@ -118,7 +118,7 @@ Integrator::Step Integrator::scatterInside(Path& path, const Medium& medium, flo
 
     if (path.lightPaths) path.lightPaths->scatter(EventType::Volume, false, vec3(1.0f));
     path.rays = RayVolume;
-    path.specular = false;
+    path.specular = path.splatsSampled = false;
     path.pdf = next.pdf;
     path.vertex = position;
     path.vertexNormal = vec3(0.0f);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/integrator.h"
 
+#include "hdDelegate/embree/lightPathRecord.h"
 #include "hdDelegate/embree/media/freeFlight.h"
 
 #include <algorithm>
@@ -10,13 +11,14 @@
 
 namespace patina {
 
-float Integrator::passSplats(Path& path, float end, float way) const {
+vec3 Integrator::splatsAlong(Path& path, float end, float way, float& left) const {
     const SplatScene& splats = _scene.splats();
     const SplatScene::Ray ray{path.origin, path.direction, path.near, end, path.time, path.rays};
     const bool camera = path.fromCamera(), inMedium = !path.media.empty();
     SplatScene::Look look(splats, ray);
     vec3 shines(0.0f);
-    float left = 1.0f, leftAtWay = -1.0f, seen = 0.0f;
+    float leftAtWay = -1.0f, seen = 0.0f;
+    left = 1.0f;
     // Volumes are asked for what they let through up to one kernel, which stands for all.
     const bool inVolumes = !_scene.volumes().empty();
     vec3 chosen(0.0f);
@@ -43,23 +45,68 @@ float Integrator::passSplats(Path& path, float end, float way) const {
             path.screen = splats.primId(hit);
             path.screenPosition = path.origin + path.direction * hit.distance;
         }
-        if (left < splatEnd) left = 0.0f;
+        if (left < shSplats::SPLAT_END) left = 0.0f;
         return left > 0.0f;
     });
     if (inVolumes && chosenWeight > 0.0f)
         shines = chosen * (weights / chosenWeight) *
                  _scene.volumes().transmittance(path.origin, path.direction, chosenAt, path.rays,
                                                 path.sampler);
-    if (shines != vec3(0.0f)) {
-        if (path.lightPaths) path.lightPaths->straight(LightEvent());
-        addRadiance(path, shines);
-        // They are their own texture.
-        if (!path.featured) path.featureAlbedo += glm::clamp(path.throughput * shines, 0.0f, 1.0f);
-    }
     if (camera) path.alpha += (1.0f - path.alpha) * seen;
     path.alpha += path.caught * seen;
     path.caught *= left;
-    return leftAtWay < 0.0f ? left : leftAtWay;
+    if (leftAtWay >= 0.0f) left = leftAtWay;
+    return shines;
+}
+
+float Integrator::passSplats(Path& path, float end, float way) const {
+    float left = 1.0f;
+    vec3 shines = splatsAlong(path, end, way, left);
+    if (shines == vec3(0.0f)) return left;
+    if (path.splatsSampled)
+        shines *= misWeight(
+            path.pdf, _scene.splats().lights().pdf(path.vertex, path.vertexNormal, path.direction),
+            false);
+    if (path.lightPaths) path.lightPaths->straight(LightEvent());
+    addRadiance(path, shines);
+    // They are their own texture.
+    if (!path.featured) path.featureAlbedo += glm::clamp(path.throughput * shines, 0.0f, 1.0f);
+    return left;
+}
+
+/// Up to the first surface, on the side that the vertex is seen from. Samples of the BSDF have all
+/// else to themselves.
+vec3 Integrator::splatLight(Path& path, const SurfacePoint& point, const VertexBsdf& bsdf,
+                            TraceCounters& counters) const {
+    const ShadingPoint& s = point.shading;
+    const vec3 u(path.sampler.next4());
+    const SplatLights::Direction drawn =
+        _scene.splats().lights().sample(s.position, facingNormal(s), u);
+    if (!(drawn.pdf > 0.0f) || !staysOutside(point, drawn.direction)) return vec3(0.0f);
+    const BsdfEval f = bsdf.eval(drawn.direction);
+    const vec3 value = f.diffuse + f.specular;
+    if (value == vec3(0.0f)) return value;
+    Path there(path);
+    there.lightPaths = nullptr;
+    there.deep = nullptr;
+    ++there.depth;
+    there.rays = RayDiffuse;
+    there.origin = point.departure(drawn.direction);
+    there.direction = drawn.direction;
+    there.near = 0.0f;
+    ++counters.rays;
+    Hit hit;
+    const bool found = _scene.intersect(there.origin, there.direction, 0.0f, INFINITY, there.time,
+                                        there.rays, hit);
+    float left;
+    const float end = found ? hit.distance : INFINITY;
+    const vec3 incident =
+        splatsAlong(there, end, end, left) * (misWeight(drawn.pdf, f.pdf, false) / drawn.pdf);
+    path.sampler = there.sampler;
+    if (path.lightPaths)
+        path.lightPaths->lit(EventType::Reflect, f.diffuse * incident, f.specular * incident,
+                             LightEvent());
+    return value * incident;
 }
 
 } // namespace patina

@@ -41,7 +41,8 @@ struct PathState {
     vec3 vertex{0.0f}, vertexNormal{0.0f};
     bool vertexTwoSided = false;
     vec3 diffuseShare{1.0f}, specularShare{0.0f}; ///< of the throughput's last factor, sum 1
-    bool departs = false; ///< the ray comes from it directly, and was not traced yet
+    bool splatsSampled = false; ///< what it sees of splats a sample may have found, too
+    bool departs = false;       ///< the ray comes from it directly, and was not traced yet
 
     // caustics from photons, see integratorCaustics.cpp
     bool onPhotons = false;      ///< since a surface that shows photons it has met casters alone

@@ -65,6 +65,9 @@ struct Marked {
 };
 
 enum class SubdivisionScheme { None, CatmullClark, Loop, Bilinear };
+/// Of particles, as UsdVol's ParticleFieldKernel...API have them: exp(-r²/2) in space or on the xy
+/// plane alone, or 1 on the unit disk of that plane.
+enum class SplatShape { GaussianEllipsoid, GaussianSurflet, ConstantSurflet };
 enum class GeometryKind { Mesh, Curves, Points, Implicit, Volume, Splats };
 
 /// Whether prims of a kind have surfaces that rays meet. The others fill the space.
@@ -210,9 +213,10 @@ inline bool deforms(const Geometry& prim) {
     }
 }
 
-/// Particles as a UsdVolParticleField3DGaussianSplat has them. An array holds nothing, which stands
+/// Particles as a UsdVolParticleField has them. An array holds nothing, which stands
 /// for the fallback of the schema, or as many elements as there are particles.
 struct SplatCloud {
+    SplatShape shape = SplatShape::GaussianEllipsoid;
     std::vector<vec3> positions;
     std::vector<vec4> orientations; ///< quaternions, the real part first; fallback: not turned
     std::vector<vec3> scales;       ///< standard deviations along the kernels' axes; fallback: 1
@@ -225,7 +229,7 @@ struct SplatCloud {
     size_t stride() const { return size_t(degree + 1) * size_t(degree + 1); }
 };
 
-/// A field of Gaussian kernels with their captured radiance.
+/// A field of kernels with their captured radiance.
 struct Splats : Geometry {
     std::shared_ptr<const SplatCloud> cloud = std::make_shared<const SplatCloud>();
     std::string colorSpace; ///< of the radiance; empty: linear Rec.709

@@ -13,6 +13,7 @@ namespace {
 
 const char* const interpolationNames[] = {"constant", "uniform", "varying", "vertex",
                                           "faceVarying"};
+const char* const kernelNames[] = {"gaussianEllipsoid", "gaussianSurflet", "constantSurflet"};
 const char* const schemeNames[] = {"none", "catmullClark", "loop", "bilinear"};
 const char* const basisNames[] = {"linear", "bezier", "bspline", "catmullRom"};
 const char* const wrapNames[] = {"nonperiodic", "periodic", "pinned"};
@@ -197,6 +198,7 @@ void writeSplats(Writer& w, const Splats& s) {
         if (!values.empty())
             w.array(name, &values[0].x, size_t(components) * values.size(), components);
     };
+    if (c.shape != SplatShape::GaussianEllipsoid) w.line("shape", kernelNames[int(c.shape)]);
     floats("positions", c.positions, 3);
     floats("orientations", c.orientations, 4);
     floats("scales", c.scales, 3);

@@ -12,6 +12,7 @@ namespace {
 constexpr int highestDegree = 3;
 constexpr int largestDegree = 64;  // beyond it a number is no degree
 constexpr float thinnest = 1e-4f;  // of a kernel's largest scale: rays are traced in floats
+constexpr float flat = 1e-3f;      // of the larger scale of a flat kernel
 constexpr float smallest = 1e-15f; // scale, so that its inverse is within largestPlace
 
 bool isPlain(const vec3& v) {
@@ -94,6 +95,9 @@ private:
         size_t mended = 0, without = 0;
         for (size_t i = 0; i < _cloud.scales.size(); ++i) {
             vec3& scale = _cloud.scales[i];
+            // Of flat kernels across the plane, which the schema leaves without a meaning.
+            if (_cloud.shape != SplatShape::GaussianEllipsoid)
+                scale.z = flat * std::max(std::abs(scale.x), std::abs(scale.y));
             const vec3 positive = glm::abs(scale);
             const float largest = std::max({positive.x, positive.y, positive.z});
             if (!isPlain(scale)) continue;

@@ -192,6 +192,7 @@ void setSplats(PythonEdit& edit, const std::string& path, const py::kwargs& valu
     SplatCloud cloud;
     Fields fields("set_splats", path, values);
     readCommon(fields, *splats, edit)
+        .read("shape", cloud.shape)
         .read("positions", cloud.positions)
         .read("orientations", cloud.orientations)
         .read("scales", cloud.scales)
@@ -250,7 +251,8 @@ void bindSceneGeometry(py::class_<PythonEdit>& edit) {
         .def("set_volume", &setVolume, py::arg("path"),
              "A UsdVolVolume; fields are given by their names, files and the grids in the files.")
         .def("set_splats", &setSplats, py::arg("path"),
-             "A UsdVolParticleField3DGaussianSplat; orientations are quaternions, the real part "
+             "A UsdVolParticleField; shape is that of its kernels, orientations are quaternions, "
+             "the real part "
              "first.")
         .def("set_instancer", &setInstancer, py::arg("path"),
              "Copies of groups; keywords are Instancer's fields.");

@@ -225,6 +225,12 @@ void convert(py::handle from, Catching& to) {
     to = {flags[0], flags[1], flags[2]};
 }
 
+void convert(py::handle from, SplatShape& to) {
+    fromName<SplatShape>(from, to,
+                         {{"gaussianEllipsoid", SplatShape::GaussianEllipsoid},
+                          {"gaussianSurflet", SplatShape::GaussianSurflet},
+                          {"constantSurflet", SplatShape::ConstantSurflet}});
+}
 void convert(py::handle from, SubdivisionScheme& to) {
     fromName<SubdivisionScheme>(from, to,
                                 {{"none", SubdivisionScheme::None},

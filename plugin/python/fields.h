@@ -31,6 +31,7 @@ void convert(pybind11::handle from, Visibility& to);
 void convert(pybind11::handle from, Catching& to);
 void convert(pybind11::handle from, Marks& to);
 void convert(pybind11::handle from, SubdivisionScheme& to);
+void convert(pybind11::handle from, SplatShape& to);
 void convert(pybind11::handle from, CurveBasis& to);
 void convert(pybind11::handle from, CurveWrap& to);
 void convert(pybind11::handle from, ImplicitShape& to);

@@ -36,6 +36,9 @@ FEATURES = {
     "shadowsOfVolumes": Feature(
         "volume prims cast no shadow on surfaces, and their multiple scattering is that of a layer",
         "test_byDesign.py::test_volumes_cast_no_shadow", ("volume",)),
+    "lightOfSplats": Feature(
+        "Gaussian splats are seen by the camera alone: they cast no shadow, give no light to surfaces, and are in no mirror",
+        "test_splatViews.py::test_splats_are_seen_by_the_camera_alone"),
     "shadowsOfLimitedDistance": Feature(
         "shadows of limited distance know only the side of a caster that is nearest to the light",
         "test_byDesign.py::test_shadows_of_limited_distance_know_the_near_side"),

@@ -7,7 +7,7 @@ from pxr import Gf, Usd, UsdGeom, UsdLux, UsdShade, UsdVol, Vt
 from scipy.spatial.transform import Rotation
 from scipy.special import factorial, lpmv
 
-CUT = 1 / 1024  # hdDelegate/embree/media/splatKernels.h: kernels end where their alpha is that
+CUT = 1 / 1024  # shaders/lib/splat.glsl: kernels end where their alpha is that
 END = 1e-4  # and rays where so little is left
 DC = 0.5 * np.sqrt(1 / np.pi)  # of the harmonic of degree 0
 
@@ -28,9 +28,13 @@ def basis(directions, degree):
 
 
 class Cloud:
-    """Kernels: rotations are scipy's, colours are those of harmonics of degree 0, unless coefficients are given."""
+    """Kernels: rotations are scipy's, colours are those of harmonics of degree 0, unless coefficients are given.
 
-    def __init__(self, positions, scales=1.0, opacities=1.0, colors=0.5, turns=None, coefficients=None):
+    :param shape: of UsdVol's ParticleFieldKernel...API"""
+
+    def __init__(self, positions, scales=1.0, opacities=1.0, colors=0.5, turns=None, coefficients=None,
+                 shape="GaussianEllipsoid"):
+        self.shape = shape
         self.positions = np.array(positions, float).reshape(-1, 3)
         count = len(self.positions)
         self.scales = np.broadcast_to(np.asarray(scales, float), (count, 3)).copy()
@@ -42,7 +46,13 @@ class Cloud:
         self.degree = int(round(np.sqrt(self.coefficients.shape[1]))) - 1
 
     def define(self, stage, path="/splats", half=False):
-        prim = UsdVol.ParticleField3DGaussianSplat.Define(stage, path).GetPrim()
+        if self.shape == "GaussianEllipsoid":
+            prim = UsdVol.ParticleField3DGaussianSplat.Define(stage, path).GetPrim()
+        else:
+            prim = UsdVol.ParticleField.Define(stage, path).GetPrim()
+            for name in ("Kernel" + self.shape, "PositionAttribute", "OrientationAttribute", "ScaleAttribute",
+                         "OpacityAttribute", "SphericalHarmonicsAttribute"):
+                prim.ApplyAPI(f"ParticleField{name}API")
         x, y, z, w = self.turns.as_quat().T
         kind, quaternion, letter = (Vt.Vec3hArray, Vt.QuathArray, "h") if half else (Vt.Vec3fArray, Vt.QuatfArray, "")
         scalar = Vt.HalfArray if half else Vt.FloatArray
@@ -69,9 +79,10 @@ class Cloud:
         unit = self.turns.as_matrix().transpose(0, 2, 1) / self.scales[:, :, None]
         o = np.einsum("pij,npj->npi", unit, origins[:, None] - self.positions[None])
         d = np.einsum("pij,nj->npi", unit, directions)
-        t = -(o * d).sum(2) / (d * d).sum(2)
-        away = ((o + d * t[:, :, None]) ** 2).sum(2)
-        alphas = self.opacities * np.exp(-0.5 * away)
+        is_flat = self.shape != "GaussianEllipsoid"
+        t = -o[..., 2] / d[..., 2] if is_flat else -(o * d).sum(2) / (d * d).sum(2)
+        away = ((o + d * t[:, :, None])[..., :2 if is_flat else 3] ** 2).sum(2)
+        alphas = self.opacities * (away <= 1 if self.shape == "ConstantSurflet" else np.exp(-0.5 * away))
         alphas = np.where((alphas > cut) & (t > 0), alphas, 0)
         order = np.argsort(t, 1)
         alphas = np.take_along_axis(alphas, order, 1)
@@ -159,14 +170,17 @@ _TOKEN = Sdf.ValueTypeNames.Token
 COLOR, FLOAT = Sdf.ValueTypeNames.Color3f, Sdf.ValueTypeNames.Float
 
 
-def sharp_image(stage, folder, pixels=32, samples=1, settings=(), aovs=("color", "alpha")):
+def sharp_image(stage, folder, pixels=32, samples=1, settings=(), aovs=("color", "alpha"), backend="embree"):
     """:returns: images by AOV, every sample at its pixel's middle"""
-    from inProcess import Stage
+    from inProcess import Stage, needs_opengl
+
+    if backend == "raster":
+        needs_opengl()
 
     path = folder / "stage.usda"
     stage.Export(str(path))
     rendered = Stage(path, "--camera", "/camera", "--imageWidth", pixels, "--imageHeight", pixels, "--disableCameraLight",
-                     "--backend", "embree", *settings)
+                     "--backend", backend, *settings)
     film = rendered.module.Film()
     rendered.renderer.start(rendered.scene, rendered.camera,
                             {**rendered.settings, "filterRadius": 0.0, "samples": samples, "aovs": list(aovs)}, film)

@@ -12,20 +12,6 @@ namespace patina {
 
 namespace {
 
-/// Of the radiance to the rendering space; null where they are the same.
-ColorTransformPtr transformOf(const Splats& prim, const RenderingSpace& space,
-                              Diagnostics& diagnostics) {
-    const ColorSpaces& spaces = ColorSpaces::shared();
-    std::string name = prim.colorSpace;
-    if (!name.empty() && ColorSpaces::isData(name)) return nullptr;
-    if (!name.empty() && !spaces.toRec709(name)) {
-        diagnostics.warn(prim.path, "colorSpace:name", messages::valuesSpaceUnknown(name));
-        name.clear();
-    }
-    const auto transform = spaces.toRendering(name.empty() ? "lin_rec709" : name, space);
-    return transform && !transform->isIdentity() ? transform : nullptr;
-}
-
 template <class Visit> void forCorners(const RTCBounds& b, const mat4& m, const Visit& visit) {
     for (int corner = 0; corner < 8; ++corner)
         visit(vec3(m * vec4((corner & 1) ? b.upper_x : b.lower_x,
@@ -55,19 +41,20 @@ void SplatScene::clear() {
     if (_scene) rtcReleaseScene(_scene);
     _scene = nullptr;
     _placed.clear();
-    _kernels.clear();
+    _lights.clear();
+    _trees.clear();
     _bytes = 0;
     _min = vec3(INFINITY);
     _max = vec3(-INFINITY);
 }
 
-void SplatScene::place(const Prim& prim, const std::shared_ptr<const SplatKernels>& kernels,
+void SplatScene::place(const Prim& prim, const std::shared_ptr<const SplatTree>& tree,
                        const PlacesOf& placesOf, float open, float close, const dvec3& origin,
                        const RenderingSpace& space, Diagnostics& diagnostics) {
     const Splats& splats = *prim.splats;
     MotionTransform transform = splats.transform;
     for (dmat4& m : transform.values)
-        m[3] = m * glm::dvec4(kernels->middle(), 1.0);
+        m[3] = m * glm::dvec4(tree->kernels().middle(), 1.0);
     const std::vector<mat4> own =
         resample(transform, open, close, splats.group.empty() ? origin : dvec3(0.0));
     const ColorTransformPtr toRendering = transformOf(splats, space, diagnostics);
@@ -76,7 +63,7 @@ void SplatScene::place(const Prim& prim, const std::shared_ptr<const SplatKernel
         MovingPlace here;
         here.toWorld = own;
         here.enter(around.toWorld);
-        Placed placed{kernels,
+        Placed placed{tree,
                       std::move(here.toWorld),
                       mat4(1.0f),
                       splats.visibility.mask() & around.mask,
@@ -87,7 +74,7 @@ void SplatScene::place(const Prim& prim, const std::shared_ptr<const SplatKernel
         vec3 lower(INFINITY), upper(-INFINITY);
         for (const mat4& m : placed.toWorld) {
             usable &= hasInverse(m);
-            forCorners(kernels->bounds(), m, [&](const vec3& corner) {
+            forCorners(tree->bounds(), m, [&](const vec3& corner) {
                 lower = glm::min(lower, corner);
                 upper = glm::max(upper, corner);
             });
@@ -103,30 +90,37 @@ void SplatScene::place(const Prim& prim, const std::shared_ptr<const SplatKernel
     if (unusable) diagnostics.warn(splats.path, "transform", messages::splatsWithoutInverse);
 }
 
-void SplatScene::update(RTCDevice device, const std::vector<Prim>& prims, const PlacesOf& placesOf,
-                        float open, float close, const dvec3& origin, const RenderingSpace& space,
-                        const std::atomic<bool>& stop, Diagnostics& diagnostics) {
-    auto known = std::move(_kernels), used = decltype(_kernels)();
+void SplatScene::update(RTCDevice device, CompiledSplats& compiled, const std::vector<Prim>& prims,
+                        const PlacesOf& placesOf, float open, float close, const dvec3& origin,
+                        const RenderingSpace& space, const std::atomic<bool>& stop,
+                        Diagnostics& diagnostics) {
+    auto known = std::move(_trees), used = decltype(_trees)();
     clear();
     for (const Prim& prim : prims) {
-        auto& kernels = known[prim.splats->cloud];
-        if (!kernels) {
-            const auto made = std::make_shared<SplatKernels>(device, prim.splats->cloud, stop);
+        auto& tree = known[prim.splats->cloud];
+        if (!tree) {
+            const auto made =
+                std::make_shared<SplatTree>(device, compiled.kernels(prim.splats->cloud), stop);
             if (stop) { // the next update finds those that are complete
                 _placed.clear();
-                _kernels = std::move(known);
+                _trees = std::move(known);
                 return;
             }
-            kernels = made;
+            tree = made;
         }
-        used[prim.splats->cloud] = kernels;
-        if (!kernels->empty())
-            place(prim, kernels, placesOf, open, close, origin, space, diagnostics);
+        used[prim.splats->cloud] = tree;
+        if (tree->scene()) place(prim, tree, placesOf, open, close, origin, space, diagnostics);
     }
-    _kernels = std::move(used);
-    for (const auto& item : _kernels)
-        _bytes += item.second->bytes();
+    _trees = std::move(used);
+    for (const auto& item : _trees)
+        _bytes += item.second->kernels().list().capacity() * sizeof(SplatKernel);
     if (_placed.empty()) return;
+    // Kinds of rays differ in what they see, but not in what light samples find.
+    const bool all = std::all_of(_placed.begin(), _placed.end(), [](const Placed& placed) {
+        return (placed.mask & RayIndirect) == RayIndirect;
+    });
+    for (const Placed& placed : _placed)
+        if (all) _lights.add(placed.tree->kernels(), placed.toWorld[0], _placed.size());
     size_t steps = 1;
     for (const Placed& placed : _placed)
         steps = std::max(steps, placed.toWorld.size());
@@ -156,7 +150,7 @@ void SplatScene::boundsOf(const RTCBoundsFunctionArguments* args) {
     const Placed& placed = self._placed[args->primID];
     const mat4& m = placed.toWorld[std::min<size_t>(args->timeStep, placed.toWorld.size() - 1)];
     vec3 lower(INFINITY), upper(-INFINITY);
-    forCorners(placed.kernels->bounds(), m, [&](const vec3& corner) {
+    forCorners(placed.tree->bounds(), m, [&](const vec3& corner) {
         lower = glm::min(lower, corner);
         upper = glm::max(upper, corner);
     });
@@ -184,7 +178,7 @@ void SplatScene::enter(const RTCIntersectFunctionNArguments* args) {
     local.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     if (!isTraceable(local.ray, largestTraced)) return;
     query.place = args->primID;
-    embreeIntersect(placed.kernels->scene(), &query.base, &local);
+    embreeIntersect(placed.tree->scene(), &query.base, &local);
     ray.tfar = local.ray.tfar;
 }
 
@@ -223,16 +217,17 @@ float SplatScene::transmittance(const Ray& ray) const {
     query.after.distance = -INFINITY;
     trace(ray, query);
     const double left = std::exp(-double(query.depth) / SplatQuery::perUnit);
-    return left < double(splatEnd) ? 0.0f : float(left);
+    return left < double(shSplats::SPLAT_END) ? 0.0f : float(left);
 }
 
 vec3 SplatScene::Look::radiance(const SplatHit& hit) {
     const Placed& placed = _scene._placed[hit.place];
     if (_place != int64_t(hit.place)) {
         _place = hit.place;
-        splatBasis(glm::normalize(mat3(placed.worldToLocal(_ray.time)) * _ray.direction), _basis);
+        _basis = shSplats::splatBasis(
+            glm::normalize(mat3(placed.worldToLocal(_ray.time)) * _ray.direction));
     }
-    vec3 color = placed.kernels->radiance(hit.kernel, _basis);
+    vec3 color = placed.tree->kernels().radiance(hit.kernel, _basis);
     if (placed.toRendering) placed.toRendering->apply(&color.x, 1, 3);
     return color;
 }

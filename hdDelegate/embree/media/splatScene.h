@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/embree/media/splatKernels.h"
-#include "materialNetwork/color/colorSpaces.h"
+#include "hdDelegate/embree/media/splatLights.h"
+#include "hdDelegate/embree/media/splatTree.h"
 
 #include <functional>
 #include <map>
@@ -40,9 +40,10 @@ public:
     /// Takes over the splats of a scene.
     /// @param open, close times of the shutter
     /// @param origin of the space that they are wanted in, see seenFrom()
-    void update(RTCDevice device, const std::vector<Prim>& prims, const PlacesOf& placesOf,
-                float open, float close, const dvec3& origin, const RenderingSpace& space,
-                const std::atomic<bool>& stop, Diagnostics& diagnostics);
+    void update(RTCDevice device, CompiledSplats& compiled, const std::vector<Prim>& prims,
+                const PlacesOf& placesOf, float open, float close, const dvec3& origin,
+                const RenderingSpace& space, const std::atomic<bool>& stop,
+                Diagnostics& diagnostics);
     void clear();
 
     bool empty() const { return _placed.empty(); }
@@ -71,6 +72,7 @@ public:
     /// What the kernels along a ray let through.
     float transmittance(const Ray& ray) const;
 
+    const SplatLights& lights() const { return _lights; }
     bool isMatte(const SplatHit& hit) const { return _placed[hit.place].matte; }
     int primId(const SplatHit& hit) const { return _placed[hit.place].id; }
 
@@ -84,12 +86,12 @@ public:
         const SplatScene& _scene;
         const Ray& _ray;
         int64_t _place = -1; ///< that the basis is for
-        float _basis[splatBasisSize];
+        shSplats::SplatBasis _basis;
     };
 
 private:
     struct Placed {
-        std::shared_ptr<const SplatKernels> kernels;
+        std::shared_ptr<const SplatTree> tree;
         std::vector<mat4> toWorld; ///< steps
         mat4 toLocal{1.0f};        ///< where there is one
         unsigned mask = RayAny;
@@ -101,14 +103,15 @@ private:
     };
     void gather(const Ray& ray, SplatQuery& query) const;
     void trace(const Ray& ray, SplatQuery& query) const;
-    void place(const Prim& prim, const std::shared_ptr<const SplatKernels>& kernels,
+    void place(const Prim& prim, const std::shared_ptr<const SplatTree>& tree,
                const PlacesOf& placesOf, float open, float close, const dvec3& origin,
                const RenderingSpace& space, Diagnostics& diagnostics);
     static void boundsOf(const RTCBoundsFunctionArguments* args);
     static void enter(const RTCIntersectFunctionNArguments* args);
 
-    std::map<std::shared_ptr<const SplatCloud>, std::shared_ptr<const SplatKernels>> _kernels;
+    std::map<std::shared_ptr<const SplatCloud>, std::shared_ptr<const SplatTree>> _trees;
     std::vector<Placed> _placed;
+    SplatLights _lights;
     RTCScene _scene = nullptr; ///< of the places
     size_t _bytes = 0;
     vec3 _min{INFINITY}, _max{-INFINITY};

@@ -23,6 +23,7 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     _color = GlTexture(GL_TEXTURE_2D, GL_RGBA32F, across, up);
     _depth = GlTexture(GL_TEXTURE_2D, GL_DEPTH_COMPONENT32F, across, up);
     _colorTarget = GlFramebuffer({&_color}, &_depth);
+    _pictureTarget = GlFramebuffer({&_color}, nullptr);
     _width = width;
     _height = height;
     _border = border;
@@ -69,10 +70,10 @@ void RasterPasses::drawVolumes(const RasterScene& scene) {
 }
 
 /// Over what is drawn already.
-void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisible& visible,
+bool RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisible& visible,
                                     const RasterLightFilters& filters) {
     const auto transmits = [](const RasterDraw& d) { return d.material->glsl.transmits; };
-    if (std::none_of(scene.draws().begin(), scene.draws().end(), transmits)) return;
+    if (std::none_of(scene.draws().begin(), scene.draws().end(), transmits)) return false;
     needRefraction();
     RasterDrawList backs;
     for (const RasterDraw& d : scene.draws())
@@ -84,6 +85,16 @@ void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisibl
     _look.target().bind();
     _refraction->bind();
     _surfaces.draw(scene, visible, RasterSurfaces::Transmitting, &filters);
+    return true;
+}
+
+/// Over what is drawn already.
+/// @param beforeGlass only what is before surfaces that transmit
+void RasterPasses::drawSplats(const RasterScene& scene, bool beforeGlass) {
+    if (scene.splats().empty()) return;
+    _splatting.find(scene.splats(), _depth, beforeGlass ? &_refraction->depth() : nullptr);
+    _pictureTarget.bind();
+    _splatting.draw(RasterSplatting::Over::Last);
 }
 
 void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
@@ -126,8 +137,8 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     taken.resize(LightSampler::maxTaken);
     const GlBuffer takenBuffer(taken);
 
-    const RasterView view = camera.view(sample.offset, sample.lens, sample.time, scene.boundsMin(),
-                                        scene.boundsMax(), _border);
+    const RasterView view = camera.view(sample.offset, sample.lens, sample.time, scene.seenMin(),
+                                        scene.seenMax(), _border);
     RasterPassBlock b(scene, view);
     b.lightsTaken = sampled.taken;
     b.bsdfSamples = look && lights.needsSky() ? RasterLook::bsdfSamples : bsdfSamples;
@@ -184,9 +195,21 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
         _surfaces.drawDepths(scene, visible);
         _look.target().bind();
         _surfaces.draw(scene, visible, RasterSurfaces::Solid, &lights.filters());
-        drawTransmitting(scene, visible, lights.filters());
     }
+    if (!scene.splats().empty())
+        _splatting.sort(scene.splats(), view, _color.width(), _color.height());
+    drawSplats(scene, false);
+    bool transmits = false;
+    {
+        const RasterClipping clipping(b);
+        transmits = drawTransmitting(scene, visible, lights.filters());
+    }
+    if (transmits) drawSplats(scene, true);
     if (look) _look.smooth();
+    if (look && !scene.splats().empty()) {
+        _look.difference().bind();
+        _splatting.draw(RasterSplatting::Over::AnyFactorsAlone);
+    }
     {
         const RasterClipping clipping(b);
         gl.DepthMask(GL_FALSE);

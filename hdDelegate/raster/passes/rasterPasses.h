@@ -56,8 +56,10 @@ public:
     static constexpr int bsdfSamples = 2; ///< per pixel and pass
 
 private:
-    void drawTransmitting(const RasterScene& scene, const RasterVisible& visible,
+    /// @returns false where nothing does
+    bool drawTransmitting(const RasterScene& scene, const RasterVisible& visible,
                           const RasterLightFilters& filters);
+    void drawSplats(const RasterScene& scene, bool beforeGlass);
     void drawVolumes(const RasterScene& scene);
     void needRefraction();
     void drawImage(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
@@ -68,7 +70,8 @@ private:
     RasterBackground _background;
     RasterCasters _casters{_surfaces.vertexArray()};
     RasterLook _look;
-    RasterSeen _seen{_surfaces};
+    RasterSplatting _splatting;
+    RasterSeen _seen{_surfaces, _splatting};
     RasterManyLights _manyLights;
     std::unique_ptr<RasterImage> _image;           ///< made when a listener wants images alone
     std::unique_ptr<RasterRefraction> _refraction; ///< made when something transmits
@@ -76,7 +79,7 @@ private:
     int _width = 0, _height = 0, _border = 0;
     int _window[4] = {0, 0, -1, -1};
     GlTexture _color, _depth;
-    GlFramebuffer _colorTarget;
+    GlFramebuffer _colorTarget, _pictureTarget; ///< with depths and without
 };
 
 } // namespace patina

@@ -20,6 +20,7 @@ public:
     /// Keeps a picture as it is now.
     void keep(const GlTexture& color, const GlTexture& depth);
     void bind() const;
+    const GlTexture& depth() const { return _depth; } ///< that is kept
     /// Draws a volume over the picture that is kept. @param index of the volume in the pass
     void drawVolume(const RasterVolume& volume, int index) const;
 

@@ -93,6 +93,8 @@ void RasterSeen::makeTarget(const RasterAovRequest& request) {
     _geometricNormal = request.geometricNormal ? make() : GlTexture();
     if (_geometricNormal) targets.push_back(&_geometricNormal);
     _target = GlFramebuffer(targets, _depth);
+    _splatTarget = GlFramebuffer(targets, nullptr);
+    _others = int(targets.size()) - 3;
     _complete = _target.complete();
 }
 
@@ -106,10 +108,11 @@ void RasterSeen::draw(const RasterScene& scene, const RasterCamera& camera, bool
     if (!(scene.materials().aovs() == _request)) makeTarget(scene.materials().aovs());
     if (!_complete) throw DeviceError("the driver has no room for the AOVs");
     const RasterView view =
-        camera.view(vec2(0.0f), vec2(0.0f), 0.5f, scene.boundsMin(), scene.boundsMax());
+        camera.view(vec2(0.0f), vec2(0.0f), 0.5f, scene.seenMin(), scene.seenMax());
     _surfaces.timer.mark(GlTimer::Aovs);
     fillTarget(scene, view, RasterPassBlock(scene, view));
     measureReceivers(scene, camera, inSteps);
+    drawSplats(scene, view);
     _surfaces.timer.collect();
 }
 
@@ -128,23 +131,32 @@ void RasterSeen::fillTarget(const RasterScene& scene, const RasterView& view,
     gl.ClearNamedFramebufferfv(_target.id(), GL_COLOR, 0, none);
     gl.ClearNamedFramebufferfv(_target.id(), GL_COLOR, 1, none);
     gl.ClearNamedFramebufferiv(_target.id(), GL_COLOR, 2, noIds);
-    for (size_t i = 0; i < _primvars.size() + (_albedo ? 1 : 0) + (_geometricNormal ? 1 : 0); ++i)
-        gl.ClearNamedFramebufferfv(_target.id(), GL_COLOR, 3 + GLint(i), none);
+    for (GLint i = 0; i < _others; ++i)
+        gl.ClearNamedFramebufferfv(_target.id(), GL_COLOR, 3 + i, none);
     gl.ClearNamedFramebufferfv(_target.id(), GL_DEPTH, 0, &far);
     const RasterClipping clipping(block);
     _surfaces.draw(scene, scene.visible(view.worldToClip), RasterSurfaces::AllForAovs);
+}
+
+/// Over what is drawn: after fillTarget(), with the numbers of its pass.
+void RasterSeen::drawSplats(const RasterScene& scene, const RasterView& view) {
+    if (scene.splats().empty()) return;
+    _splatting.sort(scene.splats(), view, _width, _height);
+    _splatTarget.bind();
+    _splatting.drawAovs(scene.splats(), *_depth, _others);
 }
 
 void RasterSeen::count(const RasterScene& scene, const RasterMattes& mattes,
                        const RasterCamera& camera, const RasterSample& sample, uint32_t seed,
                        const int* window, Film& film) {
     const RasterView view =
-        camera.view(sample.beside, sample.lens, sample.time, scene.boundsMin(), scene.boundsMax());
+        camera.view(sample.beside, sample.lens, sample.time, scene.seenMin(), scene.seenMax());
     RasterPassBlock b(scene, view);
     b.passIndex = int(sample.pass);
     b.passSeed = int(seed);
     _surfaces.timer.mark(GlTimer::Aovs);
     fillTarget(scene, view, b);
+    drawSplats(scene, view);
     _surfaces.timer.mark(GlTimer::ReadBack);
     std::vector<int> ids;
     readIds(ids);
@@ -216,7 +228,7 @@ void RasterSeen::measureReceivers(const RasterScene& scene, const RasterCamera& 
     _bounds.sceneMin = scene.boundsMin();
     _bounds.sceneMax = scene.boundsMax();
     const bool any = found[0] <= found[3], fibres = found[6] <= found[9];
-    const vec3 low = any ? box(0) : _bounds.sceneMin, high = any ? box(3) : _bounds.sceneMax;
+    const vec3 low = any ? box(0) : scene.seenMin(), high = any ? box(3) : scene.seenMax();
     _seenMin = low;
     _seenMax = high;
     const vec3 margin = 0.02f * (high - low) + 1e-4f * glm::length(high - low);

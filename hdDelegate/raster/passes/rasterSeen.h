@@ -3,6 +3,7 @@
 
 #include "hdDelegate/raster/passes/rasterFilterSplat.h"
 #include "hdDelegate/raster/passes/rasterMattes.h"
+#include "hdDelegate/raster/passes/rasterSplatting.h"
 #include "hdDelegate/raster/passes/rasterSurfaces.h"
 #include "hdDelegate/raster/shadows/rasterShadows.h"
 
@@ -20,8 +21,9 @@ struct RasterSeenImages {
 /// need, and what follows from where it is. Lives with one context.
 class RasterSeen {
 public:
-    /// @param surfaces that it is drawn with
-    explicit RasterSeen(RasterSurfaces& surfaces) : _surfaces(surfaces) {}
+    /// @param surfaces, splatting that it is drawn with
+    RasterSeen(RasterSurfaces& surfaces, RasterSplatting& splatting)
+        : _surfaces(surfaces), _splatting(splatting) {}
 
     /// @param depth that is drawn into, besides
     /// @returns false when the driver has no room
@@ -46,18 +48,21 @@ public:
 private:
     void makeTarget(const RasterAovRequest& request);
     void fillTarget(const RasterScene& scene, const RasterView& view, const RasterPassBlock& block);
+    void drawSplats(const RasterScene& scene, const RasterView& view);
     void readIds(std::vector<int>& ids);
     void measureReceivers(const RasterScene& scene, const RasterCamera& camera, bool inSteps);
 
     RasterSurfaces& _surfaces;
+    RasterSplatting& _splatting;
     std::unique_ptr<GlProgram> _receivers = GlProgram::own(
         {{GL_COMPUTE_SHADER, "receivers", "#include \"shaders/raster/receivers.comp.glsl\"\n"}});
     int _width = 0, _height = 0;
     const GlTexture* _depth = nullptr;
     GlTexture _position, _normal, _ids, _albedo, _geometricNormal;
     std::vector<GlTexture> _primvars;
-    GlFramebuffer _target;
-    RasterAovRequest _request; ///< that _target is for
+    GlFramebuffer _target, _splatTarget; ///< with depths and without
+    int _others = 0;                     ///< targets after the first three
+    RasterAovRequest _request;           ///< that _target is for
     bool _complete = false;
     RasterSeenImages _images; ///< of write()
     ShadowBounds _bounds;

@@ -71,7 +71,7 @@ bool RasterScene::redraw(const std::shared_ptr<const Geometry>& prim, const Scen
     if (isDrawnInRaster(*prim, _settings) != (known != _spans.end())) return false;
     if (known == _spans.end()) return true;
     const Span old = known->second;
-    if (old.emits || prim->kind == GeometryKind::Volume) return false;
+    if (old.emits || !isSurface(prim->kind)) return false;
     const Sizes before = sizes();
     Sizes after = before;
     bool wide = false;
@@ -155,10 +155,10 @@ bool RasterScene::updateTouched(const SceneEdits& edits, const SceneState& state
     if (_moves || !delta.instancers.empty() || !onlySets(delta.geometry) ||
         !onlySets(delta.materials))
         return false;
-    if (!delta.geometry.empty() && !_volumes.placed().empty()) return false;
+    if (!delta.geometry.empty() && !(_volumes.placed().empty() && _splats.empty())) return false;
     _looked += edits.touched.size();
     for (const std::string& path : edits.touched)
-        if (state.geometry.at(path)->kind == GeometryKind::Volume || showsInstances(path))
+        if (!isSurface(state.geometry.at(path)->kind) || showsInstances(path))
             return false;
     if (!_materials.edit(delta.materials, state, _settings)) return false;
     finishPrograms(stop, compiling);

@@ -21,7 +21,7 @@ bool usable(const mat4& m) {
 } // namespace
 
 bool isDrawnInRaster(const Geometry& prim, const RenderSettings& settings) {
-    return prim.kind != GeometryKind::Splats && prim.visibility.camera && isDrawn(prim, settings);
+    return prim.visibility.camera && isDrawn(prim, settings);
 }
 
 std::optional<Message> notShownInRaster(const Marked& prim) {
@@ -49,7 +49,10 @@ const std::vector<RasterPlace>& RasterInstances::places(const std::string& group
     const auto step = [this](const Instancer& instancer, uint32_t i, int depth,
                              RasterPlace& place) {
         if (!instancer.visibility.camera) return false;
-        if (i < instancer.marks.size() && !instancer.marks[i].visibility.camera) return false;
+        if (i < instancer.marks.size()) {
+            if (!instancer.marks[i].visibility.camera) return false;
+            place.matte |= instancer.marks[i].catching.matte;
+        }
         place.groupToWorld = exactTransformAt(instancer.transforms[i], _time) * place.groupToWorld;
         const int own = i < instancer.ids.size() ? instancer.ids[i] : int(i);
         const size_t prototype = size_t(instancer.prototypeIndices[i]);

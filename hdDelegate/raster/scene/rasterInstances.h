@@ -13,6 +13,7 @@ namespace patina {
 struct RasterPlace {
     dmat4 groupToWorld{1.0}; ///< all digits: the origin may be taken from large numbers
     int id = -1;             ///< for the instanceId AOV
+    bool matte = false;
     std::vector<std::string> categories;
     std::vector<InstanceStep> steps; ///< from the outermost instance inwards
 };

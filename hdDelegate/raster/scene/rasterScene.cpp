@@ -26,11 +26,10 @@ void RasterScene::prepareMaterials(const SceneState& state, RasterInstances& pla
             }
     for (const auto& item : state.geometry) {
         const Geometry& prim = *item.second;
-        const auto problem = notShownInRaster(prim);
+        const bool apart = prim.kind != GeometryKind::Splats; // they are seen by cameras alone
+        const auto problem = apart ? notShownInRaster(prim) : std::nullopt;
         if (problem && isDrawn(prim, _settings)) _diagnostics.warn(prim.path, "primvars", *problem);
-        if (prim.kind == GeometryKind::Splats && isDrawn(prim, _settings))
-            _diagnostics.warn(prim.path, "", messages::notInRaster);
-        if (prim.kind == GeometryKind::Volume || !isDrawnInRaster(prim, _settings) ||
+        if (!isSurface(prim.kind) || !isDrawnInRaster(prim, _settings) ||
             places.places(prim.group).empty())
             continue;
         _materials.prepare(prim.material, state, _settings);
@@ -99,6 +98,7 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
     _linkRows.clear();
     _emitters.clear();
     _volumes.begin();
+    _splats.begin();
     RasterInstances places(_parts.placements, camera.timeCode(0.5f), _origin);
     Camera inWorld = camera.camera(); // which is relative to the origin, as places are
     for (dmat4& place : inWorld.transform.values)
@@ -133,12 +133,23 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
             _volumes.add(volume, state, _settings, toWorld, _boundsMin, _boundsMax);
             continue;
         }
+        if (item.second->kind == GeometryKind::Splats) {
+            const auto splats = std::static_pointer_cast<const Splats>(item.second);
+            _splats.add(splats, splats->id >= 0 ? splats->id : own, *state.renderingSpace);
+            _moves |= splats->transform.moves();
+            continue;
+        }
         addPrim(item.second, own, state, camera, places);
     }
     _shapes.forgetUnused();
     _materials.forgetUnused(_settings);
     _volumes.end();
-    if (_draws.empty() && _volumes.placed().empty()) _boundsMin = _boundsMax = vec3(0.0f);
+    _splats.end();
+    _splats.moveTo(places, camera.timeCode(0.5f));
+    if (_draws.empty() && _volumes.placed().empty()) {
+        _boundsMin = _splats.empty() ? vec3(0.0f) : _splats.boundsMin();
+        _boundsMax = _splats.empty() ? vec3(0.0f) : _splats.boundsMax();
+    }
     _linkBuffer = GlBuffer(_links);
     if (_values.empty()) _values.emplace_back(0.0f);
     _valueBuffer = GlBuffer(_values);
@@ -197,6 +208,7 @@ bool RasterScene::moveTo(float timeCode) {
         }
     }
     upload();
+    _splats.moveTo(places, timeCode);
     return true;
 }
 

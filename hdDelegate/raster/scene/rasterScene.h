@@ -9,6 +9,7 @@
 #include "hdDelegate/raster/scene/rasterInstances.h"
 #include "hdDelegate/raster/scene/rasterMaterials.h"
 #include "hdDelegate/raster/scene/rasterShapeCache.h"
+#include "hdDelegate/raster/scene/rasterSplats.h"
 #include "hdDelegate/raster/scene/rasterVolumes.h"
 #include "hdDelegate/raster/scene/rasterCulling.h"
 
@@ -67,7 +68,7 @@ public:
     explicit RasterScene(CompiledScene& compiled, ProgramCompiler* compiler = nullptr)
         : _compiled(compiled), _diagnostics(compiled.scene()->diagnostics()),
           _materials(compiled, compiler), _shapes(compiled.shapes()),
-          _volumes(compiled.volumes(), _diagnostics) {}
+          _volumes(compiled.volumes(), _diagnostics), _splats(compiled.splats(), _diagnostics) {}
 
     using Compiling = std::function<void(const RasterMaterials::Ready&)>;
 
@@ -96,13 +97,17 @@ public:
 
     const std::vector<RasterDraw>& draws() const { return _draws; }
     const std::vector<const RasterVolume*>& volumes() const { return _volumes.placed(); }
+    const RasterSplats& splats() const { return _splats; }
     const RasterEmitters& emitters() const { return _emitters; }
     /// @param clampsNear what is before the near plane shows, too
     RasterVisible visible(const mat4& worldToClip, bool clampsNear = false) const;
     const CompiledState& parts() const { return _parts; }
     const vec3& origin() const { return _origin; }
-    const vec3& boundsMin() const { return _boundsMin; }
+    const vec3& boundsMin() const { return _boundsMin; } ///< of what casts shadows, and volumes
     const vec3& boundsMax() const { return _boundsMax; }
+    /// Of all that a camera may see.
+    vec3 seenMin() const { return glm::min(_boundsMin, _splats.boundsMin()); }
+    vec3 seenMax() const { return glm::max(_boundsMax, _splats.boundsMax()); }
     size_t triangles() const { return _triangles; }
     size_t bytes() const { return _shapes.bytes(); }              ///< of shapes in buffers
     size_t shapesBuilt() const { return _shapes.built(); }        ///< since this was made
@@ -184,6 +189,7 @@ private:
     std::vector<RasterDraw> _draws;
     RasterShapeCache _shapes;
     RasterVolumes _volumes;
+    RasterSplats _splats;
     std::vector<RasterGroup> _groups;
     RasterEmitters _emitters;
     std::map<std::string, Span> _spans; ///< by path

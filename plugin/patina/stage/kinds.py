@@ -9,10 +9,9 @@ GPRIMS = {
     "Cone": "cone", "Cylinder": "cylinder", "Cylinder_1": "cylinder", "Capsule": "capsule",
     "Capsule_1": "capsule", "Plane": "plane",
     "Volume": "volume", "NurbsPatch": "nurbsPatch", "TetMesh": "tetMesh",
-    "NurbsCurves": "nurbsCurves", "HermiteCurves": "hermiteCurves", "ParticleField3DGaussianSplat": "splats",
-    "Skeleton": "skeleton",
+    "NurbsCurves": "nurbsCurves", "HermiteCurves": "hermiteCurves", "ParticleField": "splats", "Skeleton": "skeleton",
 }
-UNSUPPORTED = {"PortalLight", "PluginLight", "ParticleField"}
+UNSUPPORTED = {"PortalLight", "PluginLight"}
 OTHER = {"Camera": "camera", "PointInstancer": "instancer", "SkelRoot": "skelRoot"}
 
 

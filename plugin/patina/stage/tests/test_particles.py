@@ -78,6 +78,24 @@ def test_colour_spaces(read):
     assert read(SPLATS % own).prim("/s")["colorSpace"] == '"lin_ap1_scene"'
 
 
-def test_other_kernels_are_told(read):
-    stage = read('def ParticleField "s" ( prepend apiSchemas = ["ParticleFieldKernelGaussianSurfletAPI"] ) { }')
-    assert any(w.startswith("/s") for w in stage.warnings), stage.warnings
+
+@pytest.mark.parametrize("api, shape", [("GaussianEllipsoid", None), ("GaussianSurflet", "gaussianSurflet"),
+                                        ("ConstantSurflet", "constantSurflet")])
+def test_kernels_of_a_field(read, numbers, api, shape):
+    """Scales of flat kernels have no meaning across their plane."""
+    s = read("""def ParticleField "s" (prepend apiSchemas = ["ParticleFieldKernel%sAPI", "ParticleFieldScaleAttributeAPI",
+        "ParticleFieldPositionAttributeAPI"]) {
+    point3f[] positions = [(0, 1, 2)]
+    float3[] scales = [(1, 2, 0)]
+}""" % api)
+    assert s.prim("/s").get("shape") == shape
+    assert numbers(s.prim("/s")["scales"])[:2] == [1, 2]
+    assert any("sizes that are zero" in w for w in s.warnings) == (shape is None)
+
+
+def test_a_field_without_a_kernel_is_told(read):
+    stage = read("""def ParticleField "s" (prepend apiSchemas = ["ParticleFieldPositionAttributeAPI"]) {
+    point3f[] positions = [(0, 1, 2)]
+}""")
+    assert not stage.has("/s")
+    assert any(w.startswith("/s") and "without a kernel" in w for w in stage.warnings), stage.warnings

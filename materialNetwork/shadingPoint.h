@@ -27,6 +27,13 @@ std::string tangentPrimvar(const std::string& set);
 /// The uv set of a tangentPrimvar(); empty for the names of other primvars.
 std::string setOfTangents(const std::string& primvar);
 
+/// The primvars of a coordinate system that is bound to a prim by that name: four rows of the
+/// matrix into it, for row vectors. The last one's fourth number says from where: 0 the world, 1
+/// the object. Their names are none that USD has.
+std::string spacePrimvar(const std::string& space, int row);
+/// The coordinate system of such a primvar; empty for the names of other primvars.
+std::string spaceOfPrimvar(const std::string& primvar);
+
 /// Where a material is evaluated. World space, unit vectors.
 struct ShadingPoint {
     glm::vec3 position{0.0f};

@@ -25,4 +25,13 @@ CompiledMaterials::program(const std::shared_ptr<const MaterialPrim>& prim,
     });
 }
 
+void CompiledMaterials::tellOfSpaces(const MaterialProgram& program, const Geometry& prim) const {
+    for (const MaterialPrimvar& primvar : program.primvars()) {
+        const std::string space = spaceOfPrimvar(primvar.name);
+        const bool isFirst = !space.empty() && primvar.name == spacePrimvar(space, 0);
+        if (isFirst && !prim.primvar(primvar.name))
+            _diagnostics.warn(prim.path, "coordSys:" + space, messages::coordSysNotBound());
+    }
+}
+
 } // namespace patina

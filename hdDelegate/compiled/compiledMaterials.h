@@ -29,6 +29,9 @@ public:
     /// @param methods, tolerance as compileMaterial() takes them
     std::shared_ptr<const MaterialProgram> program(const std::shared_ptr<const MaterialPrim>& prim,
                                                    const MethodChoices& methods, double tolerance);
+    /// Warns of the coordinate systems that a material names and its prim has not.
+    void tellOfSpaces(const MaterialProgram& program, const Geometry& prim) const;
+
     /// The space of colours, for programs that are asked for from now on.
     void setRenderingSpace(const RenderingSpace& space) { _renderingSpace = &space; }
 

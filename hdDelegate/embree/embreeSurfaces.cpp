@@ -196,6 +196,7 @@ MaterialSlot EmbreeScene::makeSlot(const Surface& surface, const std::string& ma
     slot.program = program(materialPath, surface.prim->path, view);
     const bool flat = surface.shape == Surface::Shape::Triangles;
     if (flat) slot.tangentSet = surface.findTangentSet(slot.program->tangentSet());
+    _compiled.materials().tellOfSpaces(*slot.program, *surface.prim);
     const std::vector<MaterialPrimvar>& primvars = slot.program->primvars();
     for (size_t i = 0; i < primvars.size(); ++i) {
         slot.attributes.push_back(surface.findAttribute(primvars[i].name));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/gprim.h"
 
+#include "hdDelegate/hydra/coordSys.h"
 #include "hdDelegate/hydra/instancer.h"
 #include "hdDelegate/hydra/instances.h"
 #include "hdDelegate/hydra/sampling.h"
@@ -27,6 +28,8 @@ void readGprim(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfP
         prim.transform = transformOf(delegate, param, id);
     if (all || (dirtyBits & HdChangeTracker::DirtyCategories))
         prim.categories = categoriesOf(delegate, id);
+    if (all || (dirtyBits & (HdChangeTracker::DirtyCategories | HdChangeTracker::DirtyPrimvar)))
+        readCoordSystems(delegate, param, id, prim);
     if (all || HdChangeTracker::IsDoubleSidedDirty(dirtyBits, id))
         prim.doubleSided = delegate.GetDoubleSided(id);
     if (all || (dirtyBits & HdChangeTracker::DirtyRenderTag))

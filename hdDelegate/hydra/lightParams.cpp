@@ -3,6 +3,7 @@
 
 #include "hdDelegate/hydra/lightFilter.h"
 #include "hdDelegate/hydra/lightPortals.h"
+#include "hdDelegate/hydra/networkConversion.h"
 #include "hdDelegate/hydra/values.h"
 
 #include "materialNetwork/color/colorSpaces.h"
@@ -119,8 +120,8 @@ void convertColors(const HdMaterialNode* node, HdPatinaRenderParam& param, const
 #include "hdDelegate/scene/lightTypes.inc"
 }
 
-/// Lights are nodes of networks, which tell the colour spaces of their inputs. Other nodes are not
-/// evaluated.
+/// Lights are nodes of networks, which tell the colour spaces of their inputs, and what these are
+/// connected to.
 void readNetwork(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
                  Light& light) {
     const VtValue resource = delegate.GetMaterialResource(id);
@@ -140,10 +141,11 @@ void readNetwork(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const Sd
     convertColors(&node, param, id, light);
     if (node.identifier.GetString().compare(0, 3, "ND_") == 0)
         param.warn(id, "light:shaderId", messages::lightShaderIgnored(node.identifier.GetString()));
-    for (const HdMaterialRelationship& relation : network.relationships)
-        if (relation.outputId == node.path)
-            param.warn(id, "inputs:" + relation.outputName.GetString(),
-                       messages::lightInputConnected(relation.inputId.GetString()));
+    if (!network.relationships.empty()) {
+        light.network = networkOf(resource, id, param);
+        const NetworkNode* self = light.network.find(light.network.terminals["light"].node);
+        light.network.terminals = self ? self->connections : std::map<std::string, Connection>();
+    }
 }
 
 /// Hosts differ in the name by which they give what is no input of UsdLux.

@@ -6,6 +6,7 @@
 #include "hdDelegate/hydra/sourceForms.h"
 #include "hdDelegate/hydra/values.h"
 #include "materialNetwork/color/colorSpaces.h"
+#include "materialNetwork/shadingPoint.h"
 
 #include <pxr/base/tf/stringUtils.h>
 #include <pxr/imaging/hd/changeTracker.h>
@@ -34,17 +35,6 @@ Interpolation interpolationOf(HdInterpolation interpolation) {
 constexpr HdInterpolation interpolations[] = {HdInterpolationConstant, HdInterpolationUniform,
                                               HdInterpolationVarying, HdInterpolationVertex,
                                               HdInterpolationFaceVarying};
-
-void replace(Geometry& prim, Primvar primvar) {
-    auto& list = prim.primvars;
-    const auto place =
-        std::lower_bound(list.begin(), list.end(), primvar,
-                         [](const Primvar& a, const Primvar& b) { return a.name < b.name; });
-    if (place != list.end() && place->name == primvar.name)
-        *place = std::move(primvar);
-    else
-        list.insert(place, std::move(primvar));
-}
 
 void erase(Geometry& prim, const std::string& name) {
     auto& list = prim.primvars;
@@ -90,7 +80,7 @@ void setPrimvar(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const Sdf
             param.warn(id, "primvars:" + primvar.name + ":indices", messages::firstValueUsed);
             index = 0;
         }
-    replace(prim, std::move(primvar));
+    replacePrimvar(prim, std::move(primvar));
 }
 
 template <unsigned int CAPACITY>
@@ -147,6 +137,17 @@ bool isText(const VtValue& value) {
 
 } // namespace
 
+void replacePrimvar(Geometry& prim, Primvar primvar) {
+    auto& list = prim.primvars;
+    const auto place =
+        std::lower_bound(list.begin(), list.end(), primvar,
+                         [](const Primvar& a, const Primvar& b) { return a.name < b.name; });
+    if (place != list.end() && place->name == primvar.name)
+        *place = std::move(primvar);
+    else
+        list.insert(place, std::move(primvar));
+}
+
 bool isSplatPrimvar(const std::string& name) {
     return name == "positions" || name == "orientations" || name == "scales" ||
            name == "opacities" || TfStringStartsWith(name, "radiance:");
@@ -164,9 +165,9 @@ void toRenderingSpace(HdSceneDelegate& delegate, HdPatinaRenderParam& param, con
     if (primvar.components != 3 && primvar.components != 4) return;
     const std::string space = colorSpaceOf(delegate, id, descriptor);
     if (space.empty() && descriptor.role != HdPrimvarRoleTokens->color) return;
-    if (!ColorSpaces::shared().valueToRendering(space, param.renderingSpace(), primvar.values.data(),
-                                                primvar.values.size() / size_t(primvar.components),
-                                                primvar.components))
+    if (!ColorSpaces::shared().valueToRendering(
+            space, param.renderingSpace(), primvar.values.data(),
+            primvar.values.size() / size_t(primvar.components), primvar.components))
         param.warn(id, "primvars:" + primvar.name, messages::valuesSpaceUnknown(space));
 }
 
@@ -230,7 +231,10 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
     update.pointsListed = listed.count(HdTokens->points.GetString()) != 0;
     if (!listed.count(lightGroup)) prim.lightGroup.clear();
     prim.primvars.erase(std::remove_if(prim.primvars.begin(), prim.primvars.end(),
-                                       [&](const Primvar& p) { return !listed.count(p.name); }),
+                                       [&](const Primvar& p) {
+                                           return !listed.count(p.name) &&
+                                                  spaceOfPrimvar(p.name).empty();
+                                       }),
                         prim.primvars.end());
     return update;
 }

@@ -17,6 +17,9 @@ struct PrimvarUpdate {
     Sampled<std::vector<vec3>> points;
 };
 
+/// Adds a primvar, sorted by name, in place of the one of that name.
+void replacePrimvar(Geometry& prim, Primvar primvar);
+
 /// Whether particles keep a primvar in arrays of their own, see Splats.
 bool isSplatPrimvar(const std::string& name);
 

@@ -82,8 +82,10 @@ void readColors(HdRenderIndex& index, HdPatinaRenderParam& param) {
 }
 
 void readOthers(HdRenderIndex& index, HdPatinaRenderParam& param, const SdfPath& reader) {
-    forRprim(index, reader, [&](HdPatinaLinkedPrim& volume, HdSceneDelegate& delegate) {
-        volume.updateBits(delegate, param, HdChangeTracker::DirtyVolumeField);
+    // Of a coordinate system, which is read with categories, or of a field.
+    forRprim(index, reader, [&](HdPatinaLinkedPrim& prim, HdSceneDelegate& delegate) {
+        prim.updateBits(delegate, param,
+                        HdChangeTracker::DirtyCategories | HdChangeTracker::DirtyVolumeField);
     });
     for (const LightRow& row : lightRows)
         if (HdSprim* light = index.GetSprim(TfToken(row.hydra), reader))

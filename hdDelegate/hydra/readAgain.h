@@ -9,7 +9,8 @@ namespace patina {
 
 /// Reads once what syncs have found out to be stale, but hosts do not mark dirty: the links of
 /// prims after those of a light have changed, what was sampled before a camera opened a longer
-/// shutter, lights whose filters and volumes whose fields changed. However many lights or cameras
+/// shutter, lights whose filters, volumes whose fields and prims whose coordinate
+/// systems changed. However many lights or cameras
 /// changed, each prim is asked once. Host's thread, while nothing syncs.
 void readAgain(HdRenderIndex& index, HdPatinaRenderParam& param);
 

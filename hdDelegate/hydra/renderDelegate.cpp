@@ -5,6 +5,7 @@
 #include "hdDelegate/hydra/basisCurves.h"
 #include "hdDelegate/hydra/camera.h"
 #include "hdDelegate/hydra/commands.h"
+#include "hdDelegate/hydra/coordSys.h"
 #include "hdDelegate/hydra/implicit.h"
 #include "hdDelegate/hydra/instancer.h"
 #include "hdDelegate/hydra/light.h"
@@ -21,7 +22,6 @@
 #include "hdDelegate/hydra/volume.h"
 
 #include <pxr/base/tf/diagnostic.h>
-#include <pxr/imaging/hd/coordSys.h>
 #include <pxr/imaging/hd/extComputation.h>
 #include <pxr/imaging/hd/sceneIndex.h>
 #include <pxr/imaging/hd/tokens.h>
@@ -204,7 +204,7 @@ void HdPatinaRenderDelegate::DestroyRprim(HdRprim* prim) {
 HdSprim* HdPatinaRenderDelegate::CreateSprim(const TfToken& type, const SdfPath& id) {
     if (type == HdPrimTypeTokens->camera) return new HdPatinaCamera(id);
     if (type == HdPrimTypeTokens->material) return new HdPatinaMaterial(id);
-    if (type == HdPrimTypeTokens->coordSys) return new HdCoordSys(id);
+    if (type == HdPrimTypeTokens->coordSys) return new HdPatinaCoordSys(id);
     if (type == HdPrimTypeTokens->extComputation) return new HdExtComputation(id);
     if (type == HdPrimTypeTokens->lightFilter) return new HdPatinaLightFilter(id);
     if (contains(lightTypes(), type)) return new HdPatinaLight(type, id);

@@ -1,11 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/volume.h"
 
+#include "hdDelegate/hydra/lightParams.h"
 #include "hdDelegate/hydra/values.h"
+#include "hdDelegate/scene/lightUnits.h"
+
+#include <pxr/imaging/hd/light.h>
+#include <pxr/imaging/hd/tokens.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace patina {
+
+namespace {
+
+/// A volume that is a light gives others more or less of its glow than is seen of it.
+void readGlow(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
+              Volume& volume) {
+    volume.light = vec3(1.0f);
+    if (!delegate.GetLightParamValue(id, HdTokens->isLight).GetWithDefault(false)) return;
+    Light light;
+    readLightParams(delegate, param, id, HdPrimTypeTokens->meshLight, light);
+    const vec3 glow = lightBaseRadiance(light);
+    const bool usable =
+        std::isfinite(glow.x + glow.y + glow.z) && std::min({glow.x, glow.y, glow.z}) >= 0.0f;
+    if (usable && light.materialSyncMode == Light().materialSyncMode)
+        volume.light = glow;
+    else
+        param.warn(id, "light:materialSyncMode", messages::volumeLightIgnored());
+}
+
+} // namespace
 
 const TfTokenVector& fieldTypes() {
     // UsdVolImaging's name for them; linking that library for a word would tie the plugin to it.
@@ -22,6 +48,7 @@ void HdPatinaVolume::syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& p
                                HdDirtyBits dirtyBits, bool all, const TfToken&, Volume& volume) {
     if (!all && !(dirtyBits & (HdChangeTracker::DirtyVolumeField | HdChangeTracker::DirtyTopology)))
         return;
+    readGlow(delegate, param, GetId(), volume);
     volume.fields.clear();
     for (const HdVolumeFieldDescriptor& field : delegate.GetVolumeFieldDescriptors(GetId())) {
         const std::string input = "field:" + field.fieldName.GetString();

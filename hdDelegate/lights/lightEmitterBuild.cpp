@@ -19,9 +19,8 @@ void readFiles(const Light& light, LightFiles& files, LightImages& images,
     if (files.read) return;
     files.read = true;
     files.profile = lightProfile(light, diagnostics);
-    if (light.type != LightType::Rect || light.textureFile.empty()) return;
-    files.texture =
-        images.image(light.textureFile, light.textureColorSpace, light.path, "inputs:texture:file");
+    if (light.type != LightType::Rect || !light.hasImage()) return;
+    files.texture = images.image(light);
     glm::dvec3 sum(0.0);
     for (const vec3& pixel : files.texture->pixels)
         sum += glm::dvec3(pixel);
@@ -81,13 +80,11 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
 }
 
 bool LightEmitter::setUpDome(LightImages& images) {
-    if (_light.textureFile.empty()) {
+    if (!_light.hasImage()) {
         _irradiance = pi * _resolved.power();
         return true;
     }
-    _environment = images.environment(_light.textureFile, _light.textureColorSpace,
-                                      environmentFormat(_light.textureFormat), _light.path,
-                                      "inputs:texture:file");
+    _environment = images.environment(_light);
     _irradiance = pi * luminance(glm::abs(_resolved.radiance) * _environment->mean());
     return !_environment->black();
 }

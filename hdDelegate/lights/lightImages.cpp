@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/lights/lightImages.h"
 
+#include "hdDelegate/lights/networkImage.h"
+#include "materialNetwork/plan/dump.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,17 +14,41 @@ LightImages::LightImages(Diagnostics& diagnostics)
                                    const std::string& prim, const std::string& input) {
           return loadImageLinear({file, colorSpace, prim, input, false, _renderingSpace},
                                  diagnostics);
-      }) {}
+      }),
+      _diagnostics(&diagnostics) {}
 
-std::shared_ptr<const ImageRGB> LightImages::image(const std::string& file,
-                                                   const std::string& colorSpace,
-                                                   const std::string& prim,
-                                                   const std::string& input) {
+LightImages::Image LightImages::image(const std::string& file, const std::string& colorSpace,
+                                      const std::string& prim, const std::string& input) {
     const std::string key = _renderingSpace.load()->name + '\n' + colorSpace + '\n' + file;
+    return kept(key, [&] { return _loader(file, colorSpace, prim, input); });
+}
+
+LightImages::Image LightImages::image(const Light& light) {
+    const Image file = light.textureFile.empty() ? nullptr
+                                                 : image(light.textureFile, light.textureColorSpace,
+                                                         light.path, "inputs:texture:file");
+    if (light.network.empty() || (file && !file->valid)) return file;
+    return kept(keyOf(light), [&] {
+        Diagnostics untold;
+        return networkImage(light, file.get(), *_renderingSpace.load(),
+                            _diagnostics ? *_diagnostics : untold);
+    });
+}
+
+std::string LightImages::keyOf(const Light& light) const {
+    std::string key = light.textureColorSpace + '\n' + light.textureFile;
+    if (!light.network.empty())
+        key += '\n' + std::to_string(int(light.type)) + ' ' + std::to_string(light.width) + ' ' +
+               std::to_string(light.height) + '\n' + dumpNetwork(light.network);
+    return _renderingSpace.load()->name + '\n' + key;
+}
+
+LightImages::Image LightImages::kept(const std::string& key,
+                                     const std::function<ImageRGB()>& make) {
     std::lock_guard<std::mutex> lock(_mutex);
-    std::shared_ptr<const ImageRGB>& entry = _images[key];
+    Image& entry = _images[key];
     if (entry) return entry;
-    auto image = std::make_shared<ImageRGB>(_loader(file, colorSpace, prim, input));
+    auto image = std::make_shared<ImageRGB>(make());
     const bool usable = image->width > 0 && image->height > 0 &&
                         image->pixels.size() >= size_t(image->width) * size_t(image->height);
     if (!usable) {
@@ -44,19 +71,19 @@ std::shared_ptr<const ImageRGB> LightImages::image(const std::string& file,
     return entry;
 }
 
-std::shared_ptr<const EnvironmentMap> LightImages::environment(const std::string& file,
-                                                               const std::string& colorSpace,
-                                                               EnvironmentFormat format,
-                                                               const std::string& prim,
-                                                               const std::string& input) {
-    const std::string key = std::to_string(int(format)) + '\n' + _renderingSpace.load()->name + '\n' + colorSpace + '\n' + file;
+std::shared_ptr<const EnvironmentMap> LightImages::environment(const Light& dome) {
+    // What a network paints alone is a latlong map.
+    const EnvironmentFormat format = dome.textureFile.empty()
+                                         ? EnvironmentFormat::Latlong
+                                         : environmentFormat(dome.textureFormat);
+    const std::string key = std::to_string(int(format)) + '\n' + keyOf(dome);
     const std::lock_guard<std::mutex> building(_building);
     {
         std::lock_guard<std::mutex> lock(_mutex);
         const auto found = _environments.find(key);
         if (found != _environments.end()) return found->second;
     }
-    const std::shared_ptr<const ImageRGB> source = image(file, colorSpace, prim, input);
+    const Image source = image(dome);
     auto map = std::make_shared<const EnvironmentMap>(source, format);
     if (source->valid) {
         std::lock_guard<std::mutex> lock(_mutex);

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/image/imageTextureLoad.h"
 #include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/scene/light.h"
 
 #include <atomic>
 #include <functional>
@@ -27,10 +28,10 @@ public:
     /// @returns never null; one magenta pixel where the file cannot be read
     std::shared_ptr<const ImageRGB> image(const std::string& file, const std::string& colorSpace,
                                           const std::string& prim, const std::string& input);
-    /// An environment; `format` as of UsdLux's texture:format.
-    std::shared_ptr<const EnvironmentMap>
-    environment(const std::string& file, const std::string& colorSpace, EnvironmentFormat format,
-                const std::string& prim, const std::string& input);
+    /// That of a light which has one: its texture, and what its network paints.
+    std::shared_ptr<const ImageRGB> image(const Light& light);
+    /// The same around a dome.
+    std::shared_ptr<const EnvironmentMap> environment(const Light& dome);
 
     /// The space of colours, for what is asked for from now on.
     void setRenderingSpace(const RenderingSpace& space) { _renderingSpace = &space; }
@@ -39,11 +40,17 @@ public:
     void forgetUnused();
 
 private:
+    using Image = std::shared_ptr<const ImageRGB>;
+    /// @param make asked where there is none of that key
+    Image kept(const std::string& key, const std::function<ImageRGB()>& make);
+    std::string keyOf(const Light& light) const;
+
     Loader _loader;
+    Diagnostics* _diagnostics = nullptr; ///< of networks; null: nobody reads them
     std::atomic<const RenderingSpace*> _renderingSpace{&RenderingSpace::rec709()};
     std::mutex _mutex;
     std::mutex _building; ///< of environments: who waits for one shares it
-    std::map<std::string, std::shared_ptr<const ImageRGB>> _images;
+    std::map<std::string, Image> _images;
     std::map<std::string, std::shared_ptr<const EnvironmentMap>> _environments;
 };
 

@@ -199,6 +199,7 @@ struct VolumeField {
 /// primvars. A material that reads none of them is scaled by the field `density`.
 struct Volume : Geometry {
     std::vector<VolumeField> fields;
+    vec3 light{1.0f}; ///< VolumeLightAPI: what its glow gives to others, over what is seen of it
 
     Volume() { kind = GeometryKind::Volume; }
 };

@@ -4,6 +4,7 @@
 #include "hdDelegate/scene/lightFilter.h"
 #include "hdDelegate/scene/lightPortal.h"
 #include "hdDelegate/scene/types.h"
+#include "materialNetwork/network/network.h"
 
 namespace patina {
 
@@ -46,6 +47,14 @@ struct Light {
 #include "hdDelegate/scene/lightTypes.inc"
 
     std::string textureColorSpace; ///< empty or "auto": by file type
+
+    /// Nodes that inputs are connected to, each a terminal of the input's name. A scene keeps of it
+    /// the colour that varies over a dome or a rect (lightNetwork.h).
+    Network network;
+    /// Its radiance is not the same everywhere: the texture, or what the network paints.
+    bool hasImage() const {
+        return !textureFile.empty() || !network.empty();
+    }
 
     /// The ShapingAPI is applied: an unauthored one shapes nothing.
     bool shapingConeAuthored = false;

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/scene/cameraCheck.h"
 #include "hdDelegate/scene/instancerCheck.h"
+#include "hdDelegate/scene/lightNetwork.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/sceneLimits.h"
 
@@ -75,9 +76,10 @@ std::optional<SceneDelta> Scene::changes(uint64_t from, uint64_t to) const {
 
 SceneEdit::SceneEdit(SceneEdit&& other) noexcept
     : _scene(std::exchange(other._scene, nullptr)), _clear(other._clear),
-      _metersPerUnit(other._metersPerUnit), _renderingSpace(other._renderingSpace), _geometry(std::move(other._geometry)),
-      _instancers(std::move(other._instancers)), _lights(std::move(other._lights)),
-      _cameras(std::move(other._cameras)), _materials(std::move(other._materials)) {}
+      _metersPerUnit(other._metersPerUnit), _renderingSpace(other._renderingSpace),
+      _geometry(std::move(other._geometry)), _instancers(std::move(other._instancers)),
+      _lights(std::move(other._lights)), _cameras(std::move(other._cameras)),
+      _materials(std::move(other._materials)) {}
 
 template <class F> void SceneEdit::forMaps(PrimKind kind, const F& f) {
     const auto wanted = [kind](PrimKind own) { return kind == PrimKind::Any || kind == own; };
@@ -110,6 +112,7 @@ void SceneEdit::set(std::shared_ptr<const Light> prim) {
     if (!prim || !stands(*prim, PrimKind::Light, messages::lightTransformUnusable)) return;
     const RenderingSpace& space =
         _renderingSpace ? *_renderingSpace : *_scene->snapshot()->renderingSpace;
+    if (!prim->network.empty()) prim = withNetworkValues(*prim, space, _scene->diagnostics());
     if (!space.isRec709()) prim = withRenderedColors(*prim, space);
     _lights[prim->path] = std::move(prim);
 }

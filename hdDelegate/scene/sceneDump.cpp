@@ -220,6 +220,10 @@ void writeImplicit(Writer& w, const Implicit& i) {
     w.field("length", i.length, d.length);
 }
 
+void writeVector(Writer& w, const char* name, const vec3& v, const vec3& fallback) {
+    if (v != fallback) w.array(name, &v.x, 3);
+}
+
 void writeGeometry(Writer& w, const Geometry& g) {
     static const char* const kinds[] = {"Mesh", "Curves", "Points", "Implicit", "Volume", "Splats"};
     w.prim(kinds[int(g.kind)], g.path);
@@ -240,9 +244,11 @@ void writeGeometry(Writer& w, const Geometry& g) {
         w.line("basis", basisNames[int(curves->basis)]);
         if (curves->wrap != CurveWrap::Nonperiodic) w.line("wrap", wrapNames[int(curves->wrap)]);
     }
-    if (const auto* volume = dynamic_cast<const Volume*>(&g))
+    if (const auto* volume = dynamic_cast<const Volume*>(&g)) {
+        writeVector(w, "light", volume->light, vec3(1.0f));
         for (const VolumeField& f : volume->fields)
             w.line("field " + f.name, text(f.file) + " " + text(f.field));
+    }
     if (const auto* splats = dynamic_cast<const Splats*>(&g)) writeSplats(w, *splats);
     for (const GeomSubset& s : g.subsets)
         w.array("subset " + s.path + " material " + text(s.material), s.faces);
@@ -264,10 +270,6 @@ void writeInstancer(Writer& w, const Instancer& i) {
     for (size_t k = 0; k < i.categories.size() && k < 64; ++k)
         w.names("categories " + std::to_string(k), i.categories[k]);
     writePrimvars(w, i.primvars);
-}
-
-void writeVector(Writer& w, const char* name, const vec3& v, const vec3& fallback) {
-    if (v != fallback) w.array(name, &v.x, 3);
 }
 
 void writeInput(Writer& w, const std::string& name, float v, float d) {
@@ -301,6 +303,24 @@ void writeFilter(Writer& w, const LightFilter& f) {
 #include "hdDelegate/scene/lightFilterInputs.inc"
 }
 
+void writeNetwork(Writer& w, const Network& network) {
+    for (const auto& [name, c] : network.terminals)
+        w.line("terminal " + name, c.node + (c.output.empty() ? "" : "." + c.output));
+    for (const NetworkNode& node : network.nodes) {
+        w.line("node " + node.path, node.id);
+        for (const auto& [name, value] : node.inputs) {
+            const std::string label = "  " + std::string(valueTypeName(value.type)) + " " + name;
+            if (valueTypeComponents(value.type) == 0)
+                w.line(label, text(value.text));
+            else
+                w.array(label, value.numbers);
+            if (!value.colorSpace.empty()) w.line("  colorSpace " + name, value.colorSpace);
+        }
+        for (const auto& [name, c] : node.connections)
+            w.line("  connect " + name, c.node + (c.output.empty() ? "" : "." + c.output));
+    }
+}
+
 void writeLight(Writer& w, const Light& l) {
     const Light d;
     w.prim("Light", l.path);
@@ -313,6 +333,7 @@ void writeLight(Writer& w, const Light& l) {
     writeInput(w, #field_, l.field_, d.field_);
 #include "hdDelegate/scene/lightTypes.inc"
     w.field("textureColorSpace", l.textureColorSpace, d.textureColorSpace);
+    if (!l.network.empty()) writeNetwork(w, l.network);
     w.field("shapingConeAuthored", l.shapingConeAuthored, d.shapingConeAuthored);
     w.field("lightLink", l.lightLink, d.lightLink);
     w.field("shadowLink", l.shadowLink, d.shadowLink);
@@ -360,25 +381,6 @@ void writeCamera(Writer& w, const Camera& c) {
     w.field("distortionK2", l.distortionK2, n.distortionK2);
 }
 
-void writeMaterial(Writer& w, const MaterialPrim& m) {
-    w.prim("Material", m.path);
-    for (const auto& [name, c] : m.network.terminals)
-        w.line("terminal " + name, c.node + (c.output.empty() ? "" : "." + c.output));
-    for (const NetworkNode& node : m.network.nodes) {
-        w.line("node " + node.path, node.id);
-        for (const auto& [name, value] : node.inputs) {
-            const std::string label = "  " + std::string(valueTypeName(value.type)) + " " + name;
-            if (valueTypeComponents(value.type) == 0)
-                w.line(label, text(value.text));
-            else
-                w.array(label, value.numbers);
-            if (!value.colorSpace.empty()) w.line("  colorSpace " + name, value.colorSpace);
-        }
-        for (const auto& [name, c] : node.connections)
-            w.line("  connect " + name, c.node + (c.output.empty() ? "" : "." + c.output));
-    }
-}
-
 } // namespace
 
 std::string dumpScene(const SceneState& scene, int maxValues) {
@@ -395,7 +397,7 @@ std::string dumpScene(const SceneState& scene, int maxValues) {
     for (const auto& item : scene.lights)
         writeLight(w, *item.second);
     for (const auto& item : scene.materials)
-        writeMaterial(w, *item.second);
+        w.prim("Material", item.second->path), writeNetwork(w, item.second->network);
     return w.str();
 }
 

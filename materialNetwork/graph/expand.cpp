@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/graph/expand.h"
 
+#include "materialNetwork/graph/namedSpaces.h"
 #include "materialNetwork/compileCounts.h"
 #include "materialNetwork/network/geomprop.h"
 #include "materialNetwork/graph/graph.h"
@@ -286,7 +287,9 @@ std::optional<Network> withoutLongTexts(const Network& network, Diagnostics& dia
 Network expand(const Network& network, const ModelLookup& models, Diagnostics& diagnostics) {
     ++compileCounts().expansions;
     const auto within = withoutLongTexts(network, diagnostics);
-    return Expander(within ? *within : network, models, diagnostics).run();
+    Network result = Expander(within ? *within : network, models, diagnostics).run();
+    resolveNamedSpaces(result);
+    return result;
 }
 
 Network expand(const Network& network, Diagnostics& diagnostics) {

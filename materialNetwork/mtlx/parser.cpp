@@ -193,7 +193,6 @@ void MtlxParser::readMaterials(const Element& root, MtlxDocument& out) {
         const std::string type = child.attribute("type").value();
         const std::string name = child.attribute("name").value();
         if (!isNode(child)) continue;
-        if (type == "lightshader") _diagnostics.warn(where(child), "", messages::documentLights);
         if (type == "material" && std::strcmp(child.name(), "surfacematerial") != 0 &&
             std::strcmp(child.name(), "volumematerial") != 0)
             addMaterial(name).terminals["surface"] = {"/" + name, ""};
@@ -211,12 +210,16 @@ void MtlxParser::readMaterials(const Element& root, MtlxDocument& out) {
         if (node.connections.count("backsurfaceshader"))
             material.terminals["surface"] = {node.path, ""};
     }
-    if (out.materials.empty())
-        for (const Element& child : root.children())
-            if (!std::strcmp(child.attribute("type").value(), "surfaceshader") && isNode(child)) {
-                const std::string name = child.attribute("name").value();
-                addMaterial(name).terminals["surface"] = {"/" + name, ""};
-            }
+    const bool shadersAlone = out.materials.empty();
+    for (const Element& child : root.children()) {
+        const std::string type = child.attribute("type").value();
+        const std::string name = child.attribute("name").value();
+        if (!isNode(child) || (type != "surfaceshader" && type != "lightshader")) continue;
+        if (shadersAlone)
+            addMaterial(name).terminals["surface"] = {"/" + name, ""};
+        else if (type == "lightshader")
+            _diagnostics.warn(where(child), "", messages::documentLights);
+    }
     if (const size_t leftOut = giveNodes(nodes, out.materials))
         _diagnostics.warn(_path, "",
                           messages::documentNodesTooMany(limitText(Limit::nodes), leftOut));

@@ -77,4 +77,18 @@ std::string setOfTangents(const std::string& primvar) {
                : std::string();
 }
 
+namespace {
+const std::string matrixOf = "<space";
+} // namespace
+
+std::string spacePrimvar(const std::string& space, int row) {
+    return matrixOf + std::to_string(row) + ">" + space;
+}
+
+std::string spaceOfPrimvar(const std::string& primvar) {
+    const size_t name =
+        primvar.compare(0, matrixOf.size(), matrixOf) == 0 ? primvar.find('>') : std::string::npos;
+    return name == std::string::npos ? std::string() : primvar.substr(name + 1);
+}
+
 } // namespace patina

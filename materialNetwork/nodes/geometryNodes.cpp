@@ -10,10 +10,7 @@ namespace patina {
 namespace {
 
 void prepareSpace(PatternSetup& setup, PatternData& data) {
-    const std::string space = setup.text("space");
-    data.mode = space == "world" ? sh::SPACE_WORLD : sh::SPACE_OBJECT;
-    if (space != "world" && space != "object" && space != "model")
-        setup.warn("space", messages::objectSpaceUsed(space));
+    data.mode = setup.text("space") == "world" ? sh::SPACE_WORLD : sh::SPACE_OBJECT;
 }
 
 void prepareTexcoord(PatternSetup& setup, PatternData& data) {

@@ -12,8 +12,6 @@ namespace {
 void prepareSpaces(PatternSetup& setup, PatternData& data) {
     const auto world = [&](const char* input) {
         const std::string space = setup.text(input);
-        if (space != "world" && space != "object" && space != "model" && !space.empty())
-            setup.warn(input, messages::worldSpaceUsed(space));
         return space != "object" && space != "model";
     };
     const bool from = world("fromspace"), to = world("tospace");

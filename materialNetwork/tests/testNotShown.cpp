@@ -22,7 +22,8 @@ TEST(NotShown, LightsOfDocumentsAreTold) {
     EXPECT_EQ(readMtlx(path, diagnostics).size(), 1u);
     std::remove(path.c_str());
     EXPECT_EQ(warnings(diagnostics),
-              path + ":/lamp [] lights of documents are not drawn; the node is ignored\n");
+              path + ":/lamp [] light shaders are drawn in documents without materials alone; "
+                     "the node is ignored\n");
 }
 
 TEST(NotShown, AFallbackIsExplainedAsOne) {
@@ -32,7 +33,7 @@ TEST(NotShown, AFallbackIsExplainedAsOne) {
     const std::string sentence = "This material has no usable surface and is not shown.";
     Diagnostics diagnostics, clean;
     FakeTextures textures;
-    for (const char* shader : {"ND_light", "ND_nobody_knows"}) {
+    for (const char* shader : {"ND_point_light", "ND_nobody_knows"}) {
         const std::string text = explained(shader, diagnostics);
         const size_t at = text.find(sentence);
         ASSERT_NE(at, std::string::npos) << shader << "\n" << text;
@@ -46,8 +47,9 @@ TEST(NotShown, AFallbackIsExplainedAsOne) {
                         .fallback);
     }
     EXPECT_NE(warnings(diagnostics)
-                  .find("/m/surface (ND_light) is not drawn: lights come from the stage, not from "
-                        "materials; the terminal is ignored"),
+                  .find("/m/surface (ND_point_light) is not drawn: it is a detail of MaterialX's "
+                        "shader generators and no part of the standard; lights of a stage are "
+                        "prims of UsdLux; the terminal is ignored"),
               std::string::npos)
         << warnings(diagnostics);
     EXPECT_EQ(explained("UsdPreviewSurface", clean).find(sentence), std::string::npos);

@@ -11,6 +11,7 @@
 #include <pxr/imaging/hd/retainedDataSource.h>
 #include <pxr/imaging/hd/sceneIndexPlugin.h>
 #include <pxr/imaging/hd/sceneIndexPluginRegistry.h>
+#include <pxr/imaging/hdsi/coordSysPrimSceneIndex.h>
 #include <pxr/imaging/hdsi/materialPrimvarTransferSceneIndex.h>
 #include <pxr/imaging/hdsi/nurbsApproximatingSceneIndex.h>
 #include <pxr/imaging/hdsi/renderSettingsFilteringSceneIndex.h>
@@ -36,7 +37,8 @@ public:
 protected:
     HdSceneIndexBaseRefPtr _AppendSceneIndex(const HdSceneIndexBaseRefPtr& input,
                                              const HdContainerDataSourceHandle&) override {
-        HdSceneIndexBaseRefPtr scene = input;
+        // Coordinate systems are bound to any prims; delegates know those of a type of their own.
+        HdSceneIndexBaseRefPtr scene = HdsiCoordSysPrimSceneIndex::New(input);
 #if PATINA_HAS_VELOCITY_MOTION
         // Scene indices hand velocities on, and leave to the renderer what they do to points.
         scene = HdsiVelocityMotionResolvingSceneIndex::New(scene);

@@ -96,10 +96,9 @@ class SceneEdit:
         Copies of groups; keywords are Instancer's fields.
         Keywords: group, prototypes, prototype_indices, transforms, ids, categories, primvars, visibility, names, assets, asset_name.
         """
-    def set_light(self, path: str, **kwargs: typing.Any) -> None:
+    def set_light(self, path: str, **kwargs) -> None:
         """
-        A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, type, transform and light_filter_inputs(). portals: of path, transform, width and height.
-        Keywords: group, type, transform, visible, camera_visible, texture_color_space, shaping_cone_authored, light_link, shadow_link, filters, portals, light_group, geometry, material_sync_mode, color, intensity, exposure, diffuse, specular, normalize, enable_color_temperature, color_temperature, angle, radius, width, height, length, treat_as_point, treat_as_line, shaping_focus, shaping_focus_tint, shaping_cone_angle, shaping_cone_softness, ies_angle_scale, ies_normalize, ies_file, shadow_enable, shadow_color, shadow_distance, shadow_falloff, shadow_falloff_gamma, texture_file, texture_format.
+        A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, type, transform and light_filter_inputs(). portals: of path, transform, width and height. network: of what inputs are connected to, a terminal by each input's name.
         """
     def set_material(self, path: str, network: Network) -> None:
         """
@@ -145,8 +144,8 @@ class SceneEdit:
         """
     def set_volume(self, path: str, **kwargs: typing.Any) -> None:
         """
-        A UsdVolVolume; fields are given by their names, files and the grids in the files.
-        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, field_names, field_files, field_grids.
+        A UsdVolVolume; fields are given by their names, files and the grids in the files. light: what its glow gives to others, over what is seen of it, 1 by default.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, field_names, field_files, field_grids, light.
         """
     def warn(self, prim: str, input: str, id: str, *args) -> None:
         """
@@ -569,6 +568,10 @@ def light_path_states(expression: str) -> int:
     """
     States of the smallest automaton of a light path expression.
     """
+def light_radiance(**kwargs) -> typing.Sequence[float]:
+    """
+    intensity 2^exposure color of a light, by the keywords of set_light().
+    """
 def light_types() -> dict[str, typing.Any]:
     """
     UsdLux types, separated by blanks where several are read alike -> word for set_light().
@@ -672,6 +675,10 @@ def set_limits(values: dict[str, int]) -> str:
 def shader_text(path: str) -> str:
     """
     Text of a shader that is compiled in, with its includes; ValueError for others.
+    """
+def space_primvar(space: str, row: int) -> str:
+    """
+    The primvar of a row of the matrix into a coordinate system that is bound to a prim. The fourth number of row 3 says from where: 0 the world, 1 the object.
     """
 def span_ends(samples: int) -> list[int]:
     """

@@ -3,7 +3,9 @@
 
 #include "plugin/python/sceneEdit.h"
 #include "hdDelegate/scene/cameraInputs.h"
+#include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/sceneDump.h"
+#include "materialNetwork/shadingPoint.h"
 #include "plugin/python/fields.h"
 #include "plugin/python/warningList.h"
 
@@ -15,7 +17,7 @@ void bindSceneGeometry(py::class_<PythonEdit>& edit);
 
 namespace {
 
-void setLight(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
+std::shared_ptr<Light> lightOf(const std::string& path, const py::kwargs& values) {
     auto light = std::make_shared<Light>();
     light->path = path;
     Fields("set_light", path, values)
@@ -32,12 +34,17 @@ void setLight(PythonEdit& edit, const std::string& path, const py::kwargs& value
         .read("light_link", light->lightLink)
         .read("shadow_link", light->shadowLink)
         .read("filters", light->filters)
+        .read("network", light->network)
         .read("portals", light->portals)
         .read("light_group", light->lightGroup)
         .read("geometry", light->geometry)
         .read("material_sync_mode", light->materialSyncMode)
         .finish();
-    edit.set(std::shared_ptr<const Light>(std::move(light)));
+    return light;
+}
+
+void setLight(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
+    edit.set(std::shared_ptr<const Light>(lightOf(path, values)));
 }
 
 void setCamera(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
@@ -151,6 +158,17 @@ void bindScene(py::module_& m) {
             return inputs;
         },
         "Numbers of UsdGeomCamera: (attribute, keyword of set_camera(), fallback).");
+    m.def(
+        "light_radiance",
+        [](const py::kwargs& values) {
+            const vec3 radiance = lightBaseRadiance(*lightOf("", values));
+            return std::array<float, 3>{radiance.x, radiance.y, radiance.z};
+        },
+        "intensity 2^exposure color of a light, by the keywords of set_light().");
+    m.def(
+        "space_primvar", &spacePrimvar, py::arg("space"), py::arg("row"),
+        "The primvar of a row of the matrix into a coordinate system that is bound to a prim. The "
+        "fourth number of row 3 says from where: 0 the world, 1 the object.");
     m.attr("STAND_IN_WIDTH") = standInWidth;
     m.def(
         "light_filter_types", [] { return wordsBySchemas(lightFilterRows); },
@@ -179,7 +197,8 @@ void bindScene(py::module_& m) {
     edit.def("set_light", &setLight, py::arg("path"),
              "A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, "
              "type, transform and light_filter_inputs(). portals: of path, "
-             "transform, width and height.")
+             "transform, width and height. network: of what inputs are connected to, a terminal "
+             "by each input's name.")
         .def(
             "set_camera", &setCamera, py::arg("path"),
             "A UsdGeomCamera; keywords are the fields of Camera. inputs: a dictionary of values by "
@@ -192,8 +211,7 @@ void bindScene(py::module_& m) {
             "set_rendering_color_space",
             [](PythonEdit& edit, const std::string& name) {
                 const RenderingSpace* space = RenderingSpace::find(name);
-                if (!space)
-                    throw py::value_error("there is no linear colour space '" + name + "'");
+                if (!space) throw py::value_error("there is no linear colour space '" + name + "'");
                 edit.setRenderingSpace(*space);
             },
             py::arg("name"),

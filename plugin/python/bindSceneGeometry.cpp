@@ -177,6 +177,7 @@ void setVolume(PythonEdit& edit, const std::string& path, const py::kwargs& valu
         .read("field_names", names)
         .read("field_files", files)
         .read("field_grids", grids)
+        .read("light", volume->light)
         .finish();
     if (files.size() != names.size() || grids.size() != names.size())
         throw py::value_error("set_volume: " + path +
@@ -249,7 +250,9 @@ void bindSceneGeometry(py::class_<PythonEdit>& edit) {
         .def("set_implicit", &setImplicit, py::arg("path"),
              "Sphere, cube, cone, cylinder, capsule or plane.")
         .def("set_volume", &setVolume, py::arg("path"),
-             "A UsdVolVolume; fields are given by their names, files and the grids in the files.")
+             "A UsdVolVolume; fields are given by their names, files and the grids in the files. "
+             "light: "
+             "what its glow gives to others, over what is seen of it, 1 by default.")
         .def("set_splats", &setSplats, py::arg("path"),
              "A UsdVolParticleField; shape is that of its kernels, orientations are quaternions, "
              "the real part "

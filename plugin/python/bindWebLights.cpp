@@ -50,8 +50,7 @@ vec3 notNegative(const Light& light, const vec3& radiance, WebLights& out) {
 
 /// A rect's image, means over its cells, top row first.
 void addImage(const Light& light, LightFields& row, WebLights& out) {
-    const auto image =
-        out.images.image(light.textureFile, light.textureColorSpace, light.path, "texture:file");
+    const auto image = out.images.image(light);
     const int w = std::clamp(image->width, 1, largestImage);
     const int h = std::clamp(image->height, 1, largestImage);
     row.firstValue = int(out.table.size());
@@ -170,8 +169,7 @@ std::vector<float> lightRow(const Scene& scene, const Light& light, const mat4& 
             is.delta = true;
         }
         row.setLight(light, is, lightPose(light, is.kind, toWorld, nullptr));
-        if (row.kind == shLights::SHAPE_RECT && !light.textureFile.empty())
-            addImage(light, row, out);
+        if (row.kind == shLights::SHAPE_RECT && light.hasImage()) addImage(light, row, out);
         addProfile(light, row, out);
     }
     const std::vector<float> texels = texelsOf(row);
@@ -182,14 +180,13 @@ std::vector<float> lightRow(const Scene& scene, const Light& light, const mat4& 
 /// The image of a dome as a latlong map; none where it is one already.
 py::object latlongOf(const Light& light, WebLights& out) {
     const EnvironmentFormat format = environmentFormat(light.textureFormat);
-    if (light.textureFile.empty() || format == EnvironmentFormat::Latlong) return py::none();
-    if (format == EnvironmentFormat::Automatic) {
-        const auto image = out.images.image(light.textureFile, light.textureColorSpace, light.path,
-                                            "texture:file");
+    const bool network = !light.network.empty();
+    if (!light.hasImage() || (!network && format == EnvironmentFormat::Latlong)) return py::none();
+    if (!network && format == EnvironmentFormat::Automatic) {
+        const auto image = out.images.image(light);
         if (image->width * 4 != image->height * 3) return py::none();
     }
-    const auto map = out.images.environment(light.textureFile, light.textureColorSpace, format,
-                                            light.path, "texture:file");
+    const auto map = out.images.environment(light);
     py::array_t<float> pixels(std::vector<size_t>{domeWidth / 2, domeWidth, 3});
     float* to = pixels.mutable_data();
     for (int y = 0; y < domeWidth / 2; ++y)

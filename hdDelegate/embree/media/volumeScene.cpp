@@ -37,7 +37,7 @@ class VolumeScene::Tracker {
 public:
     Tracker() = default;
     Tracker(const Placed& placed, const vec3& origin, const vec3& direction, float end)
-        : _medium(placed.medium.get()) {
+        : light(placed.light), _medium(placed.medium.get()) {
         _origin = vec3(placed.worldToObject * vec4(origin, 1.0f));
         _direction = mat3(placed.worldToObject) * direction;
         const vec3 lower = _medium->boundsMin(), upper = _medium->boundsMax();
@@ -98,6 +98,7 @@ public:
     }
 
     float distance = INFINITY, majorant = 0.0f; ///< of the candidate
+    vec3 light{1.0f};
 
 private:
     /// Optical depth of a cell beyond which rays would make candidates without end.
@@ -137,7 +138,7 @@ void VolumeScene::update(const std::vector<std::shared_ptr<const Volume>>& prims
                 _max = glm::max(_max, w);
             }
             if (usable)
-                placed.push_back({medium, inverse, prim->visibility});
+                placed.push_back({medium, inverse, prim->visibility, prim->light});
             else
                 diagnostics.warn(prim->path, "transform", messages::volumeWithoutInverse);
         }
@@ -168,7 +169,8 @@ VolumeScene::Collision VolumeScene::track(const vec3& origin, const vec3& direct
         thin(m, nearest->majorant);
         const float inverse = 1.0f / nearest->majorant;
         if (m.emission != vec3(0.0f)) {
-            const vec3 glow = throughput * m.emission * inverse;
+            const vec3 seen = (rays & (RayDiffuse | RayVolume)) ? nearest->light : vec3(1.0f);
+            const vec3 glow = throughput * m.emission * seen * inverse;
             result.emitted += glow;
             result.emittedFrom += mean(glow) * nearest->distance;
         }

@@ -51,6 +51,7 @@ private:
         std::shared_ptr<const VolumeMedium> medium;
         mat4 worldToObject{1.0f};
         Visibility visibility;
+        vec3 light{1.0f}; ///< factor of its glow for rays that gather light
     };
     class Tracker;
     std::vector<Placed> _placed;

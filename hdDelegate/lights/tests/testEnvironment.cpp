@@ -26,6 +26,14 @@ vec3 worldColor(const vec3& d) {
     return 0.5f + 0.5f * d;
 }
 
+Light domeWith(const std::string& file) {
+    Light dome;
+    dome.type = LightType::Dome;
+    dome.textureFile = file;
+    dome.textureFormat = "latlong";
+    return dome;
+}
+
 vec3 latlongDirection(float u, float v) {
     const float longitude = float(testPi) * (1.0f - 2.0f * u), theta = float(testPi) * v;
     return vec3(std::sin(theta) * std::sin(longitude), std::cos(theta),
@@ -263,7 +271,7 @@ TEST(Environment, sidesWithoutACommonFactorAndTheBrightestTexels) {
         });
         LightImages images([&](const std::string&, const std::string&, const std::string&,
                                const std::string&) { return *pixels; });
-        const auto map = images.environment("sun", "", EnvironmentFormat::Latlong, "/d", "file");
+        const auto map = images.environment(domeWith("sun"));
         EXPECT_TRUE(std::isfinite(map->mean().x) && map->mean().x > 0.0f);
         Random random(51);
         int found = 0;
@@ -285,9 +293,7 @@ TEST(Environment, imagesThatNoLightHoldsAreForgotten) {
             ++loaded;
             return *pixels;
         });
-    const auto load = [&] {
-        return images.environment("a", "", EnvironmentFormat::Latlong, "/d", "file");
-    };
+    const auto load = [&] { return images.environment(domeWith("a")); };
     auto held = load();
     images.forgetUnused();
     EXPECT_EQ(load(), held);

@@ -28,9 +28,8 @@ vec3 RectImage::radiance(const vec2& q) const {
 
 const RectImage* RasterLightTables::rect(const Light& light, LightImages& images,
                                          Diagnostics& diagnostics) {
-    if (light.type != LightType::Rect || light.textureFile.empty()) return nullptr;
-    const auto image =
-        images.image(light.textureFile, light.textureColorSpace, light.path, "inputs:texture:file");
+    if (light.type != LightType::Rect || !light.hasImage()) return nullptr;
+    const auto image = images.image(light);
     for (const auto& known : _rects)
         if (known->image == image) return known.get();
     auto made = std::make_unique<RectImage>();

@@ -196,10 +196,8 @@ bool RasterLights::addDome(RasterLightSource& s, const Light& light, LightImages
                            RasterDomes& domes) {
     GpuLight& g = s.fixed;
     int layer = -1, first = -1;
-    if (!light.textureFile.empty()) {
-        s.environment = images.environment(light.textureFile, light.textureColorSpace,
-                                           environmentFormat(light.textureFormat), light.path,
-                                           "inputs:texture:file");
+    if (light.hasImage()) {
+        s.environment = images.environment(light);
         layer = domes.layer(s.environment);
         if (layer < 0) return false;
         if (_domeMethods.count("harmonics") > 0 || _domeMethods.count("prefiltered") > 0) {

@@ -87,7 +87,7 @@ RasterLightPlan RasterLightPlan::of(const SceneState& state, const RenderSetting
         const bool dome = light.type == LightType::Dome;
         if (!dome && light.type != LightType::Distant && light.type != LightType::Mesh)
             placed += places.places(light.group).size();
-        plan._images |= !light.textureFile.empty();
+        plan._images |= light.hasImage();
         plan._profiles |= !light.iesFile.empty();
         plan._sky |= dome || light.type == LightType::Distant;
         plan._fades |= light.shadowDistance > 0.0f;
@@ -107,10 +107,7 @@ RasterLightPlan RasterLightPlan::of(const SceneState& state, const RenderSetting
             continue;
         }
         std::shared_ptr<const EnvironmentMap> map;
-        if (!light.textureFile.empty())
-            map = images.environment(light.textureFile, light.textureColorSpace,
-                                     environmentFormat(light.textureFormat), light.path,
-                                     "inputs:texture:file");
+        if (light.hasImage()) map = images.environment(light);
         plan.addDome(map.get());
     }
     return plan;

@@ -103,6 +103,7 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     request.needsMesh = _parts.meshLights->of(prim->path, _settings) != nullptr;
     for (const RasterMaterial* material : materials) {
         const MaterialProgram& program = *material->program;
+        _compiled.materials().tellOfSpaces(program, *prim);
         request.primvars.push_back(material->primvars);
         request.tangentSets.push_back(program.tangentSet());
         const bool bends = program.hasDisplacement() && (prim->kind == GeometryKind::Mesh ||

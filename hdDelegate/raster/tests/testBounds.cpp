@@ -109,8 +109,10 @@ TEST(RasterBounds, DomesHaveSoManyImages) {
     RasterDomes domes;
     domes.begin();
     const auto layer = [&](int i) {
-        return domes.layer(images.environment(std::to_string(i), "", EnvironmentFormat::Latlong,
-                                              "/dome", "inputs:texture:file"));
+        Light dome;
+        dome.type = LightType::Dome;
+        dome.textureFile = std::to_string(i);
+        return domes.layer(images.environment(dome));
     };
     for (int i = 0; i < RasterDomes::maxImages; ++i)
         ASSERT_EQ(layer(i), i);

@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from . import kinds, marks, meshes, parametric, skeletons, skinning, splats, volumes
+from . import coordSystems, kinds, marks, meshes, parametric, skeletons, skinning, splats, volumes
 from .context import array, get, number, shown
 from .primvars import add_builtin, read_primvars, text
 from .transforms import transform_of
@@ -35,6 +35,8 @@ def emit(context, found, kind, bound, categories, fallbacks):
     if fallbacks:
         own = {item[0] for item in common["primvars"]}
         common["primvars"] += [item for item in fallbacks if item[0] not in own and item[1] == "constant"]
+    if found.state.spaces:
+        common["primvars"] += coordSystems.primvars_of(context, found)
     if "primvars:lightGroup" in found.names or found.state.primvars:
         common["light_group"] = text(context, prim, found.state.primvars, "lightGroup")
     if subsets:

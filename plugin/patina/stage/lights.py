@@ -2,12 +2,17 @@
 """UsdLux lights."""
 import functools
 
+import numpy as np
 from pxr import Gf, UsdGeom, UsdLux, UsdShade
 
 from . import assets, kinds, lightFilters, portals
 from .context import number, shown, vector
+from .networks import network_of_light
 from .primvars import text
 from .transforms import transform_of
+
+
+_TINTS = "materialGlowTintsLight"
 
 
 def emit(context, found, linking):
@@ -22,6 +27,10 @@ def emit(context, found, linking):
     fields["light_group"] = _light_group(context, found)
     fields["filters"] = lightFilters.of(context, prim, group)
     _report_network(context, prim, is_mesh)
+    if any(a.HasAuthoredConnections() for a in prim.GetAuthoredAttributes() if a.GetName().startswith("inputs:")):
+        import _patina
+
+        fields["network"] = network_of_light(context, prim, found.path, _patina)
 
     after = None
     if type_ == "dome":
@@ -31,7 +40,7 @@ def emit(context, found, linking):
         fields["geometry"] = found.path if is_mesh else _geometry_of(context, prim, group)
         if not fields["geometry"]:
             return
-        mode = _plain(context, prim, "light:materialSyncMode") or "materialGlowTintsLight"
+        mode = _plain(context, prim, "light:materialSyncMode") or _TINTS
         fields["material_sync_mode"] = str(shown(mode))
         if is_mesh and _input(context, prim, "intensity", authored=True) is None:
             fields["intensity"] = 1.0
@@ -39,6 +48,20 @@ def emit(context, found, linking):
     path = found.path if not is_mesh else found.path + "/light_of_mesh"
     context.edit.set_light(path, **fields)
     context.count("lights")
+
+
+def glow_of(context, prim):
+    """:returns: what lights others of the glow of a volume that is a light, over what its material gives off"""
+    import _patina
+
+    fields = {}
+    _read_inputs(context, prim, "volume", fields)
+    mode = _plain(context, prim, "light:materialSyncMode")
+    radiance = _patina.light_radiance(**fields)
+    if mode not in (None, _TINTS) or min(radiance) < 0.0 or not np.isfinite(radiance).all():
+        context.warn(prim.GetPath(), "light:materialSyncMode", "volumeLightIgnored")
+        return None
+    return radiance
 
 
 @functools.lru_cache(maxsize=None)
@@ -50,7 +73,7 @@ def _inputs():
 
 
 def _report_network(context, prim, is_mesh):
-    """Lights may be nodes of networks; those are not evaluated."""
+    """Of a light's network the nodes that its inputs are connected to are evaluated, shaders in its place are not."""
     for name in ("light:shaderId", "mtlx:light:shaderId"):
         attribute = prim.GetAttribute(name)
         value = attribute.Get() if attribute and attribute.HasAuthoredValue() and not is_mesh else None
@@ -59,14 +82,9 @@ def _report_network(context, prim, is_mesh):
             context.warn(prim.GetPath(), name, "lightShaderIgnored", shown(value))
     for attribute in prim.GetAuthoredAttributes():
         name = attribute.GetName()
-        if name.startswith("inputs:"):
-            target = _source_of(attribute)[1]
-        else:
-            target = next(iter(attribute.GetConnections()), None)
-        if target is None or not name.startswith(("inputs:", "outputs:light", "outputs:mtlx:light")):
-            continue
-        id_ = "lightInputConnected" if name.startswith("inputs:") else "lightOutputConnected"
-        context.warn(prim.GetPath(), name, id_, target)
+        target = next(iter(attribute.GetConnections()), None)
+        if target and name.startswith(("outputs:light", "outputs:mtlx:light")):
+            context.warn(prim.GetPath(), name, "lightOutputConnected", target)
 
 
 def _light_group(context, found):
@@ -97,7 +115,7 @@ def _attribute_of(context, prim, name, authored=False):
             old = prim.GetAttribute(name)
             if not attribute.HasAuthoredValue() and old and old.HasAuthoredValue():
                 continue
-            source = _source_of(attribute)[0]
+            source = _source_of(attribute)
             if source.Get(context.time) is not None:
                 return source
     return None
@@ -123,15 +141,12 @@ def _color(context, prim, name):
 
 
 def _source_of(attribute):
-    """Follows connections of an input to where its value is.
-
-    :returns: (attribute, None), or the attribute itself and the path of an output that it is connected to"""
+    """:returns: the attribute that an input's connections lead to, itself where they lead to none or to a node's output"""
     if not attribute.GetName().startswith("inputs:") or not attribute.HasAuthoredConnections():
-        return attribute, None
+        return attribute
     sources = UsdShade.Utils.GetValueProducingAttributes(UsdShade.Input(attribute))
-    if sources and UsdShade.Utils.GetType(sources[0].GetName()) == UsdShade.AttributeType.Input:
-        return sources[0], None
-    return attribute, sources[0].GetPath() if sources else attribute.GetConnections()[0]
+    is_input = sources and UsdShade.Utils.GetType(sources[0].GetName()) == UsdShade.AttributeType.Input
+    return sources[0] if is_input else attribute
 
 
 def _plain(context, prim, name):

@@ -19,27 +19,37 @@ def network_of(context, material, path, module):
     :param module: `_patina`
     :returns: its Network; without terminals when it has none that can be used"""
     document = mtlxFiles.network_of(material)
-    network = document if document is not None else _Translation(context, material, path, module).run()
-    if document is not None:
+    if document is None:
+        network = _Translation(context, material.GetPrim(), path, module).of_material(material)
+    else:
+        network = document
         inputs.note_network(document)
-    if not context.time.IsDefault():
-        _set_frame(network, context)
+    _set_frame(network, context)
+    return network
+
+
+def network_of_light(context, light, path, module):
+    """:param light: prim
+    :returns: the Network of nodes that its inputs are connected to, each a terminal of the input's name"""
+    network = _Translation(context, light, path, module).of_inputs()
+    _set_frame(network, context)
     return network
 
 
 def _set_frame(network, context):
     """MaterialX's nodes for the frame and the time have it from the host."""
     for node in network.nodes():
-        if node["id"] in _CLOCKS:
+        if node["id"] in _CLOCKS and not context.time.IsDefault():
             network.set_input(node["path"], "frame", "float", context.time.GetValue())
             if node["id"] == "ND_time_float" and "fps" not in node["inputs"]:
                 network.set_input(node["path"], "fps", "float", context.time_codes_per_second)
 
 
 class _Translation:
-    def __init__(self, context, material, path, module):
-        self.context, self.material, self.time = context, material, context.time
-        self.source, self.shown = str(material.GetPath()), path
+    def __init__(self, context, prim, path, module):
+        """:param prim: Material or light"""
+        self.context, self.prim, self.time = context, prim, context.time
+        self.source, self.shown = str(prim.GetPath()), path
         self.network = module.Network(path)
         self._factor_of = module.unit_factor
         self._names = {}  # path on the stage -> path in the network
@@ -47,24 +57,45 @@ class _Translation:
         self._spaces = context.color_spaces
         self._definition_of = module.node_definition
 
-    def run(self):
+    def of_inputs(self):
+        for input_ in UsdShade.ConnectableAPI(self.prim).GetInputs(onlyAuthored=True):
+            source = self._source(input_)[0]
+            self._terminal(input_.GetBaseName(), *(source or (None, None)))
+        return self._followed()
+
+    def of_material(self, material):
         for terminal, compute in _TERMINALS:
-            shader, output, _ = getattr(self.material, compute)(_CONTEXT)
-            if shader:
-                node = self._node(shader)
-                if node:
-                    self.network.set_terminal(terminal, node, self._known_output(shader, terminal, output))
+            shader, output, _ = getattr(material, compute)(_CONTEXT)
+            self._terminal(terminal, shader, shader and self._known_output(shader, terminal, output))
+        self._light_shader(material)
+        self._followed()
+        if self.network.empty:
+            others = sorted(o.GetFullName() for o in material.GetOutputs() if o.HasConnectedSource())
+            told = ("materialHasOthers", ", ".join(others)) if others else ("materialNotShown",)
+            self._warn(self.prim, "", *told)
+        return self.network
+
+    def _light_shader(self, material):
+        """A MaterialX light that is attached to geometry makes it shine."""
+        for name in ("mtlx:light", "light"):
+            output = material.GetOutput(name)
+            sources = UsdShade.Utils.GetValueProducingAttributes(output, True) if output else []
+            if sources and not "surface" in self.network.terminals():
+                self._terminal("surface", UsdShade.Shader(sources[0].GetPrim()), "out")
+            elif sources:
+                self._warn(self.prim, output.GetFullName(), "materialLightIgnored")
+
+    def _terminal(self, name, shader, output):
+        node = self._node(shader) if shader else None
+        if node:
+            self.network.set_terminal(name, node, output)
+
+    def _followed(self):
+        """:returns: the network with all that its terminals are connected to"""
         while self._todo:
             self._inputs(*self._todo.pop())
-        if _is_before_139(self.material):
+        if not self.network.empty and _is_before_139(self.prim):
             self.context.repeat(self.network.upgrade())
-        for output in self.material.GetOutputs():
-            if output.GetBaseName() in ("light", "mtlx:light") and output.HasConnectedSource():
-                self._warn(self.material.GetPrim(), output.GetFullName(), "materialLightIgnored")
-        if self.network.empty:
-            others = sorted(o.GetFullName() for o in self.material.GetOutputs() if o.HasConnectedSource())
-            told = ("materialHasOthers", ", ".join(others)) if others else ("materialNotShown",)
-            self._warn(self.material.GetPrim(), "", *told)
         return self.network
 
     def _known_output(self, shader, terminal, output):
@@ -192,9 +223,9 @@ def _unit_of(attribute):
     return Sdf.GetNameForUnit(shown) if isinstance(shown, Tf.Enum) else ""
 
 
-def _is_before_139(material):
-    """:returns: whether a material is of MaterialX 1.38, as those are that do not say otherwise"""
-    version = material.GetPrim().GetAttribute("config:mtlx:version").Get() or "1.38"
+def _is_before_139(prim):
+    """:returns: whether a network is of MaterialX 1.38, as those are that do not say otherwise"""
+    version = prim.GetAttribute("config:mtlx:version").Get() or "1.38"
     major, _, minor = str(version).partition(".")
     return major == "1" and minor.split(".")[0].isdigit() and int(minor.split(".")[0]) < 39
 

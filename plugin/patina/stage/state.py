@@ -34,6 +34,7 @@ class State:
     draw_mode: str = "default"
     hidden: bool = False
     level: object = None  # path of a level of detail that is drawn, whatever its own visibility says
+    spaces: tuple = ()  # coordinate systems that are bound: (name, path of a prim)
     marks: dict = field(default_factory=dict, compare=False)  # see marks.py
     asset: str = ""  # path of the model that prims belong to, within the group
 

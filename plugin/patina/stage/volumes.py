@@ -2,7 +2,7 @@
 """UsdVolVolume: fields of OpenVDB files."""
 from pxr import UsdGeom, UsdVol
 
-from . import kinds
+from . import kinds, lights
 from .assets import resolve
 from .context import get
 
@@ -10,7 +10,7 @@ from .context import get
 def emit(context, found, common):
     volume = UsdVol.Volume(found.prim)
     if "VolumeLightAPI" in found.prim.GetAppliedSchemas():
-        context.warn(found.prim.GetPath(), "", "volumeLightIgnored")
+        common["light"] = lights.glow_of(context, found.prim)
     names, files, grids = [], [], []
     for name, path in sorted(volume.GetFieldPaths().items()):
         prim = context.stage.GetPrimAtPath(path)

@@ -10,7 +10,7 @@ from pxr import Usd, UsdGeom
 
 from patina import limits
 
-from . import drawModes, marks, portals, skeletons
+from . import coordSystems, drawModes, marks, portals, skeletons
 from .context import Guard, get
 from .instanceValues import InstanceValues
 from .kinds import GPRIM_KINDS, Kinds
@@ -146,6 +146,8 @@ class Walk:
             found_marks = marks.authored(self.context, prim, names, state.marks)
             if found_marks is not state.marks:
                 state = state.with_(marks=found_marks)
+        if any(name.startswith("coordSys:") for name in names):
+            state = state.with_(spaces=coordSystems.authored(prim, names, state.spaces))
         if not prim.IsModel():
             return state, False
         asset = marks.asset(prim, state.group.path(prim), state.asset)
@@ -195,7 +197,7 @@ class Walk:
                 material, rules = outer.material, outer.material_rules
             split = self.walked.values.split(state.primvars)
             key = (str(prototype.GetPath()), material, rules, state.purpose, state.draw_mode,
-                   tuple(sorted(state.marks.items())), split.key, outer.name if self._reaches_out(prototype, outer) else "",
+                   tuple(sorted(state.marks.items())), state.spaces, split.key, outer.name if self._reaches_out(prototype, outer) else "",
                    self._levels.signature(found.prim, outer), self._pass.signature(found.path) if self._pass else "")
             group = self._native.get(key)
             if group is None:

@@ -125,7 +125,8 @@ def test_headlight_only_without_lights(read):
     assert not read('def Sphere "s" { }').info.headlight
 
 
-def test_networks_of_lights_are_told(read):
+def test_nodes_give_values_of_inputs(read):
+    """What they cannot give is told. Pictures are in testenv/render/test_lightNetworks.py."""
     reading = read("""
     def Material "rig" {
         color3f inputs:tint = (0.25, 0.5, 1)
@@ -134,22 +135,37 @@ def test_networks_of_lights_are_told(read):
             uniform token info:id = "ND_light"
             token outputs:out
         }
+        def Shader "no" { uniform token info:id = "ND_nobody"  float outputs:out }
+        def Shader "yes" { uniform token info:id = "ND_constant_boolean"  bool inputs:value = 1  bool outputs:out }
+        def Shader "less" { uniform token info:id = "ND_constant_float"  float inputs:value = -3  float outputs:out }
+        def Shader "text" { uniform token info:id = "ND_constant_string"  string inputs:value = "a"  string outputs:out }
     }
     def Sphere "ball" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </rig> }
     def SphereLight "shaded" {
         color3f inputs:color = (1, 0, 0)
         color3f inputs:color.connect = </rig/shader.outputs:out>
+        float inputs:exposure.connect = </rig/no.outputs:out>
+        float inputs:radius.connect = </rig/nothing.outputs:out>
+        bool inputs:normalize.connect = </rig/yes.outputs:out>
+        float inputs:intensity.connect = </rig/less.outputs:out>
+    }
+    def RectLight "profile" (prepend apiSchemas = ["ShapingAPI"]) {
+        asset inputs:shaping:ies:file.connect = </rig/text.outputs:out>
     }
     def SphereLight "tinted" { color3f inputs:color.connect = </rig.inputs:tint> }
     def RectLight "other" { uniform token light:shaderId = "ND_light" }
     def RectLight "plain" { uniform token light:shaderId = "RectLight" }""")
-    about = [w for w in reading.warnings if w.startswith(("/shaded", "/tinted", "/other", "/plain"))]
-    assert about == [
-        "/shaded inputs:color: is connected to /rig/shader.outputs:out, which is not evaluated for lights; its own value is "
-        "used",
-        "/other light:shaderId: is ND_light, which is not evaluated; the light is drawn by its type"]
-    assert any(w.startswith("/rig outputs:mtlx:light: light shaders of materials are not drawn") for w in reading.warnings)
-    assert reading.prim("/shaded")["color"] == "1 0 0"
+    about = [w for w in reading.warnings if w.startswith(("/shaded", "/tinted", "/other", "/plain", "/profile"))]
+    no_value = "which gives no value that this light can take; its own value is used"
+    assert sorted(about) == sorted([
+        f"/shaded inputs:color: is connected to /rig/shader, {no_value}",
+        f"/shaded inputs:exposure: is connected to /rig/no, {no_value}",
+        "/shaded radius: is connected to /rig/nothing.outputs:out, which does not exist; its own value is used",
+        f"/profile inputs:shaping:ies:file: is connected to /rig/text, {no_value}",
+        "/other light:shaderId: is ND_light, which is not evaluated; the light is drawn by its type"])
+    assert reading.prim("/rig")["terminal surface"] == "/rig/shader.out"  # attached to geometry, it shines
+    shaded = reading.prim("/shaded")
+    assert (shaded["color"], shaded["normalize"], shaded["intensity"]) == ("1 0 0", "true", "-3")
     assert reading.prim("/tinted")["color"] == "0.25 0.5 1"
 
 

@@ -39,6 +39,14 @@ def test_moved_fields_are_reported(read):
     assert any("transform is not used" in w for w in stage.warnings)
 
 
-def test_volumes_that_are_lights_are_told(read):
-    stage = read('def Volume "v" (prepend apiSchemas = ["VolumeLightAPI"]) { }')
-    assert any(w.startswith("/v : VolumeLightAPI is not read") for w in stage.warnings), stage.warnings
+def test_volumes_that_are_lights(read):
+    """Pictures are in testenv/render/test_volumeLights.py."""
+    volume = 'def Volume "v" (prepend apiSchemas = ["VolumeLightAPI"]) { %s }'
+    plain = read(volume % "")
+    assert "light" not in plain.prim("/v") and not any("VolumeLightAPI" in w for w in plain.warnings)
+    tinted = read(volume % "float inputs:intensity = 3  float inputs:exposure = 1  color3f inputs:color = (1, 0.5, 0.25)")
+    assert tinted.prim("/v")["light"] == "6 3 1.5"
+    for given in ('uniform token light:materialSyncMode = "independent"', "float inputs:intensity = -1"):
+        told = read(volume % given)
+        assert "light" not in told.prim("/v")
+        assert any(w.startswith("/v light:materialSyncMode: VolumeLightAPI is evaluated as") for w in told.warnings)

@@ -52,7 +52,7 @@ CAUSES = (  # (set, pattern of stages, pattern of ways, the cause)
      "velocities beside one sample at another frame: scene indices take it to be at this one"),
     ("arnold-usd", "test_1868/*", "*",
      "velocities beside positions without samples: UsdGeom does not use them, scene indices do"),
-    ("arnold-usd", "test_1443/data/sphere_skin.usda", "*", "Hydra draws the bones of a Skeleton that has a purpose"),
+    ("arnold-usd", "test_1443/data/sphere_skin.usda", "delegate", "UsdImagingDelegate makes the bones of a Skeleton grey"),
     ("arnold-usd", "test_1524/*", "sceneIndex", "scene indices do not find prims inside of native instances in collections"),
     ("arnold-usd", "test_17642.2/*", "sceneIndex", _UNAPPLIED),
     ("usd-wg", "*/points_types/*", "delegate", "UsdImaging leaves out points of wrong types, which the reader can use"),

@@ -38,6 +38,8 @@ def emit(context, found, common):
     for pose in poses:
         moved = np.einsum("pi,pij->pj", np.c_[corners, np.ones(len(corners))], np.array(pose, np.float64)[joints])
         samples.append(moved[:, :3].astype(np.float32))
+    if not found.state.group.name:
+        context.skinned.append((found.prim, samples[0]))
     common["double_sided"] = True
     context.edit.set_mesh(
         found.path, points=samples[0] if len(samples) == 1 else (times, samples), scheme="none",

@@ -27,6 +27,16 @@ def test_bones_are_pyramids_from_parent_to_child(read, numbers):
     assert len(numbers(bones["faceVertexCounts"])) == 8 and "scheme" not in bones and not reading.warnings
 
 
+def test_the_framing_camera_shows_all_bones(read, numbers):
+    reading = read(arm().replace("9,9,9", "0,0,0"), **GUIDES)
+    camera = reading.prim(reading.info.camera)
+    points = np.array(numbers(reading.prim("/s")["points"])).reshape(-1, 3)
+    x, y, z, _ = (np.c_[points, np.ones(len(points))] @ np.linalg.inv(np.reshape(numbers(camera["transform"]), (4, 4)))).T
+    lens = reading.scene.camera(reading.info.camera)
+    for across, aperture in ((x, "horizontal_aperture"), (y, "vertical_aperture")):
+        assert (np.abs(across / -z) <= lens[aperture] / lens["focal_length"] / 2).all()
+
+
 def test_bones_follow_the_pose(read, numbers):
     """Tips move with their joint, bases with its parent."""
     points = np.array(numbers(read(arm(reach=5), **GUIDES).prim("/s")["points"])).reshape(-1, 3)

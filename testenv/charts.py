@@ -5,8 +5,8 @@
     charts.py [--out FOLDER] [--only KIND]... [--quick]
     charts.py --redraw           draws those that have a table anew, from the table: nothing is measured
 
-Kinds are those of `patina chart`: lobes, scenes, splats, stability, predictions; and features, of `patina bench`. Each runs in a
-process of its own; of what it writes the files named below go to the folder (default: docs/charts). --quick takes small
+Kinds are those of `patina chart`: lobes, scenes, splats, stability, predictions; and features, of `patina bench`. Each runs
+in a process of its own; of what it writes the files named below go to the folder (default: docs/charts). --quick takes small
 pictures and few samples, to see whether it all works. The whole takes about an hour on two cores.
 """
 import argparse

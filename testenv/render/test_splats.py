@@ -248,8 +248,8 @@ def test_kernels_light_a_floor(tmp_path):
 
 
 def test_light_samples_keep_the_energy(tmp_path):
-    """White kernels close to a white floor under a white sky: all of it has radiance 1, whatever shares light samples, which find
-    clusters of kernels, and samples of the BSDF have of it. The bound is five standard errors."""
+    """White kernels close to a white floor under a white sky: all of it has radiance 1, whatever shares light samples, which
+    find clusters of kernels, and samples of the BSDF have of it. The bound is five standard errors."""
     cloud = random_cloud(100, 22)
     cloud.coefficients[:] = 0.5 / 0.28209479177
     cloud.positions[:, 2] += 0.9

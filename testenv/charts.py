@@ -5,8 +5,8 @@
     charts.py [--out FOLDER] [--only KIND]... [--quick]
     charts.py --redraw           draws those that have a table anew, from the table: nothing is measured
 
-Kinds are those of `patina chart`: lobes, scenes, splats, stability, predictions; and features, of `patina bench`. Each runs in a
-process of its own; of what it writes the files named below go to the folder (default: docs/charts). --quick takes small
+Kinds are those of `patina chart`: lobes, scenes, splats, stability, predictions; and features, of `patina bench`. Each runs
+in a process of its own; of what it writes the files named below go to the folder (default: docs/charts). --quick takes small
 pictures and few samples, to see whether it all works. The whole takes about an hour on two cores.
 """
 import argparse
@@ -50,7 +50,7 @@ KINDS = {
                [f"testenv/scenes/{SCENES[0]}.usda", "--imageWidth", "32", "--maxSamples", "4", "--quiet"],
                ["scenes.csv", "*-relMSE.svg", "*-flip.svg", "*-rmse.svg"]),
     # "knot": testenv/splatKnot.py --alone, which leaves nothing to the rasterizer that it draws otherwise
-    "splats": ([["knot", "--imageWidth", "128", "--maxSamples", "64", "--tolerances", "none", "--referenceSamples", "1024",
+    "splats": ([["knot", "--imageWidth", "128", "--maxSamples", "16", "--tolerances", "none", "--referenceSamples", "256",
                  "--quiet"]],
                ["knot", "--imageWidth", "32", "--maxSamples", "4", "--tolerances", "none", "--quiet"],
                ["splatKnot-relMSE.svg"]),

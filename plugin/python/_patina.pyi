@@ -134,8 +134,8 @@ class SceneEdit:
         """
     def set_splats(self, path: str, **kwargs: typing.Any) -> None:
         """
-        A UsdVolParticleField3DGaussianSplat; orientations are quaternions, the real part first.
-        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, positions, orientations, scales, opacities, degree, harmonics, color_space.
+        A UsdVolParticleField; shape is that of its kernels, orientations are quaternions, the real part first.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, shape, positions, orientations, scales, opacities, degree, harmonics, color_space.
         """
     def set_tet_mesh(self, path: str, **kwargs: typing.Any) -> None:
         """

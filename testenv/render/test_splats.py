@@ -247,6 +247,23 @@ def test_kernels_light_a_floor(tmp_path):
     assert np.std(means) / np.sqrt(8) < 0.05 * expected
 
 
+def test_light_samples_keep_the_energy(tmp_path):
+    """White kernels close to a white floor under a white sky: all of it has radiance 1, whatever shares light samples, which
+    find clusters of kernels, and samples of the BSDF have of it. The bound is five standard errors."""
+    cloud = random_cloud(100, 22)
+    cloud.coefficients[:] = 0.5 / 0.28209479177
+    cloud.positions[:, 2] += 0.9
+    stage = new_stage()
+    cloud.define(stage)
+    floor(stage, color=(COLOR, (1, 1, 1)))
+    dome(stage)
+    means = [sharp_image(stage, tmp_path, 16, 64, ("--seed", seed, "--maxDepth", 100))[0]["color"][..., :3].mean()
+             for seed in range(8)]
+    error = np.std(means, ddof=1) / np.sqrt(8)
+    assert np.mean(means) == pytest.approx(1.0, abs=5 * error + END)
+    assert error < 2e-3
+
+
 @BOTH
 def test_energy_in_a_white_world(tmp_path, backend):
     """White kernels under a white sky: everything has radiance 1, however the light is divided."""

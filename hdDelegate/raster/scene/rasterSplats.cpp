@@ -29,7 +29,8 @@ size_t storageLimit() {
 } // namespace
 
 size_t RasterSplats::mostEntries() {
-    return storageLimit() / (2 * sizeof(uint32_t));
+    constexpr size_t most = size_t(1) << 28; // bytes that a pass may write for its list
+    return std::min(storageLimit(), most) / (2 * sizeof(uint32_t));
 }
 
 /// Three rows of numbers that add up to the colour in the rendering space: of red, green and blue.

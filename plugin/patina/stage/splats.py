@@ -22,9 +22,10 @@ def emit(context, found, common):
     radiance = prim.GetAttribute(_HARMONICS)
     space = context.color_spaces.space_of(radiance, is_color=True) if radiance else ""
     context.edit.set_splats(
-        found.path, shape=shape, positions=_values(context, prim, "positions", 3), orientations=_values(context, prim, "orientations", 4),
-        scales=_values(context, prim, "scales", 3), opacities=_values(context, prim, "opacities", 1),
-        degree=int(np.clip(degree, -1, 1000)), harmonics=_values(context, prim, _HARMONICS, 3), color_space=space, **common)
+        found.path, shape=shape, positions=_values(context, prim, "positions", 3),
+        orientations=_values(context, prim, "orientations", 4), scales=_values(context, prim, "scales", 3),
+        opacities=_values(context, prim, "opacities", 1), degree=int(np.clip(degree, -1, 1000)),
+        harmonics=_values(context, prim, _HARMONICS, 3), color_space=space, **common)
 
 
 def _values(context, prim, name, components):

@@ -2,7 +2,7 @@
 #include "hdDelegate/hydra/coordSys.h"
 
 #include "hdDelegate/hydra/primvars.h"
-#include "materialNetwork/shadingPoint.h"
+#include "materialNetwork/material.h"
 
 #include <pxr/base/gf/matrix4d.h>
 #include <pxr/imaging/hd/renderIndex.h>

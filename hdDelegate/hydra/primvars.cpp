@@ -6,7 +6,7 @@
 #include "hdDelegate/hydra/sourceForms.h"
 #include "hdDelegate/hydra/values.h"
 #include "materialNetwork/color/colorSpaces.h"
-#include "materialNetwork/shadingPoint.h"
+#include "materialNetwork/material.h"
 
 #include <pxr/base/tf/stringUtils.h>
 #include <pxr/imaging/hd/changeTracker.h>

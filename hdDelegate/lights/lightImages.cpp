@@ -2,12 +2,36 @@
 #include "hdDelegate/lights/lightImages.h"
 
 #include "hdDelegate/lights/networkImage.h"
-#include "materialNetwork/plan/dump.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace patina {
+
+namespace {
+
+/// All that a network's image follows from.
+std::string textOf(const Network& network) {
+    std::string text;
+    const auto add = [&](const std::string& part) { text += part + '\n'; };
+    const auto addLinks = [&](const std::map<std::string, Connection>& links) {
+        for (const auto& [name, link] : links)
+            add(name), add(link.node), add(link.output);
+    };
+    addLinks(network.terminals);
+    for (const NetworkNode& node : network.nodes) {
+        add(node.path), add(node.id);
+        addLinks(node.connections);
+        for (const auto& [name, value] : node.inputs) {
+            add(name), add(value.text), add(value.colorSpace);
+            for (const float number : value.numbers)
+                text.append(reinterpret_cast<const char*>(&number), sizeof number);
+        }
+    }
+    return text;
+}
+
+} // namespace
 
 LightImages::LightImages(Diagnostics& diagnostics)
     : _loader([&diagnostics, this](const std::string& file, const std::string& colorSpace,
@@ -39,7 +63,7 @@ std::string LightImages::keyOf(const Light& light) const {
     std::string key = light.textureColorSpace + '\n' + light.textureFile;
     if (!light.network.empty())
         key += '\n' + std::to_string(int(light.type)) + ' ' + std::to_string(light.width) + ' ' +
-               std::to_string(light.height) + '\n' + dumpNetwork(light.network);
+               std::to_string(light.height) + '\n' + textOf(light.network);
     return _renderingSpace.load()->name + '\n' + key;
 }
 

@@ -2,7 +2,6 @@
 #include "hdDelegate/lights/networkImage.h"
 
 #include "hdDelegate/image/textureSystem.h"
-#include "hdDelegate/scene/lightNetwork.h"
 #include "base/maths.h"
 #include "materialNetwork/material.h"
 
@@ -52,8 +51,7 @@ ImageRGB networkImage(const Light& light, const ImageRGB* texture, const Renderi
     TextureSystem textures(diagnostics);
     textures.setRenderingSpace(space);
     textures.sampleFinestOnly();
-    const auto program = compileMaterial(displacedBy(light.network, "color"), textures, diagnostics,
-                                         {}, -1.0, space);
+    const auto program = compileMaterial(light.network, textures, diagnostics, {}, -1.0, space);
     const bool dome = light.type == LightType::Dome;
     const glm::ivec2 size =
         texture ? glm::ivec2(texture->width, texture->height) : sizeOf(*program, textures, dome);

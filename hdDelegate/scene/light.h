@@ -48,8 +48,9 @@ struct Light {
 
     std::string textureColorSpace; ///< empty or "auto": by file type
 
-    /// Nodes that inputs are connected to, each a terminal of the input's name. A scene keeps of it
-    /// the colour that varies over a dome or a rect (lightNetwork.h).
+    /// Nodes that inputs are connected to, each a terminal of the input's name. A scene has for
+    /// them a material whose displacement is the colour that varies over a dome or a rect, or
+    /// nothing.
     Network network;
     /// Its radiance is not the same everywhere: the texture, or what the network paints.
     bool hasImage() const {

@@ -51,8 +51,8 @@ bool take(const std::string& name, const vec3& value, Light& light) {
     return false;
 }
 
-} // namespace
-
+/// The material whose displacement is what nodes give an input: the only value of a material that
+/// may be of any sign.
 Network displacedBy(const Network& network, const std::string& input) {
     NetworkNode displacement, surface;
     displacement.path = network.path + "/displacement";
@@ -69,25 +69,28 @@ Network displacedBy(const Network& network, const std::string& input) {
     return material;
 }
 
+} // namespace
+
 std::shared_ptr<const Light> withNetworkValues(const Light& light, const RenderingSpace& space,
                                                Diagnostics& diagnostics) {
     auto result = std::make_shared<Light>(light);
+    result->network = Network();
     const bool image = light.type == LightType::Dome || light.type == LightType::Rect;
     for (const auto& [input, source] : light.network.terminals) {
+        const Network material = displacedBy(light.network, input);
         NoTextures textures;
         const auto program = givesNumbers(light.network, source)
-                                 ? compileMaterial(displacedBy(light.network, input), textures,
-                                                   diagnostics, {}, -1.0, space)
+                                 ? compileMaterial(material, textures, diagnostics, {}, -1.0, space)
                                  : nullptr;
         const bool varies = program && !program->ir().displacementCode.empty();
         if (varies && image && input == "color") {
             result->color = vec3(1.0f);
-            continue;
-        }
-        if (!program || varies || !take(input, program->displacement(ShadingPoint()), *result))
+            result->network = material;
+        } else if (!program || varies ||
+                   !take(input, program->displacement(ShadingPoint()), *result)) {
             diagnostics.warn(light.path, "inputs:" + input,
                              messages::lightInputConnected(source.node));
-        result->network.terminals.erase(input);
+        }
     }
     return result;
 }

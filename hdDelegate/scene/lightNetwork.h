@@ -2,16 +2,13 @@
 #pragma once
 
 #include "hdDelegate/scene/light.h"
-#include "materialNetwork/color/renderingSpace.h"
 #include "base/diagnostics.h"
 
 #include <memory>
 
 namespace patina {
 
-/// The material whose displacement is what the nodes of a light give one of its inputs: the only
-/// value of a material that may be of any sign.
-Network displacedBy(const Network& network, const std::string& input);
+struct RenderingSpace;
 
 /// The light with its inputs as their nodes say. The colour of a dome or a rect that varies stays
 /// in the network. Where there is no value that the light can take, its own stays, with a warning.

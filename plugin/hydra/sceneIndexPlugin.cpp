@@ -8,6 +8,7 @@
 #include "plugin/hydra/renderPassSceneIndex.h"
 #include "plugin/hydra/sourceFormsSceneIndex.h"
 
+#include <pxr/imaging/hd/dependencyForwardingSceneIndex.h>
 #include <pxr/imaging/hd/retainedDataSource.h>
 #include <pxr/imaging/hd/sceneIndexPlugin.h>
 #include <pxr/imaging/hd/sceneIndexPluginRegistry.h>
@@ -38,7 +39,9 @@ protected:
     HdSceneIndexBaseRefPtr _AppendSceneIndex(const HdSceneIndexBaseRefPtr& input,
                                              const HdContainerDataSourceHandle&) override {
         // Coordinate systems are bound to any prims; delegates know those of a type of their own.
-        HdSceneIndexBaseRefPtr scene = HdsiCoordSysPrimSceneIndex::New(input);
+        // They move with those prims, which scene indices before these two do not know.
+        HdSceneIndexBaseRefPtr scene =
+            HdDependencyForwardingSceneIndex::New(HdsiCoordSysPrimSceneIndex::New(input));
 #if PATINA_HAS_VELOCITY_MOTION
         // Scene indices hand velocities on, and leave to the renderer what they do to points.
         scene = HdsiVelocityMotionResolvingSceneIndex::New(scene);

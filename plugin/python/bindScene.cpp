@@ -5,7 +5,7 @@
 #include "hdDelegate/scene/cameraInputs.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/sceneDump.h"
-#include "materialNetwork/shadingPoint.h"
+#include "materialNetwork/material.h"
 #include "plugin/python/fields.h"
 #include "plugin/python/warningList.h"
 

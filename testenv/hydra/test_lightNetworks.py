@@ -38,5 +38,5 @@ def test_nodes_are_evaluated_as_on_the_command_line(tmp_path, light, scene_index
     shot = stages.Shot(str(stage), tmp_path, width=16)
     picture, dump = render_with_hydra(shot, tmp_path, scene_index)
     text = block(dump, "/light")
-    assert "exposure = 3" in text and "terminal color = /rig/image.out" in text, dump
+    assert "exposure = 3" in text and "connect displacement = /rig/image.out" in text, dump
     compare(shot, picture, scene_index)

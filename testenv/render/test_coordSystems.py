@@ -103,7 +103,8 @@ def test_a_projection_is_that_of_its_matrix(tmp_path, binding, applied, place, b
 
 def test_bindings_are_inherited_and_the_nearest_counts(tmp_path):
     text = PROJECTOR % PLACES["turned"] + PROJECTOR.replace("projector", "other") % PLACES["moved"]
-    inner = f'def Xform "set" {applying(APPLIED)}\n{{\n{NEW % "/other"}\ndef Xform "part" {applying(APPLIED)}\n{{\n%s{wall()}}}\n}}\n'
+    part = f'def Xform "part" {applying(APPLIED)}\n{{\n%s{wall()}}}\n'
+    inner = f'def Xform "set" {applying(APPLIED)}\n{{\n{NEW % "/other"}\n{part}}}\n'
     wanted = {name: rendered(tmp_path, wall() + by_matrix(place))[0] for name, place in PLACES.items()}
     assert_alike(rendered(tmp_path, text + inner % "" + NAMED)[0], wanted["moved"])
     assert_alike(rendered(tmp_path, text + inner % (NEW % "/projector" + "\n") + NAMED)[0], wanted["turned"])
@@ -138,7 +139,8 @@ def test_a_space_of_a_prototype_moves_with_its_instances(tmp_path):
     """Two instances look alike, each from before itself: a projector among the prims of both."""
     text = 'class "kind"\n{\n' + PROJECTOR % PLACES["turned"] + wall(NEW % "/kind/projector", APPLIED) + "}\n"
     instances = "".join(f'def Xform "{n}" (instanceable = true\n prepend inherits = </kind>)\n{{\n'
-                        f'    double3 xformOp:translate = ({x}, 0, 0)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}}\n'
+                        f'    double3 xformOp:translate = ({x}, 0, 0)\n'
+                        '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
                         for n, x in (("one", 0), ("two", 7)))
     first, _ = rendered(tmp_path, text + instances + NAMED)
     away = instances.replace("(7, 0, 0)", "(0, 0, 0)").replace("= (0, 0, 0)", "= (7, 0, 0)", 1)

@@ -100,7 +100,7 @@ def test_an_image_node_is_the_texture(tmp_path, kind, backend):
 
 @BOTH
 def test_a_sky_of_nodes(tmp_path, backend):
-    """A sky of radiance cos(theta) about the zenith has the irradiance 2 pi / 3. Below the horizon negative values are black."""
+    """A sky of radiance cos(theta) about the zenith has the irradiance 2 pi / 3. Negative values are black."""
     image, warned = rendered(tmp_path, light("DomeLight", [COLOR % "grey"], ""), backend, samples=256)
     # Samples follow radiance times cosine; the image's cells are 180 / 256 degrees high, over which a cosine is linear to 2e-5.
     assert image.mean() == pytest.approx(0.5 / np.pi * 2 * np.pi / 3, rel=0.01) and not warned
@@ -123,7 +123,7 @@ def test_what_no_light_can_take_is_told(tmp_path):
 @BOTH
 @pytest.mark.parametrize("output, more", [("mtlx:light", ""), ("light", ""), ("mtlx:light", "surface")])
 def test_a_light_shader_on_geometry_shines(tmp_path, output, more, backend):
-    """A material whose only shader is MaterialX's light: its radiance is edf * intensity * 2^exposure. A surface comes first."""
+    """A material whose only shader is MaterialX's light: its radiance is edf * intensity * 2^exposure. Surfaces come first."""
     look = f"""def Material "lamp"
 {{
     token outputs:{output}.connect = </lamp/light.outputs:out>

@@ -197,7 +197,8 @@ class Walk:
                 material, rules = outer.material, outer.material_rules
             split = self.walked.values.split(state.primvars)
             key = (str(prototype.GetPath()), material, rules, state.purpose, state.draw_mode,
-                   tuple(sorted(state.marks.items())), state.spaces, split.key, outer.name if self._reaches_out(prototype, outer) else "",
+                   tuple(sorted(state.marks.items())), state.spaces, split.key,
+                   outer.name if self._reaches_out(prototype, outer) else "",
                    self._levels.signature(found.prim, outer), self._pass.signature(found.path) if self._pass else "")
             group = self._native.get(key)
             if group is None:

@@ -2,6 +2,8 @@
 // Hermite curves for scene indices: UsdImaging's own adapter is for UsdImagingDelegate alone. The
 // adapter asks for no schema, so it stands beside UsdImaging's.
 
+#if __has_include(<pxr/usdImaging/usdImaging/apiSchemaAdapter.h>) // OpenUSD may be built without
+
 #include "hdDelegate/hydra/compat.h"
 #include "hdDelegate/hydra/sourceForms.h"
 
@@ -88,3 +90,5 @@ TF_REGISTRY_FUNCTION(TfType) {
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE
+
+#endif

@@ -4,8 +4,6 @@
 #include "hdDelegate/hydra/sourceForms.h"
 #include "plugin/hydra/overlays.h"
 
-#include <pxr/imaging/hd/tokens.h>
-
 #include <map>
 #include <string>
 #include <vector>
@@ -85,7 +83,7 @@ private:
 
 /// What the next scene indices know.
 TfToken knownType(const TfToken& type) {
-    return type == patina::hermitePrimType ? HdPrimTypeTokens->nurbsCurves : type;
+    return type == patina::hermitePrimType ? TfToken("nurbsCurves") : type;
 }
 
 } // namespace

@@ -50,7 +50,7 @@ KINDS = {
                [f"testenv/scenes/{SCENES[0]}.usda", "--imageWidth", "32", "--maxSamples", "4", "--quiet"],
                ["scenes.csv", "*-relMSE.svg", "*-flip.svg", "*-rmse.svg"]),
     # "knot": testenv/splatKnot.py --alone, which leaves nothing to the rasterizer that it draws otherwise
-    "splats": ([["knot", "--imageWidth", "128", "--maxSamples", "16", "--tolerances", "none", "--referenceSamples", "256",
+    "splats": ([["knot", "--imageWidth", "96", "--maxSamples", "16", "--tolerances", "none", "--referenceSamples", "256",
                  "--quiet"]],
                ["knot", "--imageWidth", "32", "--maxSamples", "4", "--tolerances", "none", "--quiet"],
                ["splatKnot-relMSE.svg"]),

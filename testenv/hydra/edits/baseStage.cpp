@@ -19,14 +19,8 @@ const char* const geometryText = R"(
             uniform token subdivisionScheme = "none"
             rel material:binding = </World/materials/standard>
         }
-        def Xform "projector"
+        def Mesh "polygons" (prepend apiSchemas = ["MaterialBindingAPI"])
         {
-            double3 xformOp:translate = (0, 1, 0)
-            uniform token[] xformOpOrder = ["xformOp:translate"]
-        }
-        def Mesh "polygons" (prepend apiSchemas = ["MaterialBindingAPI", "CoordSysAPI:paint"])
-        {
-            rel coordSys:paint:binding = </World/geometry/projector>
             int[] faceVertexCounts = [4, 3]
             int[] faceVertexIndices = [0, 1, 2, 3, 2, 1, 4]
             point3f[] points = [(-1, 0.2, 0), (0, 0.2, 0), (0, 1, 0), (-1, 1, 0), (0.6, 0.6, 0.2)]

@@ -128,29 +128,6 @@ void moveLight(const UsdStageRefPtr& stage, Host&, Random& random) {
     if (!ops.empty()) ops.front().Set(GfVec3d(random.vec3(1.0f, 4.0f)));
 }
 
-/// A coordinate system that a mesh is bound to.
-void moveProjector(const UsdStageRefPtr& stage, Host&, Random& random) {
-    const UsdGeomXformable projector(stage->GetPrimAtPath(SdfPath("/World/geometry/projector")));
-    bool resets = false;
-    const std::vector<UsdGeomXformOp> ops = projector.GetOrderedXformOps(&resets);
-    if (!ops.empty()) ops.front().Set(GfVec3d(random.vec3(-1.0f, 1.0f)));
-}
-
-/// Connects an input to a node, or takes the connection away.
-void connectLight(const UsdStageRefPtr& stage, Host&, Random& random) {
-    const UsdPrim light = anyLight(stage, random);
-    UsdShadeInput exposure =
-        UsdLuxLightAPI(light).CreateInput(TfToken("exposure"), SdfValueTypeNames->Float);
-    UsdShadeShader node =
-        UsdShadeShader::Define(stage, light.GetPath().AppendChild(TfToken("stops")));
-    node.SetShaderId(TfToken("ND_constant_float"));
-    node.CreateInput(TfToken("value"), SdfValueTypeNames->Float).Set(random.real(-1.0f, 1.0f));
-    if (random.chance(0.3f))
-        exposure.ClearSources();
-    else
-        exposure.ConnectToSource(node.CreateOutput(TfToken("out"), SdfValueTypeNames->Float));
-}
-
 void linkLight(const UsdStageRefPtr& stage, Host& host, Random& random) {
     if (!PATINA_HAS_LATE_COLLECTIONS && host.options().sceneIndex) return;
     const UsdCollectionAPI links =
@@ -189,8 +166,6 @@ const std::vector<Edit>& shadingEdits() {
         {"changeLight", changeLight},
         {"shapeLight", shapeLight},
         {"moveLight", moveLight},
-        {"moveProjector", moveProjector},
-        {"connectLight", connectLight},
         {"linkLight", linkLight},
         {"addOrRemoveLight", addOrRemoveLight},
     };

@@ -21,7 +21,8 @@ Network modelNetwork(const std::string& id, Inputs inputs = {}) {
 /// A model of any type at work in a surface: patterns as its light, closures as what it scatters.
 Network asSurface(const ShadingModel& model, Inputs inputs) {
     const ValueType type = model.def.outputs[0].type;
-    if (type == ValueType::SurfaceShader || type == ValueType::Material)
+    if (type == ValueType::SurfaceShader || type == ValueType::Material ||
+        type == ValueType::LightShader)
         return modelNetwork(model.def.id, std::move(inputs));
     if (type == ValueType::Bsdf) return bsdfNetwork({makeNode("bsdf", model.def.id, inputs)});
     if (type == ValueType::Edf)

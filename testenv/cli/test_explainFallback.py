@@ -11,7 +11,7 @@ from patina.cli import main, materials  # noqa: E402
 STAGE = """#usda 1.0
 def Material "lamp" {
     token outputs:mtlx:surface.connect = </lamp/light.outputs:out>
-    def Shader "light" { uniform token info:id = "ND_light"
+    def Shader "light" { uniform token info:id = "ND_point_light"
         token outputs:out
     }
 }
@@ -32,7 +32,7 @@ def test_a_fallback_is_told_as_one(tmp_path, capsys):
     assert "This material has no usable surface and is not shown." in reported.out
     assert "material /lamp" not in reported.out and "material /displayColor" in reported.out
     assert "\nplan of the fallback: " in reported.out
-    assert "node /lamp/light (ND_light) is not drawn" in reported.err
+    assert "node /lamp/light (ND_point_light) is not drawn" in reported.err
     assert main.main(["explain", f"{stage}:/red"]) == 0
     reported = capsys.readouterr()
     assert "no usable surface" not in reported.out and "\nplan: " in reported.out

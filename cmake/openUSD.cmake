@@ -77,6 +77,10 @@ if(ownPython)
     set(Python3_EXECUTABLE "${ownPython}" CACHE FILEPATH "Python that patina runs in" FORCE)
 endif()
 
+if(TARGET hd AND NOT TARGET usdImaging)
+    message(STATUS "OpenUSD in ${PATINA_PXR_ROOT} has no UsdImaging, the Hydra plugin is not built")
+    return()
+endif()
 if(TARGET hd)
     set(PATINA_PXR_LIBRARIES hd hdsi sdr usdImaging)
     foreach(name ndr usdLod) # merged into sdr by OpenUSD 25.08, new in 26.08

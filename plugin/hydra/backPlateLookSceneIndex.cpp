@@ -60,10 +60,6 @@ HdDataSourceBaseHandle node(const Members& parameters, const Members& inputs,
     return builder.Build();
 }
 
-template <class T, class Source> T valueOf(const Source& source, const T& fallback) {
-    return source ? T(source->GetTypedValue(0.0f)) : fallback;
-}
-
 void tell(const SdfPath& plate, const char* input, const std::string& text) {
     TF_WARN("%s backPlate:%s:%s: %s", plate.GetParentPath().GetText(), plate.GetName().c_str(),
             input, text.c_str());
@@ -92,9 +88,9 @@ HdContainerDataSourceHandle look(const SdfPath& path, const HdBackPlateSchema& p
                     {"ior", parameter(1.0f)},
                     {"opacityMode", parameter(TfToken("presence"))}};
     Members inputs;
-    const GfVec3f lift = valueOf(plate.GetLumaLift(), GfVec3f(0.0f));
-    const GfVec3f scale = valueOf(plate.GetLumaGain(), GfVec3f(1.0f)) - lift;
-    GfVec3f gamma = valueOf(plate.GetLumaGamma(), GfVec3f(1.0f));
+    const GfVec3f lift = HdPatinaValueOf(plate.GetLumaLift(), GfVec3f(0.0f));
+    const GfVec3f scale = HdPatinaValueOf(plate.GetLumaGain(), GfVec3f(1.0f)) - lift;
+    GfVec3f gamma = HdPatinaValueOf(plate.GetLumaGamma(), GfVec3f(1.0f));
     nodes["UsdUVTexture"] = node({{"scale", parameter(GfVec4f(scale[0], scale[1], scale[2], 1.0f))},
                                   {"bias", parameter(GfVec4f(lift[0], lift[1], lift[2], 0.0f))}},
                                  {});
@@ -108,7 +104,7 @@ HdContainerDataSourceHandle look(const SdfPath& path, const HdBackPlateSchema& p
                  {{"in1", connection("UsdUVTexture", "rgb")}}, "ND_power_color3");
         inputs["emissiveColor"] = connection("graded", "out");
     }
-    const SdfAssetPath alpha = valueOf(plate.GetAlphaImage(), SdfAssetPath());
+    const SdfAssetPath alpha = HdPatinaValueOf(plate.GetAlphaImage(), SdfAssetPath());
     if (!alpha.GetResolvedPath().empty())
         if (const char* output = alphaOutput(path, alpha.GetResolvedPath())) {
             nodes["alpha"] =
@@ -119,7 +115,7 @@ HdContainerDataSourceHandle look(const SdfPath& path, const HdBackPlateSchema& p
                      {{"st", connection("UsdPrimvarReader_float2", "result")}}, "UsdUVTexture");
             inputs["opacity"] = connection("alpha", output);
         }
-    if (!valueOf(plate.GetDepthImage(), SdfAssetPath()).GetAssetPath().empty())
+    if (!HdPatinaValueOf(plate.GetDepthImage(), SdfAssetPath()).GetAssetPath().empty())
         tell(path, "depth:image", patina::Message(patina::messages::backPlateFlat).text());
     nodes["UsdPreviewSurface"] = node(surface, inputs);
     HdDataSourceBaseHandle nested = container(nodes);

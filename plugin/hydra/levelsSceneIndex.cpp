@@ -30,12 +30,9 @@ const TfToken& prototypeName() {
     return name;
 }
 
-template <class T, class Source> T valueOf(const Source& source, const T& fallback) {
-    return source ? T(source->GetTypedValue(0.0f)) : fallback;
-}
-
 GfMatrix4d matrixOf(const HdSceneIndexPrim& prim) {
-    return valueOf(HdXformSchema::GetFromParent(prim.dataSource).GetMatrix(), GfMatrix4d(1.0));
+    return HdPatinaValueOf(HdXformSchema::GetFromParent(prim.dataSource).GetMatrix(),
+                           GfMatrix4d(1.0));
 }
 
 GfFrustum frustumOf(const HdSceneIndexPrim& prim) {
@@ -47,7 +44,7 @@ GfFrustum frustumOf(const HdSceneIndexPrim& prim) {
         return source ? float(source->GetTypedValue(0.0f) / unit) : fallback;
     };
     out.SetTransform(matrixOf(prim));
-    if (valueOf(camera.GetProjection(), TfToken()) == HdCameraSchemaTokens->orthographic)
+    if (HdPatinaValueOf(camera.GetProjection(), TfToken()) == HdCameraSchemaTokens->orthographic)
         out.SetProjection(GfCamera::Orthographic);
     const double aperture = GfCamera::APERTURE_UNIT;
     out.SetHorizontalAperture(
@@ -58,7 +55,7 @@ GfFrustum frustumOf(const HdSceneIndexPrim& prim) {
     out.SetVerticalApertureOffset(length(camera.GetVerticalApertureOffset(), 0.0f, aperture));
     out.SetFocalLength(
         length(camera.GetFocalLength(), out.GetFocalLength(), GfCamera::FOCAL_LENGTH_UNIT));
-    const GfVec2f clipping = valueOf(camera.GetClippingRange(), GfVec2f(1.0f, 1e6f));
+    const GfVec2f clipping = HdPatinaValueOf(camera.GetClippingRange(), GfVec2f(1.0f, 1e6f));
     out.SetClippingRange(GfRange1f(clipping[0], clipping[1]));
     return out.GetFrustum();
 }
@@ -119,16 +116,16 @@ HdPatinaLevelsSceneIndex::Place HdPatinaLevelsSceneIndex::nearestPlace(const Sdf
     const HdSceneIndexPrim prim = input->GetPrim(path);
     const GfMatrix4d own = matrixOf(prim);
     const HdInstancedBySchema by = HdInstancedBySchema::GetFromParent(prim.dataSource);
-    const auto instancers = valueOf(by.GetPaths(), VtArray<SdfPath>());
-    const auto roots = valueOf(by.GetPrototypeRoots(), VtArray<SdfPath>());
+    const auto instancers = HdPatinaValueOf(by.GetPaths(), VtArray<SdfPath>());
+    const auto roots = HdPatinaValueOf(by.GetPrototypeRoots(), VtArray<SdfPath>());
     if (instancers.empty() || depth >= maxNesting) return {own, {}};
     const GfMatrix4d outer = nearestPlace(instancers[0], depth + 1).matrix;
 
     const HdContainerDataSourceHandle source = input->GetPrim(instancers[0]).dataSource;
     HdInstancerTopologySchema topology = HdInstancerTopologySchema::GetFromParent(source);
-    const auto prototypes = valueOf(topology.GetPrototypes(), VtArray<SdfPath>());
-    const auto locations = valueOf(topology.GetInstanceLocations(), VtArray<SdfPath>());
-    const auto mask = valueOf(topology.GetMask(), VtBoolArray());
+    const auto prototypes = HdPatinaValueOf(topology.GetPrototypes(), VtArray<SdfPath>());
+    const auto locations = HdPatinaValueOf(topology.GetInstanceLocations(), VtArray<SdfPath>());
+    const auto mask = HdPatinaValueOf(topology.GetMask(), VtBoolArray());
     const HdPrimvarsSchema primvars = HdPrimvarsSchema::GetFromParent(source);
     std::vector<std::vector<GfMatrix4d>> parts;
     for (const TfToken& name :
@@ -160,8 +157,8 @@ HdPatinaLevelsSceneIndex::Place HdPatinaLevelsSceneIndex::nearestPlace(const Sdf
 
 void HdPatinaLevelsSceneIndex::readView() {
     const HdSceneIndexBaseRefPtr& input = _GetInputSceneIndex();
-    _camera =
-        valueOf(HdSceneGlobalsSchema::GetFromSceneIndex(input).GetPrimaryCameraPrim(), SdfPath());
+    _camera = HdPatinaValueOf(HdSceneGlobalsSchema::GetFromSceneIndex(input).GetPrimaryCameraPrim(),
+                              SdfPath());
     _view = frustumOf(_camera.IsEmpty() ? HdSceneIndexPrim() : input->GetPrim(_camera));
 }
 

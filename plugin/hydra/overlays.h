@@ -23,6 +23,11 @@ inline HdContainerDataSourceHandle HdPatinaConstantPrimvar(const HdSampledDataSo
         .Build();
 }
 
+/// What a data source holds at the frame's time; without one the fallback.
+template <class T, class Source> T HdPatinaValueOf(const Source& source, const T& fallback) {
+    return source ? T(source->GetTypedValue(0.0f)) : fallback;
+}
+
 /// Lays constant primvars over those of a prim.
 inline void
 HdPatinaOverlayPrimvars(HdSceneIndexPrim& prim,

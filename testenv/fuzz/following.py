@@ -14,25 +14,35 @@ ENDING_SECONDS = 30  # of a program that was asked to end
 TOLD = 1 << 20  # characters that are kept of what a program says, of its end
 
 
-class Plateau:
-    """How long no new edge was reached, over runs that go on from each other."""
+def _processor_seconds(pid):
+    """:returns: seconds of processors that a process has had, of all its threads; 0 where it is gone"""
+    try:
+        with open(f"/proc/{pid}/stat", encoding="utf-8", errors="replace") as file:
+            fields = file.read().rpartition(")")[2].split()
+    except OSError:
+        return 0.0
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
-    def __init__(self, clock=time.monotonic):
-        self.clock, self.edges = clock, 0
-        self.since = clock()
+
+class Plateau:
+    """For how long no new edge was reached, over runs that go on from each other: in seconds of processors, since a program that
+    waits for one tries nothing."""
+
+    def __init__(self):
+        self.edges, self.used, self.since = 0, 0.0, 0.0
 
     def hear(self, line):
         found = _COVERED.search(line)
         if found and int(found.group(1)) > self.edges:
-            self.edges, self.since = int(found.group(1)), self.clock()
+            self.edges, self.since = int(found.group(1)), self.used
 
     def seconds(self):
-        return self.clock() - self.since
+        return self.used - self.since
 
 
 def run(command, plateau, most, **options):
     """:param plateau: Plateau, which hears each line
-    :param most: seconds without a new edge after which the program is asked to end
+    :param most: seconds of processors without a new edge after which the program is asked to end
     :param options: of subprocess.Popen
     :returns: (exit status, 0 where it was asked to end; what it said; inputs that it ran)"""
     told, size = [], 0
@@ -41,7 +51,9 @@ def run(command, plateau, most, **options):
         asked = threading.Event()
 
         def watch():
+            before = plateau.used
             while process.poll() is None and not asked.is_set():
+                plateau.used = max(plateau.used, before + _processor_seconds(process.pid))
                 if plateau.seconds() >= most:
                     asked.set()
                     process.send_signal(signal.SIGINT)

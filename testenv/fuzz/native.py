@@ -69,7 +69,7 @@ def _why(text):
 def run(name, fuzzer, folder, corpus, seconds, plateau, seed, say):
     """Runs a program for a time; after a finding it goes on.
 
-    :param plateau: seconds without a new edge after which it ends
+    :param plateau: seconds of processors without a new edge after which it ends
     :param corpus: folder of inputs; new ones that reach new code are added, and it is minimised
     :returns: as generated.run(), with lines as (covered, all), and how long no edge was new at the end"""
     program = os.path.join(folder, "fuzzers", name)

@@ -211,11 +211,17 @@ def test_time_goes_where_something_new_is_reached(monkeypatch):
 @pytest.mark.parametrize("most, status", [(0.3, 0), (HANGS, 3)])
 def test_a_plateau_ends_a_program(most, status):
     """It is asked to end where it reaches nothing new, and may go on where it does."""
-    program = "import signal\nprint('#2\\tINITED cov: 7 ft: 8', flush=True)\nprint('#40\\tpulse cov: 7', flush=True)\n"
-    program += "signal.pause()\n" if not status else "raise SystemExit(3)\n"
+    program = "print('#2\\tINITED cov: 7 ft: 8', flush=True)\nprint('#40\\tpulse cov: 7', flush=True)\n"
+    program += "while True:\n    pass\n" if not status else "raise SystemExit(3)\n"
     edges = following.Plateau()
     found, said, inputs = following.run([sys.executable, "-c", program], edges, most)
     assert (found, inputs, edges.edges) == (status, 40, 7) and "INITED" in said
+
+
+def test_a_program_that_waits_reaches_no_plateau():
+    edges = following.Plateau()
+    following.run([sys.executable, "-c", "import time\nprint('#2 cov: 7', flush=True)\ntime.sleep(1.5)"], edges, 1.0)
+    assert edges.seconds() < 1.0
 
 
 def test_crashes_of_libraries_are_theirs():

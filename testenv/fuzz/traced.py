@@ -41,7 +41,7 @@ def coverage(name, sources, folder):
 def run(name, fuzzer, corpus, seconds, plateau, seed, say):
     """:param fuzzer: of fuzzers.py
     :param corpus: folder of inputs that grows
-    :param plateau: seconds without a new edge after which it ends
+    :param plateau: seconds of processors without a new edge after which it ends
     :returns: as native.run()"""
     work = os.path.join(corpus, name)
     os.makedirs(work, exist_ok=True)

@@ -25,7 +25,7 @@ def _processor_seconds(pid):
 
 
 class Plateau:
-    """For how long no new edge was reached, over runs that go on from each other: in seconds of processors, since a program that
+    """For how long no new edge was reached, over runs that go on from each other. Seconds are those of processors: a program that
     waits for one tries nothing."""
 
     def __init__(self):

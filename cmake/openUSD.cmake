@@ -82,7 +82,7 @@ if(TARGET hd AND NOT TARGET usdImaging)
     return()
 endif()
 if(TARGET hd)
-    set(PATINA_PXR_LIBRARIES hd hdsi sdr usdImaging)
+    set(PATINA_PXR_LIBRARIES hd hdsi hgi sdr usdImaging)
     foreach(name ndr usdLod) # merged into sdr by OpenUSD 25.08, new in 26.08
         if(TARGET ${name})
             list(APPEND PATINA_PXR_LIBRARIES ${name})

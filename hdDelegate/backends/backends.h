@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/renderer/hostDevice.h"
 #include "hdDelegate/renderer/renderer.h"
 
 #include <memory>
@@ -19,6 +20,12 @@ const std::vector<std::string>& backendNames();
 /// If there is no OpenGL 4.5, or the driver fails during a render, raster falls back to the path
 /// tracer, and interactive continues without its first image. The scene's diagnostics say so, once.
 /// RenderProgress::backend names the back end that made an image.
-std::unique_ptr<Renderer> makeBackend(const std::string& name);
+/// @param device that its images are drawn on, if it can; null: on one of its own
+std::unique_ptr<Renderer> makeBackend(const std::string& name,
+                                      const std::shared_ptr<HostDevice>& device = nullptr);
+
+/// The device whose context of OpenGL is current on this thread.
+/// @returns null, with a one-line reason, where images cannot be drawn on it
+std::shared_ptr<HostDevice> currentHostDevice(std::string& why);
 
 } // namespace patina

@@ -39,7 +39,7 @@ void InteractiveRenderer::start(std::shared_ptr<Scene> scene, const std::string&
     _fromQuick = Source();
     _fromSlow = Source();
     _last = RenderProgress();
-    _quickEnded = _slowStarted = _pause = _stop = false;
+    _quickShown = _copied = _quickEnded = _slowStarted = _pause = _stop = false;
     _running = true;
     const auto state = _scene->snapshot();
     const auto prim = state->cameras.find(camera);
@@ -113,16 +113,35 @@ RenderProgress InteractiveRenderer::progress() const {
     return p;
 }
 
-/// On the threads of either renderer: copies the film, so that they go on with their work.
+/// On the threads of either renderer: copies the film, so that they go on with their work. Of what
+/// the quick one has on a device only what is mixed is copied, and its last image.
 void InteractiveRenderer::onProgress(Source& source, const Film& film,
                                      const RenderProgress& progress) {
+    const bool quick = &source == &_fromQuick;
+    if (quick && film.source() && _imagesMayStay && _listener && !progress.failed) {
+        bool alone;
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            if (_stop) return;
+            alone = !_copied;
+            _quickShown |= alone;
+        }
+        if (alone) {
+            RenderProgress shown = progress;
+            shown.converged = false;
+            _listener(film, shown);
+            _changed.notify_all();
+            if (!progress.converged) return;
+        }
+    }
     {
         const std::lock_guard<std::mutex> lock(_mutex);
         if (_stop) return;
         if (!progress.failed && _listener) source.film->copyFrom(film);
+        _copied = true;
         source.progress = progress;
         source.news = true;
-        if (&source == &_fromQuick) _quickEnded = source.ended();
+        if (quick) _quickEnded = source.ended();
     }
     _changed.notify_all();
 }
@@ -157,7 +176,7 @@ bool InteractiveRenderer::awaitNews(const std::string& camera, Clock::time_point
     std::unique_lock<std::mutex> lock(_mutex);
     const auto news = [&] {
         return _stop || _pause || _fromQuick.news || _fromSlow.news ||
-               (_quickEnded && !_slowStarted);
+               ((_quickEnded || _quickShown) && !_slowStarted);
     };
     if (shown) {
         startSlow(camera);
@@ -168,7 +187,8 @@ bool InteractiveRenderer::awaitNews(const std::string& camera, Clock::time_point
             _changed.wait(lock, [&] { return _stop || !_pause; });
             continue;
         }
-        if (shown || _quickEnded || Clock::now() >= started + patience) startSlow(camera);
+        if (shown || _quickShown || _quickEnded || Clock::now() >= started + patience)
+            startSlow(camera);
         if (stepping || _fromQuick.news || _fromSlow.news) break;
         if (_slowStarted)
             _changed.wait(lock, news);
@@ -205,11 +225,12 @@ void InteractiveRenderer::changeOver(const std::string& camera) {
     bool stepping = false;
     int stepsLeft = 1; // at least, to the target
     while (awaitNews(camera, started, stepping, !shown.empty())) {
-        bool news;
+        bool news, onDevice;
         {
             const std::lock_guard<std::mutex> lock(_mutex);
             news = fetch(_fromQuick, quick);
             news |= fetch(_fromSlow, slow);
+            onDevice = _quickShown;
         }
         checkFailure(quick.progress);
         if (slow.progress.failed || (slow.ended() && !_listener)) {
@@ -217,9 +238,11 @@ void InteractiveRenderer::changeOver(const std::string& camera) {
             if (_listener) _listener(*_film, slow.progress);
             return end(slow.progress);
         }
+        if (quick.picture.empty()) arena.execute([&] { quick.picture = pictureOf(*quick.film); });
+        // What is mixed begins with what was seen, which comes with the quick one's next image.
+        if (onDevice && !quick.hasImage() && !quick.ended()) continue;
         if (slow.ended() && news) _quick->stop();
         arena.execute([&] {
-            if (quick.picture.empty()) quick.picture = pictureOf(*quick.film);
             if (slow.picture.empty()) {
                 slow.picture = pictureOf(*slow.film);
                 slow.noise = noiseOf(*slow.film);
@@ -234,6 +257,7 @@ void InteractiveRenderer::changeOver(const std::string& camera) {
             stepping = false;
             if (target.empty()) return;
             if (news && slow.hasImage()) stepsLeft = slow.ended() ? lastSteps : steps;
+            if (shown.empty() && onDevice) shown = quick.picture;
             if (shown.empty())
                 shown = target;
             else

@@ -18,7 +18,9 @@ namespace patina {
 /// Both render at the same time. The slow one starts, into the host's film, when the quick one has
 /// shown an image (or after a fifth of a second). Until the end the listener gets another film:
 /// first the quick renderer's, then refine() of both. Between two calls largestStep() is never
-/// above `largestChange`. The last call has the host's film, which is the slow renderer's alone.
+/// above `largestChange`, but for images of the quick one that stay on its device: these are shown
+/// as they are, until there is a sample of the slow one. The last call has the host's film, which
+/// is the slow renderer's alone.
 /// AOVs other than colour are the quick renderer's until the slow one has taken a sample of every
 /// pixel.
 ///
@@ -41,6 +43,7 @@ public:
     void wait() override;
     RenderProgress progress() const override;
     void setListener(FilmListener listener) override { _listener = std::move(listener); }
+    void letImagesStay(bool stay) override { _imagesMayStay = stay; }
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -69,6 +72,7 @@ private:
     std::unique_ptr<Renderer> _quick, _slow;
     FilmListener _listener;
     std::atomic<bool> _quickLost{false};
+    bool _imagesMayStay = false;
 
     std::shared_ptr<Scene> _scene;
     RenderSettings _settings;
@@ -80,6 +84,8 @@ private:
     std::condition_variable _changed;
     Source _fromQuick, _fromSlow; ///< guarded by _mutex
     RenderProgress _last;         ///< of a render that has ended
+    bool _quickShown = false;     ///< an image that stays on its device
+    bool _copied = false;         ///< something that the thread shows
     bool _quickEnded = false, _slowStarted = false, _pause = false, _stop = false;
     std::atomic<bool> _running{false};
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/hydra/hostTextures.h"
 #include "hdDelegate/hydra/renderParam.h"
 #include "hdDelegate/hydra/session.h"
 #include "hdDelegate/hydra/settings.h"
@@ -28,6 +29,9 @@ struct HdPatinaSettingsPrim {
 class HdPatinaDelegateState {
 public:
     HdPatinaRenderParam param;
+    /// Buffers hold it too, and may go last.
+    const std::shared_ptr<HdPatinaHostTextures> hostTextures =
+        std::make_shared<HdPatinaHostTextures>();
 
     /// The delegate's setting map, and on top of it the active settings prim.
     HdPatinaSettings settings() const;

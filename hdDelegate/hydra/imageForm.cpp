@@ -8,15 +8,18 @@
 
 namespace patina {
 
-void HdPatinaImageForm::read(const Film& film, std::vector<uint8_t>& bytes) const {
+void HdPatinaImageForm::read(const Film& film, HdPatinaPixels& result) const {
     AovSpec spec;
     const bool found = film.width() > 0 && !aov.empty() && film.findSpec(aov, spec);
     const size_t first = layer > 0 ? 4 * size_t(layer) : 0;
     const int shown = layer < 0 ? spec.components : std::min(spec.components - int(first), 4);
     const bool known =
         found && shown > 0 && shown <= 4 && format != HdFormatInvalid; // rows have four floats
+    result.device.reset();
+    if (known && readFromSource(film, spec, result)) return;
+    std::vector<uint8_t>& bytes = result.bytes;
     bytes.resize(known ? size_t(width) * size_t(height) * HdDataSizeOfFormat(format) : 0);
-    if (bytes.empty() || readFromSource(film, spec, bytes)) return;
+    if (bytes.empty()) return;
     const bool isColor = spec.id == AovId::color, replaced = replaces(spec);
     const std::vector<float> pixels = film.resolve(aov);
     const std::vector<float> alpha = isColor ? film.resolve("alpha") : std::vector<float>();
@@ -38,7 +41,7 @@ void HdPatinaImageForm::read(const Film& film, std::vector<uint8_t>& bytes) cons
 }
 
 bool HdPatinaImageForm::readFromSource(const Film& film, const AovSpec& spec,
-                                       std::vector<uint8_t>& bytes) const {
+                                       HdPatinaPixels& pixels) const {
     const FilmSource* source = film.source();
     if (!source || !source->has(spec.id) || int(width) != film.width() ||
         int(height) != film.height())
@@ -55,7 +58,14 @@ bool HdPatinaImageForm::readFromSource(const Film& film, const AovSpec& spec,
     if (!clear.empty)
         form.background = {clear.values[0], clear.values[1], clear.values[2], clear.values[3]};
     form.nothing = replaces(spec) ? clear.values[0] : spec.clearValue;
-    return source->read(spec.id, form, bytes.data());
+    if (onDevice) {
+        form.depth = pixels.isDepth = spec.id == AovId::deviceDepth;
+        pixels.device = source->draw(spec.id, form);
+        if (pixels.device) return true;
+        form.depth = false;
+    }
+    pixels.bytes.resize(size_t(width) * size_t(height) * HdDataSizeOfFormat(format));
+    return source->read(spec.id, form, pixels.bytes.data());
 }
 
 } // namespace patina

@@ -36,7 +36,9 @@ unsigned int nextAllocation() {
 
 } // namespace
 
-HdPatinaRenderBuffer::HdPatinaRenderBuffer(const SdfPath& id) : HdRenderBuffer(id) {
+HdPatinaRenderBuffer::HdPatinaRenderBuffer(const SdfPath& id,
+                                           std::shared_ptr<HdPatinaHostTextures> textures)
+    : HdRenderBuffer(id), _textures(std::move(textures)) {
     const std::lock_guard<std::mutex> lock(registry().mutex);
     registry().buffers.emplace(this, this);
 }
@@ -44,6 +46,7 @@ HdPatinaRenderBuffer::HdPatinaRenderBuffer(const SdfPath& id) : HdRenderBuffer(i
 HdPatinaRenderBuffer::~HdPatinaRenderBuffer() {
     const std::lock_guard<std::mutex> lock(registry().mutex);
     registry().buffers.erase(this);
+    _textures->forget(this);
 }
 
 HdPatinaRenderBuffer* HdPatinaRenderBuffer::known(const HdRenderBuffer* buffer) {
@@ -98,6 +101,7 @@ void HdPatinaRenderBuffer::_Deallocate() {
     _height = 0;
     _format = HdFormatInvalid;
     std::vector<uint8_t>().swap(_bytes);
+    forgetImage();
     _mappers = 0;
     _converged = false;
     _allocation = nextAllocation();
@@ -105,6 +109,9 @@ void HdPatinaRenderBuffer::_Deallocate() {
 
 void* HdPatinaRenderBuffer::Map() {
     std::lock_guard<std::mutex> lock(_mutex);
+    if (_bytesAreOld && !_image.device->read(_bytes.data()))
+        TF_RUNTIME_ERROR("render buffer %s: the device gives no pixels", GetId().GetText());
+    _bytesAreOld = false;
     ++_mappers;
     return _bytes.empty() ? nullptr : _bytes.data();
 }
@@ -118,18 +125,46 @@ void HdPatinaRenderBuffer::Unmap() {
     if (_mappersBefore == 0) std::vector<uint8_t>().swap(_mappedBytes);
 }
 
-bool HdPatinaRenderBuffer::take(std::vector<uint8_t>& image) {
+bool HdPatinaRenderBuffer::take(HdPatinaPixels& image) {
     const std::lock_guard<std::mutex> lock(_mutex);
-    if (image.empty() || image.size() != _bytes.size()) return true;
+    if (image.device ? _bytes.empty() : image.bytes.empty() || image.bytes.size() != _bytes.size())
+        return true;
     if (_mappers > 0) return false;
-    _bytes.swap(image);
+    if (image.device) {
+        std::swap(_image.device, image.device);
+        _image.isDepth = image.isDepth;
+        _bytesAreOld = true;
+        return true;
+    }
+    forgetImage();
+    _bytes.swap(image.bytes);
     return true;
+}
+
+void HdPatinaRenderBuffer::forgetImage() {
+    _image = {};
+    _bytesAreOld = false;
+    _resource = HgiTextureHandle();
+    _textures->forget(this);
+}
+
+void HdPatinaRenderBuffer::Resolve() {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    if (!_image.device) return;
+    _resource = _textures->of(this, _width, _height, _format, _image.isDepth);
+    if (_resource) _image.device->copyTo(_resource->GetRawResource());
+}
+
+VtValue HdPatinaRenderBuffer::GetResource(bool) const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _resource ? VtValue(_resource) : VtValue();
 }
 
 void HdPatinaRenderBuffer::clear(const VtValue& value) {
     const ClearValue clear = clearValueOf(value);
     const std::lock_guard<std::mutex> lock(_mutex);
     if (_mappers > 0 || _bytes.empty()) return;
+    forgetImage();
     const unsigned width = _width;
     // Isolated: work of others that wants this buffer would wait for the lock that is held here.
     runIsolated([&] {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/hydra/compat.h"
+#include "hdDelegate/hydra/hostTextures.h"
+#include "hdDelegate/hydra/imageForm.h"
 
 #include <pxr/imaging/hd/renderBuffer.h>
 
@@ -15,7 +16,7 @@ namespace patina {
 /// thread, so that no renderer ever holds a buffer that goes away.
 class HdPatinaRenderBuffer final : public HdRenderBuffer {
 public:
-    explicit HdPatinaRenderBuffer(const SdfPath& id);
+    HdPatinaRenderBuffer(const SdfPath& id, std::shared_ptr<HdPatinaHostTextures> textures);
     ~HdPatinaRenderBuffer() override;
 
     /// The buffer that a host names; null where it is of another renderer or was destroyed.
@@ -33,19 +34,24 @@ public:
     HdFormat GetFormat() const override { return _format; }
     bool IsMultiSampled() const override { return false; }
 
+    /// Brings the pixels into memory, where they are on the host's device.
     void* Map() override;
     /// Ends the oldest map. Pixels that were allocated anew while they were mapped stay until no
     /// map is left.
     void Unmap() override;
     bool IsMapped() const override { return _mappers > 0; }
-    void Resolve() override {} // the pass writes finished pixels
+    /// Copies an image on the host's device into a texture of the host's, which its tasks may draw
+    /// over.
+    void Resolve() override;
+    /// That texture; empty where the pixels are in memory.
+    VtValue GetResource(bool multiSampled) const override;
     bool IsConverged() const override { return _converged; }
     void setConverged(bool converged) { _converged = converged; }
 
-    /// Shows an image, and gives back the memory of the one before. Images of another size, which
+    /// Shows an image, and gives back the one before. Images of another size, which
     /// were made before a host allocated anew, are left alone, and so are those that are empty.
     /// @returns false, and does nothing, while a host has the pixels mapped
-    bool take(std::vector<uint8_t>& image);
+    bool take(HdPatinaPixels& image);
     /// Fills every pixel with an AOV's clear value, unless a host has them mapped.
     void clear(const VtValue& value);
 
@@ -55,10 +61,15 @@ public:
 
 private:
     void _Deallocate() override;
+    void forgetImage();
 
     std::atomic<unsigned int> _width{0}, _height{0};
     HdFormat _format = HdFormatInvalid;
+    std::shared_ptr<HdPatinaHostTextures> _textures;
     std::vector<uint8_t> _bytes;
+    HdPatinaPixels _image;             ///< on the device; its bytes are never used
+    bool _bytesAreOld = false;         ///< of an image before that on the device
+    HgiTextureHandle _resource;        ///< of the last Resolve()
     std::vector<uint8_t> _mappedBytes; ///< of before, and perhaps read by a host still
     int _mappersBefore = 0;            ///< maps of these that were not ended
     mutable std::mutex _mutex;

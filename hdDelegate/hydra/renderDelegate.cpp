@@ -68,6 +68,7 @@ HdPatinaRenderDelegate::HdPatinaRenderDelegate(const HdRenderSettingsMap& settin
 HdPatinaRenderDelegate::~HdPatinaRenderDelegate() {
     for (const auto& session : _state->sessions())
         session->stop();
+    _state->hostTextures->release();
 }
 
 const TfTokenVector& HdPatinaRenderDelegate::GetSupportedRprimTypes() const {
@@ -221,7 +222,8 @@ void HdPatinaRenderDelegate::DestroySprim(HdSprim* prim) {
 }
 
 HdBprim* HdPatinaRenderDelegate::CreateBprim(const TfToken& type, const SdfPath& id) {
-    if (type == HdPrimTypeTokens->renderBuffer) return new HdPatinaRenderBuffer(id);
+    if (type == HdPrimTypeTokens->renderBuffer)
+        return new HdPatinaRenderBuffer(id, _state->hostTextures);
     if (type == HdPrimTypeTokens->renderSettings) return new HdPatinaRenderSettings(id, _state);
     if (contains(fieldTypes(), type)) return new HdPatinaField(id);
     TF_WARN("%s: prims of type %s are not known", id.GetText(), type.GetText());

@@ -25,6 +25,9 @@ public:
     const TfTokenVector& GetSupportedSprimTypes() const override;
     const TfTokenVector& GetSupportedBprimTypes() const override;
 
+    void SetDrivers(const HdDriverVector& drivers) override {
+        _state->hostTextures->setDrivers(drivers);
+    }
     HdRenderParam* GetRenderParam() const override { return &_state->param; }
     HdResourceRegistrySharedPtr GetResourceRegistry() const override { return _registry; }
 

@@ -153,12 +153,15 @@ void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
                 target.buffer->clear(target.clearValue);
             finish();
         } else {
+            bool onDevice = false;
+            std::shared_ptr<HostDevice> device;
+            if (settings.interactive) device = _state->hostTextures->device(onDevice);
             std::vector<HdPatinaImageForm> forms;
             for (const Target& target : _targets)
                 forms.push_back({target.shown.film, target.shown.layer, target.buffer->GetFormat(),
                                  target.buffer->GetWidth(), target.buffer->GetHeight(),
-                                 clearValueOf(target.clearValue)});
-            _session->start(view.cameraPath, settings, forms);
+                                 clearValueOf(target.clearValue), onDevice});
+            _session->start(view.cameraPath, settings, forms, device);
         }
     }
     if (auto frame = _session->take()) _pending = frame;
@@ -184,19 +187,20 @@ void HdPatinaRenderPass::readRenderTags() {
 
 void HdPatinaRenderPass::show(HdPatinaFrame& frame) {
     if (!frame.error.empty()) TF_RUNTIME_ERROR("Patina cannot render: %s", frame.error.c_str());
-    bool written = true;
+    bool written = true, onDevice = false;
     for (size_t i = 0; i < std::min(_targets.size(), frame.images.size()); ++i) {
-        std::vector<uint8_t>& image = frame.images[i];
+        HdPatinaPixels& image = frame.images[i];
         if (image.empty() || _targets[i].buffer->allocation() != _targets[i].allocation) continue;
+        onDevice |= image.device != nullptr;
         if (!_targets[i].buffer->take(image)) {
             written = false;
             continue;
         }
         _session->giveBack(std::move(image));
-        image.clear();
+        image = {};
     }
     if (!written) return; // mapped: the next Execute tries again
-    _session->countShown();
+    _session->countShown(onDevice);
     if (frame.last) finish();
     _pending.reset();
 }

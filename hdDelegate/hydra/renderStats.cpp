@@ -33,13 +33,14 @@ std::string annotation(const HdPatinaDelegateState& state, const RenderProgress&
 VtDictionary renderStats(const HdPatinaDelegateState& state) {
     RenderProgress slowest;
     bool found = false;
-    int shown = 0;
+    int shown = 0, onDevice = 0;
     for (const auto& session : state.sessions()) {
         const RenderProgress p = session->progress();
         const bool started = session->isRunning() || p.converged || p.failed || p.samplesDone > 0;
         if (started && (!found || p.fraction < slowest.fraction)) {
             slowest = p;
             shown = session->imagesShown();
+            onDevice = session->imagesOnDevice();
         }
         found |= started;
     }
@@ -48,6 +49,8 @@ VtDictionary renderStats(const HdPatinaDelegateState& state) {
     stats["fractionDone"] = VtValue(slowest.fraction);
     stats["numCompletedSamples"] = VtValue(slowest.samplesDone);
     stats["patina:imagesShown"] = VtValue(double(shown));
+    stats["patina:imagesOnDevice"] = VtValue(double(onDevice));
+    stats["patina:imagesByMemory"] = VtValue(state.hostTextures->whyNot());
     stats["totalClockTime"] = VtValue(slowest.secondsRendering);
     stats["timeRemaining"] = VtValue(slowest.secondsLeft);
     stats["renderProgressAnnotation"] = VtValue(annotation(state, slowest));

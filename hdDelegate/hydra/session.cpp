@@ -52,21 +52,24 @@ void HdPatinaSession::stop() {
 }
 
 void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& settings,
-                            const std::vector<HdPatinaImageForm>& forms) {
+                            const std::vector<HdPatinaImageForm>& forms,
+                            const std::shared_ptr<HostDevice>& device) {
     stop();
     const std::string backend = backendOf(settings);
-    std::shared_ptr<Renderer> next = backend == _backend ? renderer() : makeBackend(backend);
+    std::shared_ptr<Renderer> next =
+        backend == _backend && device == _device ? renderer() : makeBackend(backend, device);
     uint64_t serial;
     {
         std::lock_guard<std::mutex> lock(_mutex);
         serial = ++_serial;
         _frame.reset();
-        _shown = 0;
+        _shown = _shownOnDevice = 0;
         _camera = camera;
         _settings = settings;
         _forms = forms;
         std::swap(_renderer, next);
         _backend = backend;
+        _device = device;
     }
     next.reset(); // frees the memory of the back end before
     const auto current = renderer();
@@ -131,7 +134,7 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
     _frame = std::move(frame);
 }
 
-void HdPatinaSession::giveBack(std::vector<uint8_t>&& image) {
+void HdPatinaSession::giveBack(HdPatinaPixels&& image) {
     const std::lock_guard<std::mutex> lock(_mutex);
     _spare.push_back(std::move(image));
 }
@@ -152,7 +155,7 @@ void HdPatinaSession::restart() {
     const std::vector<HdPatinaImageForm> forms = _forms;
     const HdPatinaSettings settings = _settings;
     const std::string camera = _camera;
-    start(camera, settings, forms);
+    start(camera, settings, forms, std::shared_ptr<HostDevice>(_device));
 }
 
 void HdPatinaSession::pause() {

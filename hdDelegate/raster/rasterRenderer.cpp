@@ -4,7 +4,7 @@
 #include "hdDelegate/film/sampler.h"
 #include "hdDelegate/raster/gl/deviceError.h"
 #include "hdDelegate/film/relativeError.h"
-#include "hdDelegate/raster/gl/eglContext.h"
+#include "hdDelegate/raster/gl/glContext.h"
 #include "hdDelegate/raster/gl/glFaults.h"
 #include "hdDelegate/raster/gl/programCompiler.h"
 #include "hdDelegate/raster/passes/rasterPasses.h"
@@ -28,15 +28,15 @@ template <class Function> void onOwnThread(const Function& function) {
 
 class RasterRenderer : public RenderLoop {
 public:
-    explicit RasterRenderer(std::unique_ptr<EglContext> context)
-        : RenderLoop("raster"), _context(std::move(context)) {}
+    RasterRenderer(std::unique_ptr<GlContext> context, std::shared_ptr<HostContext> host)
+        : RenderLoop("raster"), _host(std::move(host)), _context(std::move(context)) {}
 
     ~RasterRenderer() override {
         stop();
         try {
             onOwnThread([this] {
                 {
-                    const EglContext::Use use(*_context);
+                    const GlContext::Use use(*_context);
                     release();
                     _compiler.reset();
                 }
@@ -66,7 +66,7 @@ private:
             _settings.environmentSamples = std::atoi(samples->second.c_str());
         _compiling = false;
         try {
-            const EglContext::Use use(*_context);
+            const GlContext::Use use(*_context);
             if (!use.ok()) throw DeviceError("the OpenGL context cannot be used");
             if (!_deviceFailure.empty()) throw DeviceError(_deviceFailure);
             struct Release { // also where the render fails, which may be for want of memory
@@ -213,7 +213,7 @@ private:
         }
         const bool stays = imageStays(aovs);
         if (stays)
-            _film->resetTo(&_passes->beginImage(*_context, camera), _settings.width,
+            _film->resetTo(&_passes->beginImage(*_context, _host, camera), _settings.width,
                            _settings.height, aovs);
         else
             _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
@@ -387,7 +387,8 @@ private:
         if (lost) throw DeviceError("the driver has reset the OpenGL context");
     }
 
-    std::unique_ptr<EglContext> _context;
+    std::shared_ptr<HostContext> _host; ///< that the context shares its objects with, or null
+    std::unique_ptr<GlContext> _context;
     std::unique_ptr<ProgramCompiler> _compiler; ///< goes before its context
     // Kept between renders, so that an edit rebuilds less than everything.
     std::shared_ptr<CompiledScene> _compiled;
@@ -412,13 +413,16 @@ private:
 } // namespace
 
 bool hasGpu() {
-    return EglContext::hasHardware();
+    return eglHasHardware();
 }
 
-std::unique_ptr<Renderer> makeRasterRenderer(std::string& error) {
-    std::unique_ptr<EglContext> context;
+std::unique_ptr<Renderer> makeRasterRenderer(std::string& error,
+                                             std::shared_ptr<HostContext> host) {
+    std::unique_ptr<GlContext> context;
+    if (host) context = host->share(error);
+    if (!context) host.reset();
     try {
-        onOwnThread([&] { context = EglContext::create(error); });
+        if (!context) onOwnThread([&] { context = GlContext::create(error); });
     } catch (const std::system_error& failure) {
         error = failure.what();
     }
@@ -426,7 +430,7 @@ std::unique_ptr<Renderer> makeRasterRenderer(std::string& error) {
         error = "the rasterizer cannot run: " + error;
         return nullptr;
     }
-    return std::make_unique<RasterRenderer>(std::move(context));
+    return std::make_unique<RasterRenderer>(std::move(context), std::move(host));
 }
 
 } // namespace patina

@@ -2,7 +2,7 @@
 // Names of this build and of this machine's driver, for pages that show measured times.
 
 #ifdef PATINA_HAS_RASTER
-#include "hdDelegate/raster/gl/eglContext.h"
+#include "hdDelegate/raster/gl/glContext.h"
 #endif
 
 #include <pybind11/pybind11.h>
@@ -22,10 +22,10 @@ py::dict machine() {
         dict[name] = "";
 #ifdef PATINA_HAS_RASTER
     std::string error;
-    std::unique_ptr<EglContext> context;
+    std::unique_ptr<GlContext> context;
     {
         const py::gil_scoped_release release;
-        context = EglContext::create(error);
+        context = GlContext::create(error);
     }
     if (context) {
         dict["openglRenderer"] = context->renderer();

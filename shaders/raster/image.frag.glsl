@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One AOV of the image as somebody wants its pixels. IDS: as integers.
+// One AOV of the image as somebody wants its pixels. IDS: as integers; DEPTHS: in a texture of depths.
 layout(binding = 0) uniform sampler2D sums; // of passes
 layout(binding = 1) uniform sampler2D smoothings;
 layout(binding = 2) uniform sampler2D firsts;
@@ -17,7 +17,7 @@ layout(location = 4) uniform mat4 worldToCamera;
 layout(location = 8) uniform vec4 range; // near, far; 1 orthographic; 1 distances from the camera's centre
 #ifdef IDS
 layout(location = 0) out ivec4 outValue;
-#else
+#elif !defined(DEPTHS)
 layout(location = 0) out vec4 outValue;
 #endif
 #ifndef IDS
@@ -57,6 +57,9 @@ void main() {
 #ifdef IDS
     outValue = ivec4(drawn ? texelFetch(ids, pixel, 0)[options.w] : nothing);
 #else
+#ifdef DEPTHS
+    vec4 outValue;
+#endif
     vec4 color = options.x <= ALPHA ? colorOf(pixel) : vec4(0.0);
     if (options.x == COLOR)
         outValue = color + (1.0 - color.a) * other;
@@ -65,5 +68,8 @@ void main() {
     else
         outValue = vec4(drawn ? depthOf((worldToCamera * vec4(place.xyz, 1.0)).xyz) : other.x);
     if (options.w != 0) outValue = clamp(outValue, vec4(-65504.0), vec4(65504.0));
+#ifdef DEPTHS
+    gl_FragDepth = outValue.x;
+#endif
 #endif
 }

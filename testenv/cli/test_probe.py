@@ -44,7 +44,7 @@ def test_a_header_that_misses_another_leaves_the_library_out_until_it_compiles(c
 def test_the_projects_own_probes_include_what_its_sources_include():
     root = os.path.dirname(CMAKE)
     for probe, source in (("OpenVDB.cpp", "hdDelegate/image/fieldReader/readField.cpp"),
-                          ("EGL.cpp", "hdDelegate/raster/gl/eglContext.cpp")):
+                          ("EGL.cpp", "hdDelegate/raster/gl/eglPlatform.cpp")):
         wanted = [line.strip() for line in open(os.path.join(root, source), encoding="utf-8")
                   if line.startswith(("#include <openvdb/", "#include <EGL/", "#include <GL/"))]
         probed = open(os.path.join(CMAKE, "probes", probe), encoding="utf-8").read()

@@ -25,8 +25,8 @@ def _processor_seconds(pid):
 
 
 class Plateau:
-    """For how long no new edge was reached, over runs that go on from each other. Seconds are those of processors: a program that
-    waits for one tries nothing."""
+    """For how long no new edge was reached, over runs that go on from each other. Seconds are those of processors: a program
+    that waits for one tries nothing."""
 
     def __init__(self):
         self.edges, self.used, self.since = 0, 0.0, 0.0

@@ -150,11 +150,12 @@ def _served(scene_index, *command):
     return _Server(command, environment(scene_index))
 
 
-def run_engine(stage, *arguments, timeout=TIMEOUT, **more):
-    """Runs engineHost: any renderer, with OpenGL. :param more: environment variables
+def run_engine(stage, *arguments, before=(), timeout=TIMEOUT, **more):
+    """Runs engineHost: any renderer, with OpenGL. :param before: words before its command
+    :param more: environment variables
     :returns: the finished process, failed or not
     :raises subprocess.TimeoutExpired: after so many seconds"""
-    return _run([folder("engineHost"), str(stage), *map(str, arguments)], environment(**more), False, timeout)
+    return _run([*before, folder("engineHost"), str(stage), *map(str, arguments)], environment(**more), False, timeout)
 
 
 def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=False, timeout=TIMEOUT,

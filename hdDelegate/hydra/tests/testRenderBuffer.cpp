@@ -14,17 +14,33 @@ using namespace patina;
 
 namespace {
 
+const auto textures = std::make_shared<HdPatinaHostTextures>();
+
 /// An image of floats.
-std::vector<uint8_t> imageOf(const std::vector<float>& values) {
-    std::vector<uint8_t> image(values.size() * sizeof(float));
-    std::memcpy(image.data(), values.data(), image.size());
+HdPatinaPixels imageOf(const std::vector<float>& values) {
+    HdPatinaPixels image;
+    image.bytes.resize(values.size() * sizeof(float));
+    std::memcpy(image.bytes.data(), values.data(), image.bytes.size());
     return image;
 }
+
+/// A device whose pixels are all one number.
+struct OneNumber : DeviceImage {
+    explicit OneNumber(float number, size_t size) : values(size, number) {}
+    void copyTo(uint64_t) override {}
+    bool read(void* bytes) override {
+        ++reads;
+        std::memcpy(bytes, values.data(), values.size() * sizeof(float));
+        return true;
+    }
+    std::vector<float> values;
+    int reads = 0;
+};
 
 } // namespace
 
 TEST(RenderBuffer, RefusesWhatItCannotHold) {
-    HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
     EXPECT_FALSE(buffer.Allocate(GfVec3i(4, 4, 2), HdFormatFloat32, false));
     EXPECT_FALSE(buffer.Allocate(GfVec3i(-1, 4, 1), HdFormatFloat32, false));
     EXPECT_FALSE(buffer.Allocate(GfVec3i(4, 4, 1), HdFormatInvalid, false));
@@ -35,18 +51,18 @@ TEST(RenderBuffer, RefusesWhatItCannotHold) {
 }
 
 TEST(RenderBuffer, CountsItsMappers) {
-    HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
     ASSERT_TRUE(buffer.Allocate(GfVec3i(3, 2, 1), HdFormatFloat32, false));
     buffer.Map();
     buffer.Map();
     buffer.Unmap();
     EXPECT_TRUE(buffer.IsMapped());
-    std::vector<uint8_t> image = imageOf(std::vector<float>(6, 1.0f));
+    HdPatinaPixels image = imageOf(std::vector<float>(6, 1.0f));
     EXPECT_FALSE(buffer.take(image)) << "a host is reading";
     buffer.Unmap();
     EXPECT_FALSE(buffer.IsMapped());
     EXPECT_TRUE(buffer.take(image));
-    EXPECT_EQ(image, imageOf(std::vector<float>(6, 0.0f))) << "the memory of before";
+    EXPECT_EQ(image.bytes, imageOf(std::vector<float>(6, 0.0f)).bytes) << "the memory of before";
     EXPECT_EQ(static_cast<float*>(buffer.Map())[5], 1.0f);
     buffer.Unmap();
     buffer.Unmap(); // one too many
@@ -54,18 +70,46 @@ TEST(RenderBuffer, CountsItsMappers) {
 }
 
 TEST(RenderBuffer, LeavesImagesOfAnotherSizeAlone) {
-    HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
     ASSERT_TRUE(buffer.Allocate(GfVec3i(2, 1, 1), HdFormatFloat32, false));
-    std::vector<uint8_t> larger = imageOf({1.0f, 2.0f, 3.0f}), none;
+    HdPatinaPixels larger = imageOf({1.0f, 2.0f, 3.0f}), none;
     EXPECT_TRUE(buffer.take(larger));
     EXPECT_TRUE(buffer.take(none));
-    EXPECT_EQ(larger, imageOf({1.0f, 2.0f, 3.0f}));
+    EXPECT_EQ(larger.bytes, imageOf({1.0f, 2.0f, 3.0f}).bytes);
     EXPECT_EQ(static_cast<float*>(buffer.Map())[1], 0.0f);
     buffer.Unmap();
 }
 
+TEST(RenderBuffer, ReadsWhatIsOnADeviceWhenAHostMapsIt) {
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
+    ASSERT_TRUE(buffer.Allocate(GfVec3i(2, 1, 1), HdFormatFloat32, false));
+    const auto number = [&] {
+        const float found = static_cast<float*>(buffer.Map())[1];
+        buffer.Unmap();
+        return found;
+    };
+    const auto first = std::make_shared<OneNumber>(1.0f, 2);
+    HdPatinaPixels image;
+    image.device = first;
+    EXPECT_TRUE(buffer.take(image));
+    buffer.Resolve();
+    EXPECT_TRUE(buffer.GetResource(false).IsEmpty()) << "the host has no Hgi";
+    EXPECT_EQ(first->reads, 0);
+    EXPECT_EQ(number(), 1.0f);
+    EXPECT_EQ(number(), 1.0f);
+    EXPECT_EQ(first->reads, 1);
+    HdPatinaPixels other = imageOf({2.0f, 3.0f});
+    EXPECT_TRUE(buffer.take(other));
+    EXPECT_EQ(number(), 3.0f);
+    HdPatinaPixels again;
+    again.device = std::make_shared<OneNumber>(4.0f, 2);
+    EXPECT_TRUE(buffer.take(again));
+    ASSERT_TRUE(buffer.Allocate(GfVec3i(2, 1, 1), HdFormatFloat32, false));
+    EXPECT_EQ(number(), 0.0f) << "of another allocation";
+}
+
 TEST(RenderBuffer, EveryAllocationHasANumberOfItsOwn) {
-    HdPatinaRenderBuffer a(SdfPath("/a")), b(SdfPath("/b"));
+    HdPatinaRenderBuffer a(SdfPath("/a"), textures), b(SdfPath("/b"), textures);
     a.Allocate(GfVec3i(2, 2, 1), HdFormatFloat32, false);
     const unsigned first = a.allocation();
     a.Allocate(GfVec3i(2, 2, 1), HdFormatFloat32, false);
@@ -75,7 +119,7 @@ TEST(RenderBuffer, EveryAllocationHasANumberOfItsOwn) {
 }
 
 TEST(RenderBuffer, ClearsToTheHostsColour) {
-    HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
     buffer.Allocate(GfVec3i(1, 1, 1), HdFormatFloat32Vec4, false);
     buffer.clear(VtValue(GfVec4f(0.1f, 0.2f, 0.3f, 1.0f)));
     EXPECT_EQ(static_cast<float*>(buffer.Map())[2], 0.3f);
@@ -83,11 +127,11 @@ TEST(RenderBuffer, ClearsToTheHostsColour) {
 }
 
 TEST(RenderBuffer, KeepsPixelsThatAreMappedWhileItIsAllocatedAnew) {
-    HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
     const Warnings warnings;
     const size_t size = 64 * 64;
     ASSERT_TRUE(buffer.Allocate(GfVec3i(64, 64, 1), HdFormatFloat32, false));
-    std::vector<uint8_t> ones = imageOf(std::vector<float>(size, 1.0f));
+    HdPatinaPixels ones = imageOf(std::vector<float>(size, 1.0f));
     ASSERT_TRUE(buffer.take(ones));
     const auto* old = static_cast<const float*>(buffer.Map());
     ASSERT_TRUE(buffer.Allocate(GfVec3i(128, 128, 1), HdFormatFloat32, false));
@@ -100,7 +144,7 @@ TEST(RenderBuffer, KeepsPixelsThatAreMappedWhileItIsAllocatedAnew) {
     ASSERT_NE(now, nullptr);
     buffer.Unmap(); // of the old pixels
     EXPECT_TRUE(buffer.IsMapped());
-    std::vector<uint8_t> small = imageOf(std::vector<float>(16, 1.0f));
+    HdPatinaPixels small = imageOf(std::vector<float>(16, 1.0f));
     EXPECT_FALSE(buffer.take(small)) << "the other map goes on";
     EXPECT_EQ(now[0], 0.0f);
     buffer.Unmap();

@@ -16,6 +16,7 @@ namespace patina {
 /// - `compiling:N`   programs of a material take N milliseconds more
 /// - `singleDraws:1` shaders are not told which draw of a call they run for
 /// - `ownPages:1`    each range of buffers has a page of its own
+/// - `sharing:1`     a host's context shares no objects
 /// - `storageBlocks:N` shaders may read N buffers
 /// - `uniformBlock:N` uniform blocks hold N bytes
 /// - `textureSize:N` textures of materials may have N x N pixels

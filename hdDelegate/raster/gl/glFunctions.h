@@ -99,7 +99,8 @@ namespace patina {
     X(VertexArrayBindingDivisor, VERTEXARRAYBINDINGDIVISOR)                                        \
     X(VertexArrayElementBuffer, VERTEXARRAYELEMENTBUFFER)                                          \
     X(VertexArrayVertexBuffer, VERTEXARRAYVERTEXBUFFER)                                            \
-    X(Viewport, VIEWPORT)
+    X(Viewport, VIEWPORT)                                                                          \
+    X(WaitSync, WAITSYNC)
 
 struct GlFunctions {
 #define PATINA_GL_DECLARE(name, NAME) PFNGL##NAME##PROC name = nullptr;
@@ -109,7 +110,7 @@ struct GlFunctions {
     bool tellsDraws = false;
 };
 
-/// OpenGL as EGL gives it; filled by the first EglContext. Call only while a context is current.
+/// OpenGL as EGL gives it; filled by the first GlContext. Call only while a context is current.
 extern GlFunctions gl;
 
 /// Fills `gl`. @returns false with a one-line error that names the first missing function

@@ -8,7 +8,7 @@
 
 namespace patina {
 
-ProgramCompiler::ProgramCompiler(const EglContext& shared, int threads)
+ProgramCompiler::ProgramCompiler(const GlContext& shared, int threads)
     : _shared(shared), _maximum(std::max(threads, 0)) {}
 
 ProgramCompiler::~ProgramCompiler() {
@@ -27,7 +27,7 @@ void ProgramCompiler::add(std::function<void()> work) {
     _work.push_back(std::move(work));
     if (_idle < int(_work.size()) && int(_threads.size()) < _maximum) {
         std::string error;
-        if (auto context = EglContext::sharing(_shared, error)) {
+        if (auto context = GlContext::sharing(_shared, error)) {
             _contexts.push_back(std::move(context));
             ++_idle; // what the thread subtracts when it begins
             ++_living;
@@ -72,8 +72,8 @@ void ProgramCompiler::finished() {
     _ended.notify_all();
 }
 
-void ProgramCompiler::run(EglContext* context) {
-    const EglContext::Use use(*context);
+void ProgramCompiler::run(GlContext* context) {
+    const GlContext::Use use(*context);
     std::unique_lock<std::mutex> lock(_mutex);
     while (use.ok()) {
         _changed.wait(lock, [&] { return _stop || !_work.empty(); });

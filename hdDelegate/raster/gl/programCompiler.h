@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/raster/gl/eglContext.h"
+#include "hdDelegate/raster/gl/glContext.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -19,7 +19,7 @@ namespace patina {
 class ProgramCompiler {
 public:
     /// @param threads besides the caller's, at most
-    ProgramCompiler(const EglContext& shared, int threads);
+    ProgramCompiler(const GlContext& shared, int threads);
     ~ProgramCompiler(); ///< lets go of what has not begun, and waits for the rest
 
     /// Has a function run once, with a context current, about in the order of the calls. It throws
@@ -36,16 +36,16 @@ public:
     void wait(std::chrono::milliseconds maximum);
 
 private:
-    void run(EglContext* context);
+    void run(GlContext* context);
     void finished();
 
-    const EglContext& _shared;
+    const GlContext& _shared;
     int _maximum;
     std::mutex _mutex;
     std::condition_variable _changed, _ended;
     std::deque<std::function<void()>> _work;
     std::vector<std::thread> _threads;
-    std::vector<std::unique_ptr<EglContext>> _contexts;
+    std::vector<std::unique_ptr<GlContext>> _contexts;
     int _idle = 0;
     int _living = 0;   ///< threads that have a context, or may have one
     size_t _count = 0; ///< that have ended

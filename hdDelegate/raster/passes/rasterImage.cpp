@@ -2,7 +2,7 @@
 #include "hdDelegate/raster/passes/rasterImage.h"
 
 #include "hdDelegate/raster/gl/deviceError.h"
-#include "hdDelegate/raster/gl/eglContext.h"
+#include "hdDelegate/raster/gl/glContext.h"
 #include "hdDelegate/raster/passes/rasterLook.h"
 
 #include <algorithm>
@@ -30,6 +30,7 @@ bool RasterImage::begin(int width, int height, const int window[4], const Raster
         _firstTarget = GlFramebuffer({&_first}, nullptr);
         _complete = _sumTarget.complete() && _firstTarget.complete();
         _targets.clear();
+        _hostTargets.clear();
         _width = width;
         _height = height;
         // Those that hosts ask for as a rule: that there is no room shows before anything is drawn.
@@ -88,6 +89,7 @@ bool RasterImage::has(AovId aov) const {
 const RasterImage::Target& RasterImage::target(GLenum format) const {
     Target& target = _targets[format];
     if (!target.image) {
+        target.format = format;
         target.image = GlTexture(GL_TEXTURE_2D, format, _width, _height);
         target.framebuffer = GlFramebuffer({&target.image}, nullptr);
         target.complete = target.framebuffer.complete();
@@ -95,28 +97,45 @@ const RasterImage::Target& RasterImage::target(GLenum format) const {
     return target;
 }
 
-bool RasterImage::read(AovId aov, const PixelForm& form, void* bytes) const {
-    const bool id = aov == AovId::primId || aov == AovId::instanceId || aov == AovId::elementId;
-    const bool half = form.type == PixelForm::Type::Half;
-    if (!has(aov) || _width < 1 || id != (form.type == PixelForm::Type::Int) ||
-        (aov != AovId::color && form.components != 1))
-        return false;
-    const EglContext::Use use(_context);
-    if (!use.ok()) throw DeviceError("the OpenGL context cannot be used");
-    const bool many = aov == AovId::color;
-    const Target& to = target(id     ? GL_R32I
-                              : half ? (many ? GL_RGBA16F : GL_R16F)
-                                     : (many ? GL_RGBA32F : GL_R32F));
-    if (!to.complete) throw DeviceError("the driver has no room for an image of this size");
-    to.framebuffer.bind();
+namespace {
+
+bool isId(AovId aov) {
+    return aov == AovId::primId || aov == AovId::instanceId || aov == AovId::elementId;
+}
+
+/// Of the textures that hold a form.
+GLenum formatOf(AovId aov, const PixelForm& form) {
+    const bool many = aov == AovId::color, half = form.type == PixelForm::Type::Half;
+    if (isId(aov)) return GL_R32I;
+    if (form.depth) return GL_DEPTH_COMPONENT32F;
+    return half ? (many ? GL_RGBA16F : GL_R16F) : (many ? GL_RGBA32F : GL_R32F);
+}
+
+} // namespace
+
+bool RasterImage::canDraw(AovId aov, const PixelForm& form) const {
+    return has(aov) && _width > 0 && isId(aov) == (form.type == PixelForm::Type::Int) &&
+           (aov == AovId::color || form.components == 1);
+}
+
+void RasterImage::drawInto(const GlFramebuffer& framebuffer, AovId aov,
+                           const PixelForm& form) const {
+    const bool id = isId(aov), half = form.type == PixelForm::Type::Half;
+    framebuffer.bind();
     gl.Viewport(0, 0, _width, _height);
-    gl.Disable(GL_DEPTH_TEST);
+    if (form.depth) {
+        gl.Enable(GL_DEPTH_TEST);
+        gl.DepthFunc(GL_ALWAYS);
+        gl.DepthMask(GL_TRUE);
+    } else {
+        gl.Disable(GL_DEPTH_TEST);
+    }
     _sums.bind(0);
     _smoothings.bind(1);
     _first.bind(2);
     _placesDrawn->bind(3);
     _idsDrawn->bind(4);
-    (id ? _ids : _numbers)->use();
+    (id ? _ids : form.depth ? _depths : _numbers)->use();
     const int wanted = aov == AovId::color         ? Color
                        : aov == AovId::alpha       ? Alpha
                        : aov == AovId::deviceDepth ? WindowDepth
@@ -142,15 +161,51 @@ bool RasterImage::read(AovId aov, const PixelForm& form, void* bytes) const {
     }
     gl.BindVertexArray(_vertexArray.id());
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    const GLenum formats[4] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
-    const size_t size = size_t(form.components) * (half ? 2 : 4);
-    _download.read(to.image, id ? GL_RED_INTEGER : formats[form.components - 1],
-                   id     ? GL_INT
-                   : half ? GL_HALF_FLOAT
-                          : GL_FLOAT,
-                   size * size_t(_width) * size_t(_height), bytes);
+    if (form.depth) {
+        gl.DepthFunc(GL_LESS);
+        gl.Disable(GL_DEPTH_TEST);
+    }
+}
+
+bool RasterImage::read(AovId aov, const PixelForm& form, void* bytes) const {
+    if (!canDraw(aov, form) || form.depth) return false;
+    const GlContext::Use use(_context);
+    if (!use.ok()) throw DeviceError("the OpenGL context cannot be used");
+    const Target& to = target(formatOf(aov, form));
+    if (!to.complete) throw DeviceError("the driver has no room for an image of this size");
+    drawInto(to.framebuffer, aov, form);
+    const PixelTransfer pixels(to.format, form.components);
+    _download.read(to.image, pixels.format, pixels.type,
+                   pixels.size * size_t(_width) * size_t(_height), bytes);
     if (gl.GetError() != GL_NO_ERROR) throw DeviceError("the driver gives no image");
     return true;
+}
+
+const RasterImage::HostTarget& RasterImage::hostTarget(GLenum format, int components) const {
+    for (const HostTarget& target : _hostTargets)
+        if (target.image.use_count() == 1 && target.image->isOf(format, components)) return target;
+    HostTarget made;
+    made.image = std::make_shared<HostImage>(_host, format, components, _width, _height);
+    made.framebuffer = format == GL_DEPTH_COMPONENT32F
+                           ? GlFramebuffer({}, &made.image->texture())
+                           : GlFramebuffer({&made.image->texture()}, nullptr);
+    if (!made.framebuffer.complete())
+        throw DeviceError("the driver has no room for an image of this size");
+    _hostTargets.push_back(std::move(made));
+    return _hostTargets.back();
+}
+
+std::shared_ptr<DeviceImage> RasterImage::draw(AovId aov, const PixelForm& form) const {
+    if (!_host || !canDraw(aov, form) ||
+        (form.depth && (form.type != PixelForm::Type::Float || aov == AovId::color)))
+        return nullptr;
+    const GlContext::Use use(_context);
+    if (!use.ok()) throw DeviceError("the OpenGL context cannot be used");
+    const HostTarget& to = hostTarget(formatOf(aov, form), form.components);
+    to.image->waitForReaders();
+    drawInto(to.framebuffer, aov, form);
+    to.image->setDrawn();
+    return to.image;
 }
 
 } // namespace patina

@@ -31,8 +31,10 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
            _look.resize(_color, _depth);
 }
 
-const FilmSource& RasterPasses::beginImage(const EglContext& context, const RasterCamera& camera) {
-    if (!_image) _image = std::make_unique<RasterImage>(context);
+const FilmSource& RasterPasses::beginImage(const GlContext& context,
+                                           const std::shared_ptr<HostContext>& host,
+                                           const RasterCamera& camera) {
+    if (!_image) _image = std::make_unique<RasterImage>(context, host);
     if (!_image->begin(_width, _height, _window, camera, _seen.positions(), _seen.ids()))
         throw DeviceError("the driver has no room for an image of this size");
     return *_image;

@@ -23,7 +23,9 @@ public:
     const int* window() const { return _window; } ///< xmin, ymin, xmax, ymax, inclusive
 
     /// Begins an image that stays on the device.
-    const FilmSource& beginImage(const EglContext& context, const RasterCamera& camera);
+    /// @param host whose device it may be handed to, or null
+    const FilmSource& beginImage(const GlContext& context, const std::shared_ptr<HostContext>& host,
+                                 const RasterCamera& camera);
     const FilmSource* image() const { return _image.get(); } ///< of before, or null
 
     /// See RasterSeen.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/scene/rasterBsdf.h"
 
-#include "hdDelegate/raster/gl/eglContext.h"
+#include "hdDelegate/raster/gl/glContext.h"
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/scene/rasterTextures.h"
 #include "materialNetwork/glsl/glslMaterial.h"
@@ -29,7 +29,7 @@ std::string shaderOf(const MaterialProgram& program, const GlslMaterial& glsl) {
 } // namespace
 
 struct RasterBsdf::Gpu {
-    std::shared_ptr<EglContext> context;
+    std::shared_ptr<GlContext> context;
     std::string text; ///< that the program was compiled from
     std::shared_ptr<GlProgram> program;
     bool sharesShader = false;
@@ -41,8 +41,8 @@ RasterBsdf::RasterBsdf(std::unique_ptr<Gpu> gpu) : _gpu(std::move(gpu)) {}
 
 RasterBsdf::~RasterBsdf() {
     // Objects made with the context go before it.
-    const std::shared_ptr<EglContext> context = _gpu->context;
-    const EglContext::Use use(*context);
+    const std::shared_ptr<GlContext> context = _gpu->context;
+    const GlContext::Use use(*context);
     _gpu.reset();
 }
 
@@ -51,9 +51,9 @@ std::unique_ptr<RasterBsdf> RasterBsdf::make(std::shared_ptr<const MaterialProgr
                                              Diagnostics& diagnostics, std::string& error,
                                              const std::vector<const RasterBsdf*>& like) {
     auto gpu = std::make_unique<Gpu>();
-    gpu->context = like.empty() ? EglContext::create(error) : like[0]->_gpu->context;
+    gpu->context = like.empty() ? GlContext::create(error) : like[0]->_gpu->context;
     if (!gpu->context) return nullptr;
-    const EglContext::Use use(*gpu->context);
+    const GlContext::Use use(*gpu->context);
     if (!use.ok()) {
         error = "the OpenGL context cannot be used";
         return nullptr;
@@ -83,7 +83,7 @@ std::vector<RasterBsdf::Answer> RasterBsdf::evaluate(const std::vector<Query>& q
                                                      const glm::vec2* uv) const {
     std::vector<Answer> answers(queries.size());
     if (queries.empty()) return answers;
-    const EglContext::Use use(*_gpu->context);
+    const GlContext::Use use(*_gpu->context);
     constexpr size_t batch = 65535; // groups that every driver takes at once
     for (size_t begin = 0; begin < queries.size(); begin += batch) {
         const size_t count = std::min(batch, queries.size() - begin);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/raster/gl/eglContext.h"
+#include "hdDelegate/raster/gl/glContext.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 /// it current for the rest of the scope.
 #define PATINA_NEED_CONTEXT()                                                                      \
     std::string contextError;                                                                      \
-    const auto context = patina::EglContext::create(contextError);                                 \
+    const auto context = patina::GlContext::create(contextError);                                  \
     if (!context) GTEST_SKIP() << contextError;                                                    \
-    const patina::EglContext::Use useContext(*context);                                            \
+    const patina::GlContext::Use useContext(*context);                                             \
     ASSERT_TRUE(useContext.ok())

@@ -91,17 +91,17 @@ TEST(RasterContext, NamesFileAndLineOfAnError) {
 
 TEST(RasterContext, LeavesTheHostsContextCurrent) {
     std::string error;
-    const auto host = EglContext::create(error);
+    const auto host = GlContext::create(error);
     if (!host) GTEST_SKIP() << error;
     EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
-    const EglContext::Use hostUse(*host);
+    const GlContext::Use hostUse(*host);
     const EGLContext before = eglGetCurrentContext();
     EXPECT_NE(before, EGL_NO_CONTEXT);
     {
-        const auto own = EglContext::create(error);
+        const auto own = GlContext::create(error);
         ASSERT_TRUE(own) << error;
         EXPECT_EQ(eglGetCurrentContext(), before);
-        const EglContext::Use use(*own);
+        const GlContext::Use use(*own);
         EXPECT_NE(eglGetCurrentContext(), before);
         EXPECT_FALSE(own->lost());
     }
@@ -111,7 +111,7 @@ TEST(RasterContext, LeavesTheHostsContextCurrent) {
 TEST(RasterContext, SaysInOneLineWhyThereIsNone) {
     setenv("PATINA_EGL_PLATFORM", "none", 1);
     std::string error;
-    EXPECT_FALSE(EglContext::create(error));
+    EXPECT_FALSE(GlContext::create(error));
     EXPECT_FALSE(error.empty());
     EXPECT_EQ(error.find('\n'), std::string::npos);
     unsetenv("PATINA_EGL_PLATFORM");

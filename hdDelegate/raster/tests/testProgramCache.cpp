@@ -131,9 +131,9 @@ TEST_F(ProgramCaches, ManyWritersAtOnce) {
     for (int t = 0; t < 3; ++t)
         threads.emplace_back([] {
             std::string error;
-            const auto context = EglContext::create(error);
+            const auto context = GlContext::create(error);
             ASSERT_TRUE(context) << error;
-            const EglContext::Use use(*context);
+            const GlContext::Use use(*context);
             for (int i = 0; i < 12; ++i) {
                 const auto program = make(100 + i % 4);
                 EXPECT_EQ(run(*program), 100 + i % 4);

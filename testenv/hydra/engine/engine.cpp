@@ -8,6 +8,7 @@
 #include <pxr/imaging/hd/renderBuffer.h>
 #include <pxr/imaging/hd/tokens.h>
 #include <pxr/imaging/hdx/tokens.h>
+#include <pxr/imaging/hgi/texture.h>
 #include <pxr/usd/usd/prim.h>
 #include <pxr/usdImaging/usdImagingGL/engine.h>
 
@@ -20,7 +21,8 @@
 
 namespace patina {
 
-Engine::Engine(const UsdStageRefPtr& stage, const EngineOptions& options) : _stage(stage) {
+Engine::Engine(const UsdStageRefPtr& stage, const EngineOptions& options)
+    : _options(options), _context(options.glx), _stage(stage) {
     _engine = std::make_unique<UsdImagingGLEngine>(HdDriver(), TfToken(options.renderer), true);
     if (_engine->GetCurrentRendererId() != TfToken(options.renderer))
         throw std::runtime_error("the renderer " + options.renderer +
@@ -33,7 +35,7 @@ Engine::Engine(const UsdStageRefPtr& stage, const EngineOptions& options) : _sta
         _engine->SetRendererSetting(TfToken(setting.substr(0, equal)),
                                     settingOf(setting.substr(equal + 1)));
     }
-    _engine->SetRendererAov(HdAovTokens->color);
+    _engine->SetRendererAov(TfToken(options.aov));
     _engine->SetCameraPath(options.camera);
     _engine->SetRenderBufferSize(GfVec2i(options.width, options.height));
     _engine->SetFraming(CameraUtilFraming(GfRect2i(GfVec2i(0), options.width, options.height)));
@@ -51,14 +53,28 @@ bool showsImage(const VtDictionary& statistics) {
     return found != statistics.end() && found->second.GetWithDefault(0.0) > 0.0;
 }
 
-} // namespace
-
-double Engine::render() {
+UsdImagingGLRenderParams paramsOfAll() {
     UsdImagingGLRenderParams params;
     params.frame = UsdTimeCode::Default();
     params.colorCorrectionMode = HdxColorCorrectionTokens->disabled;
     params.showRender = true;
     params.clearColor = GfVec4f(0.0f);
+    return params;
+}
+
+} // namespace
+
+void Engine::select(const SdfPath& path, int times) {
+    UsdImagingGLRenderParams params = paramsOfAll();
+    params.highlight = true;
+    _engine->SetSelectionColor(GfVec4f(1.0f, 0.0f, 0.0f, 0.5f));
+    _engine->SetSelected({path});
+    for (int i = 0; i < times; ++i)
+        _engine->Render(_stage->GetPseudoRoot(), params);
+}
+
+double Engine::render() {
+    const UsdImagingGLRenderParams params = paramsOfAll();
     using Clock = std::chrono::steady_clock;
     const Clock::duration least = std::chrono::milliseconds(1),
                           most = std::chrono::milliseconds(16);
@@ -71,11 +87,14 @@ double Engine::render() {
         // Each look takes time from the renderer, so that only quick images are looked at often.
         std::this_thread::sleep_for(std::clamp((Clock::now() - start) / 32, least, most));
     }
-    HdRenderBuffer* buffer = _engine->GetAovRenderBuffer(HdAovTokens->color);
-    if (!buffer) throw std::runtime_error("there is no colour buffer");
-    buffer->Resolve();
-    if (!buffer->Map()) throw std::runtime_error("the colour buffer cannot be read");
-    buffer->Unmap();
+    HdRenderBuffer& image = buffer();
+    image.Resolve();
+    if (!image.GetResource(false).IsEmpty()) {
+        _context.finish();
+    } else {
+        if (!image.Map()) throw std::runtime_error("the buffer cannot be read");
+        image.Unmap();
+    }
     const Clock::duration whole = Clock::now() - start;
     return std::chrono::duration<double>(seen == Clock::duration(0) ? whole : seen).count();
 }
@@ -84,26 +103,42 @@ VtDictionary Engine::statistics() const {
     return _engine->GetRenderStats();
 }
 
+HdRenderBuffer& Engine::buffer() const {
+    HdRenderBuffer* found = _engine->GetAovRenderBuffer(TfToken(_options.aov));
+    if (!found) throw std::runtime_error("there is no buffer of " + _options.aov);
+    return *found;
+}
+
 void Engine::write(const std::string& file) {
-    HdRenderBuffer* buffer = _engine->GetAovRenderBuffer(HdAovTokens->color);
-    buffer->Resolve();
-    const int width = int(buffer->GetWidth()), height = int(buffer->GetHeight());
-    const HdFormat format = buffer->GetFormat();
+    HdRenderBuffer& image = buffer();
+    const int width = int(image.GetWidth()), height = int(image.GetHeight());
+    HdFormat format = image.GetFormat();
+    const VtValue resource = image.GetResource(false);
+    std::vector<float> drawn;
+    if (!_options.mapped && resource.IsHolding<HgiTextureHandle>()) {
+        const HgiTextureHandle texture = resource.UncheckedGet<HgiTextureHandle>();
+        drawn = _context.read(unsigned(texture->GetRawResource()), width, height,
+                              int(HdGetComponentCount(format)),
+                              texture->GetDescriptor().usage & HgiTextureUsageBitsDepthTarget);
+        format = format == HdFormatFloat32 ? format : HdFormatFloat32Vec4;
+    }
     const auto type = format == HdFormatUNorm8Vec4    ? OIIO::TypeDesc::UINT8
                       : format == HdFormatFloat16Vec4 ? OIIO::TypeDesc::HALF
                       : format == HdFormatFloat32Vec4 ? OIIO::TypeDesc::FLOAT
+                      : format == HdFormatFloat32     ? OIIO::TypeDesc::FLOAT
                                                       : OIIO::TypeDesc::UNKNOWN;
     if (type == OIIO::TypeDesc::UNKNOWN)
-        throw std::runtime_error("the colour buffer has an unknown format");
+        throw std::runtime_error("the buffer has an unknown format");
     const OIIO::TypeDesc pixel(type);
-    const char* data = static_cast<const char*>(buffer->Map());
+    const int channels = int(HdGetComponentCount(format));
+    const char* data = static_cast<const char*>(drawn.empty() ? image.Map() : drawn.data());
     const auto out = OIIO::ImageOutput::create(file);
     // Hydra's buffers begin below.
-    const OIIO::stride_t row = OIIO::stride_t(pixel.size()) * 4 * width;
+    const OIIO::stride_t row = OIIO::stride_t(pixel.size()) * channels * width;
     const bool written =
-        data && out && out->open(file, OIIO::ImageSpec(width, height, 4, pixel)) &&
+        data && out && out->open(file, OIIO::ImageSpec(width, height, channels, pixel)) &&
         out->write_image(pixel, data + row * (height - 1), OIIO::AutoStride, -row) && out->close();
-    buffer->Unmap();
+    if (drawn.empty()) image.Unmap();
     if (!written) throw std::runtime_error(file + " cannot be written");
 }
 

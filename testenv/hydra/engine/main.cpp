@@ -36,9 +36,15 @@ const char* const usage =
     "  --renderer ID             plugin (HdPatinaRendererPlugin)\n"
     "  --camera PATH             camera prim\n"
     "  --size WxH                pixels (64x64)\n"
+    "  --aov NAME                what is drawn (color)\n"
+    "  --context NAME            egl, without windows, or glx, of an X server (egl)\n"
+    "  --image NAME              resource: the texture that a host shows, where there is one, or "
+    "mapped (resource)\n"
     "  --set KEY=VALUE           render setting, repeatable; a number, true or false, or text\n"
     "  --edit PATH.INPUT=NUMBERS value of an input, of which each edit takes another share\n"
-    "  --repeats N               moves, and edits (0)\n";
+    "  --repeats N               moves, and edits (0)\n"
+    "  --boxes N                 draws the last image N times with a box before it is written "
+    "(0)\n";
 
 double numberOf(const std::string& text) {
     char* end = nullptr;
@@ -49,9 +55,9 @@ double numberOf(const std::string& text) {
 }
 
 struct CommandLine {
-    std::string stage, image, edit;
+    std::string stage, image, edit, selected;
     EngineOptions engine;
-    int repeats = 0;
+    int repeats = 0, times = 1;
 };
 
 CommandLine parse(int argc, char** argv) {
@@ -68,12 +74,22 @@ CommandLine parse(int argc, char** argv) {
             line.engine.renderer = value;
         else if (word == "--camera")
             line.engine.camera = SdfPath(value);
+        else if (word == "--aov")
+            line.engine.aov = value;
+        else if (word == "--context" && (value == "egl" || value == "glx"))
+            line.engine.glx = value == "glx";
+        else if (word == "--image" && (value == "resource" || value == "mapped"))
+            line.engine.mapped = value == "mapped";
         else if (word == "--set")
             line.engine.settings.push_back(value);
         else if (word == "--edit")
             line.edit = value;
         else if (word == "--repeats")
             line.repeats = int(numberOf(value));
+        else if (word == "--select")
+            line.selected = value;
+        else if (word == "--times")
+            line.times = int(numberOf(value));
         else if (word != "--size" ||
                  std::sscanf(value.c_str(), "%dx%d", &line.engine.width, &line.engine.height) != 2)
             throw std::runtime_error("engineHost does not understand " + word + " " + value + "\n" +
@@ -156,6 +172,7 @@ void run(const CommandLine& line) {
         editedSeen.push_back(JsValue(engine.render()));
         edited.push_back(JsValue(clock.lap()));
     }
+    if (!line.selected.empty()) engine.select(SdfPath(line.selected), line.times);
     if (!line.image.empty()) engine.write(line.image);
     seconds["moved"] = JsValue(moved);
     seconds["edited"] = JsValue(edited);

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/gl/eglContext.h"
-
-#include "hdDelegate/raster/gl/glFaults.h"
-#include "hdDelegate/raster/gl/glFunctions.h"
-#include "hdDelegate/raster/gl/heldFences.h"
+#include "hdDelegate/raster/gl/nativeContext.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <GL/glcorearb.h>
 
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <vector>
 
 namespace patina {
@@ -129,139 +125,88 @@ EGLContext createOn(EGLDisplay display, std::string& error, EGLContext shared = 
     return context;
 }
 
-std::string text(GLenum name) {
-    const GLubyte* s = gl.GetString(name);
-    return s ? reinterpret_cast<const char*>(s) : "";
-}
+std::unique_ptr<NativeContext> sharingOn(EGLDisplay display, EGLContext shared, std::string& error);
 
-bool has(const char* extension) {
-    GLint count = 0;
-    gl.GetIntegerv(GL_NUM_EXTENSIONS, &count);
-    for (GLint i = 0; i < count; ++i) {
-        const GLubyte* name = gl.GetStringi(GL_EXTENSIONS, GLuint(i));
-        if (name && !std::strcmp(reinterpret_cast<const char*>(name), extension)) return true;
-    }
-    return false;
-}
+class EglNative final : public NativeContext {
+public:
+    EglNative(EGLDisplay display, EGLContext context) : _display(display), _context(context) {}
+    // The display stays initialized: a host may use the same one.
+    ~EglNative() override { eglDestroyContext(_display, _context); }
 
-/// Features that OpenGL 4.5 leaves open and the shaders need, with a context current.
-bool isEnough(std::string& error) {
-    struct Limit {
-        GLenum name;
-        GLint needed;
-        const char* what;
-    };
-    for (const Limit& limit :
-         {Limit{GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 3, "storage buffers in vertex shaders"},
-          Limit{GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS, 8, "storage buffers in fragment shaders"},
-          Limit{GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, 13, "bindings of storage buffers"},
-          Limit{GL_MAX_UNIFORM_BLOCK_SIZE, 63232, "bytes in a uniform block"}}) {
-        GLint there = 0;
-        gl.GetIntegerv(limit.name, &there);
-        const bool uniforms = limit.name == GL_MAX_UNIFORM_BLOCK_SIZE;
-        const std::string fault = glFault(uniforms ? "uniformBlock" : "storageBlocks");
-        if (!fault.empty()) there = std::atoi(fault.c_str());
-        if (there >= limit.needed) continue;
-        error = "the driver has " + std::to_string(there) + " " + limit.what + ", not the " +
-                std::to_string(limit.needed) + " that are needed";
-        return false;
+    std::unique_ptr<NativeContext> sharing(std::string& error) const override {
+        return sharingOn(_display, _context, error);
     }
-    return true;
+
+    bool enter(Current& before) const override {
+        before.display = eglGetCurrentDisplay();
+        before.context = eglGetCurrentContext();
+        before.draw = uintptr_t(eglGetCurrentSurface(EGL_DRAW));
+        before.read = uintptr_t(eglGetCurrentSurface(EGL_READ));
+        before.api = eglQueryAPI();
+        eglBindAPI(EGL_OPENGL_API);
+        return eglMakeCurrent(_display, EGL_NO_SURFACE, EGL_NO_SURFACE, _context);
+    }
+
+    void leave(const Current& before) const override {
+        if (before.context == EGL_NO_CONTEXT)
+            eglMakeCurrent(_display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        else
+            eglMakeCurrent(before.display, EGLSurface(before.draw), EGLSurface(before.read),
+                           before.context);
+        eglBindAPI(before.api);
+    }
+
+private:
+    EGLDisplay _display;
+    EGLContext _context;
+};
+
+std::unique_ptr<NativeContext> sharingOn(EGLDisplay display, EGLContext shared,
+                                         std::string& error) {
+    const EGLenum api = eglQueryAPI();
+    const EGLContext context = createOn(display, error, shared);
+    eglBindAPI(api);
+    if (context == EGL_NO_CONTEXT) return nullptr;
+    return std::make_unique<EglNative>(display, context);
 }
 
 } // namespace
 
-std::unique_ptr<EglContext> EglContext::create(std::string& error) {
-    // Displays are shared by all contexts of a process, and so is the function table.
-    static std::mutex mutex;
-    const std::lock_guard<std::mutex> lock(mutex);
+std::string
+tryEglContexts(const std::function<std::string(std::unique_ptr<NativeContext>)>& accept) {
     const EGLenum api = eglQueryAPI();
-    // Of what keeps the candidates from working, that of the first one with a driver is told.
     std::string problem;
-    std::unique_ptr<EglContext> result;
+    bool accepted = false;
     for (const EGLDisplay display : candidates()) {
         EGLint major = 0, minor = 0;
         if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) continue;
-        std::string& why = problem.empty() ? problem : error;
+        std::string why;
         const EGLContext context = createOn(display, why);
-        if (context == EGL_NO_CONTEXT) continue;
-        std::unique_ptr<EglContext> made(new EglContext);
-        made->_display = display;
-        made->_context = context;
-        const Use use(*made);
-        if (!use.ok()) {
-            why = "the driver refuses to make an OpenGL context current";
-            continue;
-        }
-        static bool loaded = false;
-        if (!loaded && !(loaded = loadGlFunctions(why))) continue;
-        if (!isEnough(why)) continue;
-        gl.tellsDraws = has("GL_ARB_shader_draw_parameters") && glFault("singleDraws").empty();
-        made->_renderer = text(GL_RENDERER);
-        made->_version = text(GL_VERSION);
-        if (HeldFences::neededBy(made->_renderer)) made->_fences = std::make_unique<HeldFences>();
-        result = std::move(made);
-        break;
+        if (context != EGL_NO_CONTEXT) why = accept(std::make_unique<EglNative>(display, context));
+        accepted = context != EGL_NO_CONTEXT && why.empty();
+        if (accepted) break;
+        if (problem.empty()) problem = why;
     }
-    error = result ? "" : problem.empty() ? "EGL finds no display that it can initialize" : problem;
     eglBindAPI(api);
-    return result;
+    return accepted          ? ""
+           : problem.empty() ? "EGL finds no display that it can initialize"
+                             : problem;
 }
 
-std::unique_ptr<EglContext> EglContext::sharing(const EglContext& other, std::string& error) {
-    const EGLenum api = eglQueryAPI();
-    const EGLContext context = createOn(other._display, error, other._context);
-    eglBindAPI(api);
-    if (context == EGL_NO_CONTEXT) {
-        if (error.empty()) error = "the driver makes no context that shares its objects";
-        return nullptr;
-    }
-    std::unique_ptr<EglContext> made(new EglContext);
-    made->_display = other._display;
-    made->_context = context;
-    made->_renderer = other._renderer;
-    made->_version = other._version;
-    if (other._fences) made->_fences = std::make_unique<HeldFences>();
-    return made;
-}
-
-bool EglContext::hasHardware() {
+bool eglHasHardware() {
     return !devicesOf(false).empty();
 }
 
-EglContext::EglContext() = default;
-
-// The display stays initialized: a host may use the same one.
-EglContext::~EglContext() {
-    if (_fences) {
-        const Use use(*this);
-        if (use.ok()) _fences->release();
-    }
-    if (_context) eglDestroyContext(_display, _context);
+std::unique_ptr<NativeContext> sharingEglCurrent(std::string& error) {
+    const EGLDisplay display = eglGetCurrentDisplay();
+    const EGLContext shared = eglGetCurrentContext();
+    if (shared == EGL_NO_CONTEXT) return nullptr;
+    return sharingOn(display, shared, error);
 }
 
-bool EglContext::lost() const {
-    return gl.GetGraphicsResetStatus() != GL_NO_ERROR;
-}
-
-EglContext::Use::Use(const EglContext& context)
-    : _display(eglGetCurrentDisplay()), _context(eglGetCurrentContext()),
-      _draw(eglGetCurrentSurface(EGL_DRAW)), _read(eglGetCurrentSurface(EGL_READ)),
-      _api(eglQueryAPI()), _ownDisplay(context._display),
-      _fences(HeldFences::makeCurrent(nullptr)) {
-    eglBindAPI(EGL_OPENGL_API);
-    _ok = eglMakeCurrent(context._display, EGL_NO_SURFACE, EGL_NO_SURFACE, context._context);
-    if (_ok) HeldFences::makeCurrent(context._fences.get());
-}
-
-EglContext::Use::~Use() {
-    HeldFences::makeCurrent(nullptr);
-    if (_context == EGL_NO_CONTEXT)
-        eglMakeCurrent(_ownDisplay, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    else
-        eglMakeCurrent(_display, _draw, _read, _context);
-    HeldFences::makeCurrent(_fences);
-    eglBindAPI(_api);
+uintptr_t currentNativeContext() {
+    const auto context = uintptr_t(eglGetCurrentContext());
+    return context ? context : currentGlxContext();
 }
 
 } // namespace patina

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/raster/gl/nativeContext.h"
+
 #include <memory>
 #include <string>
 
@@ -9,20 +11,20 @@ namespace patina {
 class HeldFences;
 
 /// An OpenGL 4.5 core context without display or window. Belongs to one thread at a time.
-///
-/// Candidates in this order: the EGL devices that are hardware, Mesa's surfaceless platform, the
-/// software devices, the default display. The environment variable PATINA_EGL_PLATFORM (device,
-/// surfaceless or default) leaves only one kind.
-class EglContext {
+class GlContext {
 public:
+    /// A context of its own. Candidates in this order: the EGL devices that are hardware, Mesa's
+    /// surfaceless platform, the software devices, the default display. The environment variable
+    /// PATINA_EGL_PLATFORM (device, surfaceless or default) leaves only one kind.
     /// @returns null with a one-line reason in `error`
-    static std::unique_ptr<EglContext> create(std::string& error);
+    static std::unique_ptr<GlContext> create(std::string& error);
     /// A context that shares objects with another one, for another thread.
     /// @returns null with a one-line reason in `error`
-    static std::unique_ptr<EglContext> sharing(const EglContext& other, std::string& error);
-    /// Whether EGL knows a device that is not software (and may use it, see PATINA_EGL_PLATFORM).
-    static bool hasHardware();
-    ~EglContext(); ///< must not be current on another thread
+    static std::unique_ptr<GlContext> sharing(const GlContext& other, std::string& error);
+    /// A context that shares objects with the host's, which is current on this thread.
+    /// @returns null with a one-line reason in `error`
+    static std::unique_ptr<GlContext> sharingCurrent(std::string& error);
+    ~GlContext(); ///< must not be current on another thread
 
     const std::string& renderer() const {
         return _renderer;
@@ -32,16 +34,15 @@ public:
     /// Makes a context current for a scope, and then again whatever the host had current.
     class Use {
     public:
-        explicit Use(const EglContext& context);
+        explicit Use(const GlContext& context);
         ~Use();
         Use(const Use&) = delete;
         Use& operator=(const Use&) = delete;
         bool ok() const { return _ok; } ///< false: the context cannot be used by this thread
 
     private:
-        void *_display, *_context, *_draw, *_read;
-        unsigned _api;
-        void* _ownDisplay;
+        const NativeContext& _native;
+        NativeContext::Current _before;
         HeldFences* _fences; ///< that were current before
         bool _ok;
     };
@@ -50,14 +51,15 @@ public:
     /// context. Call with the context current.
     bool lost() const;
 
-    EglContext(const EglContext&) = delete;
-    EglContext& operator=(const EglContext&) = delete;
+    GlContext(const GlContext&) = delete;
+    GlContext& operator=(const GlContext&) = delete;
 
 private:
-    EglContext();
+    explicit GlContext(std::unique_ptr<NativeContext> native);
+    static std::unique_ptr<GlContext> checked(std::unique_ptr<NativeContext> native,
+                                              std::string& error);
 
-    void* _display = nullptr;
-    void* _context = nullptr;
+    std::unique_ptr<NativeContext> _native;
     std::string _renderer, _version;
     std::unique_ptr<HeldFences> _fences; ///< of drivers that need it
 };

@@ -156,12 +156,15 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     b.sharedEvery = sampled.sharedEvery;
     if (lights.pixelsChoose()) {
         b.lightsChosen = LightSampler::chosen;
-        b.cellsLow = sampled.cells.low;
-        b.cellsPerUnit = sampled.cells.perUnit;
-        b.cellsX = sampled.cells.sides.x;
-        b.cellsY = sampled.cells.sides.y;
-        b.cellsZ = sampled.cells.sides.z;
-        _manyLights.bind(sampled.estimates, sampled.cells, LightSampler::maxTaken);
+        const ShadowBounds& lit = _seen.bounds();
+        const LightCells& cells =
+            _manyLights.bind(sampled.estimates, size_t(sampled.firstShared), lit.receiverMin,
+                             lit.receiverMax, lights.seed(), pass, LightSampler::maxTaken);
+        b.cellsLow = cells.low;
+        b.cellsPerUnit = cells.perUnit;
+        b.cellsX = cells.sides.x;
+        b.cellsY = cells.sides.y;
+        b.cellsZ = cells.sides.z;
     }
     if (const GlTexture& map = domes.maps()) {
         map.bind(16);

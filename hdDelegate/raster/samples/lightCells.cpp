@@ -73,27 +73,47 @@ LightCells::LightCells(const std::vector<LightEstimate>& estimates, size_t first
     });
 }
 
-void RasterManyLights::bind(const std::vector<LightEstimate>& estimates, const LightCells& cells,
-                            size_t lights) {
-    std::vector<LightEstimate> all = estimates;
+const LightCells& RasterManyLights::bind(const std::vector<LightEstimate>& estimates, size_t first,
+                                         vec3 low, vec3 high, uint32_t seed, uint32_t pass,
+                                         size_t lights) {
+    const bool same =
+        _lists && first == _first && low == _low && high == _high && seed == _seed &&
+        pass == _pass && estimates.size() == _of.size() &&
+        std::memcmp(estimates.data(), _of.data(), estimates.size() * sizeof(LightEstimate)) == 0;
+    if (!same) {
+        _of = estimates;
+        _first = first;
+        _low = low;
+        _high = high;
+        _seed = seed;
+        _pass = pass;
+        _cells =
+            estimates.empty() ? LightCells() : LightCells(estimates, first, low, high, seed, pass);
+        upload(lights);
+    }
+    _estimates.bindUniform(5);
+    _lists.bind(26);
+    return _cells;
+}
+
+void RasterManyLights::upload(size_t lights) {
+    std::vector<LightEstimate> all = _of;
     all.resize(lights);
     if (_estimates.size() != all.size() * sizeof(LightEstimate))
         _estimates = GlBuffer(all);
     else
         _estimates.write(all.data(), all.size() * sizeof(LightEstimate));
-    _estimates.bindUniform(5);
     constexpr int width = LightCells::aRow * LightCells::listed;
     if (!_lists) {
         _lists = GlTexture(GL_TEXTURE_2D, GL_R32UI, width, LightCells::rows);
         _lists.filter(GL_NEAREST);
     }
-    std::vector<uint32_t> texels = cells.lists;
+    std::vector<uint32_t> texels = _cells.lists;
     const size_t rows = (texels.size() + width - 1) / width;
     texels.resize(rows * width);
     if (rows > 0)
         gl.TextureSubImage2D(_lists.id(), 0, 0, 0, width, GLsizei(rows), GL_RED_INTEGER,
                              GL_UNSIGNED_INT, texels.data());
-    _lists.bind(26);
 }
 
 } // namespace patina

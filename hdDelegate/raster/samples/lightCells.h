@@ -38,10 +38,21 @@ struct LightCells {
 /// What shaders/raster/manyLights.glsl reads, on the GPU. Lives with one context.
 class RasterManyLights {
 public:
-    /// Uploads what a pass needs and binds it: 5 of uniform blocks, 26 of textures.
-    void bind(const std::vector<LightEstimate>& estimates, const LightCells& cells, size_t lights);
+    /// Uploads what a pass needs, unless it is that of the pass before, and binds it: 5 of uniform
+    /// blocks, 26 of textures.
+    /// @param estimates,first,low,high,seed,pass as of LightCells
+    /// @param lights that the shaders have room for
+    const LightCells& bind(const std::vector<LightEstimate>& estimates, size_t first, vec3 low,
+                           vec3 high, uint32_t seed, uint32_t pass, size_t lights);
 
 private:
+    void upload(size_t lights);
+
+    std::vector<LightEstimate> _of; ///< what _cells are made of
+    size_t _first = 0;
+    vec3 _low{0.0f}, _high{0.0f};
+    uint32_t _seed = 0, _pass = 0;
+    LightCells _cells;
     GlBuffer _estimates;
     GlTexture _lists;
 };

@@ -181,16 +181,13 @@ void LightSampler::choosePerPixel(const std::vector<std::pair<GpuLight, size_t>>
     std::vector<vec3> places;
     for (const auto& [light, source] : placed)
         places.push_back(_sources[source].position);
-    const size_t first = out.lights.size();
-    out.estimates.resize(first);
+    out.estimates.resize(out.lights.size());
     for (const uint32_t i : mortonOrder(places)) {
         if (out.lights.size() == size_t(maxTaken)) break;
         out.lights.push_back(placed[i].first);
         out.estimates.push_back(_sources[placed[i].second].estimate);
         out.estimates.back().power *= placed[i].first.weight;
     }
-    out.cells = LightCells(out.estimates, first, _bounds.receiverMin, _bounds.receiverMax,
-                           _lights.seed(), _pass);
 }
 
 void LightSampler::takeEmitters(int samples, int maximum, SampledLights& out,

@@ -18,7 +18,6 @@ struct SampledLights {
     int found = 0, firstSampled = 0, firstShared = 0, sharedEvery = 1;
     /// Where pixels choose among the lights from firstShared on: of those, by their numbers.
     std::vector<LightEstimate> estimates;
-    LightCells cells;
     bool many = false; ///< of a first look: all lights have as many samples as help
 };
 

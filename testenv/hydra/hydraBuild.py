@@ -196,7 +196,7 @@ def has_qt():
 
 def has_usdview():
     """:returns: whether this OpenUSD has usdview, and a Python that can open its window"""
-    return has_qt() and _imports("pxr.Usdviewq")
+    return has_qt() and _imports("pxr.Usdviewq, OpenGL")
 
 
 def _imports(module):

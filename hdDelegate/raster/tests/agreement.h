@@ -30,6 +30,8 @@ struct AgreementRow {
 
 /// Every lobe, each over inputs with the extremes in them.
 std::vector<AgreementRow> agreementRows();
+/// The same, whose float is as far off as GLSL allows; see loosest.h.
+std::vector<AgreementRow> loosestRows();
 
 /// Directions and random numbers that every set of inputs is tried with.
 struct AgreementPoint {

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of lobes whose GLSL is compared with C++. A new lobe is one more row.
+// The table of lobes whose GLSL is compared with C++. A new lobe is one more row. Compiled twice,
+// see agreementLoosest.cpp.
 
 #include "hdDelegate/raster/tests/agreement.h"
+
+#ifndef PATINA_SINGLE
+#define PATINA_SINGLE sh
+#define PATINA_ROWS agreementRows
+#endif
 
 namespace patina::test {
 
@@ -55,7 +61,8 @@ const Options filmIor{1.0f, 1.3f, 1.6f, 2.0f};
     }
 #define PATINA_ROW(NAME, PREFIX, ALBEDO, SETS, ...)                                                \
     AgreementRow {                                                                                 \
-        NAME, #__VA_ARGS__, #PREFIX, #ALBEDO, PATINA_INSTANCE(sh, PREFIX, ALBEDO, __VA_ARGS__),    \
+        NAME, #__VA_ARGS__, #PREFIX, #ALBEDO,                                                      \
+            PATINA_INSTANCE(PATINA_SINGLE, PREFIX, ALBEDO, __VA_ARGS__),                           \
             PATINA_INSTANCE(sh64, PREFIX, ALBEDO, __VA_ARGS__), SETS                               \
     }
 
@@ -78,13 +85,13 @@ const Options filmIor{1.0f, 1.3f, 1.6f, 2.0f};
     }
 #define PATINA_VALUE_ROW(NAME, SETS, ...)                                                          \
     AgreementRow {                                                                                 \
-        NAME, #__VA_ARGS__, "", "", PATINA_VALUE(sh, __VA_ARGS__),                                 \
+        NAME, #__VA_ARGS__, "", "", PATINA_VALUE(PATINA_SINGLE, __VA_ARGS__),                      \
             PATINA_VALUE(sh64, __VA_ARGS__), SETS                                                  \
     }
 
 } // namespace
 
-std::vector<AgreementRow> agreementRows() {
+std::vector<AgreementRow> PATINA_ROWS() {
     return {
         PATINA_ROW("orenNayar", orenNayar, orenNayarAlbedo,
                    mixed({color, color, color, roughness, flag}),

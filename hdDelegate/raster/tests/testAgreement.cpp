@@ -187,6 +187,15 @@ double chanceOf(double share, const Tally& tally, int part) {
     return 3.0 * std::sqrt(2.0 * std::max(1.0, share * groups)) / groups;
 }
 
+/// Whether this processor runs what agreementLoosest.cpp is compiled to.
+bool canFuse() {
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("fma");
+#else
+    return true;
+#endif
+}
+
 std::vector<float> runOnDriver(const AgreementRow& row, const GlProgram& program) {
     const std::vector<AgreementPoint> points = agreementPoints();
     std::vector<float> parameters;
@@ -217,12 +226,15 @@ class Agreement : public ::testing::TestWithParam<size_t> {};
 TEST_P(Agreement, OfLobeWithOracle) {
     PATINA_NEED_CONTEXT();
     const AgreementRow row = agreementRows()[GetParam()];
+    // A driver in software computes as C++ does. Others have what GLSL allows.
+    const bool exact = context->renderer().find("llvmpipe") != std::string::npos || !canFuse();
+    const AgreementRow allowed = loosestRows()[GetParam()];
     std::string error;
     const auto program = GlProgram::make({{GL_COMPUTE_SHADER, row.name, shaderOf(row)}}, error);
     ASSERT_TRUE(program) << error;
     const std::vector<float> answers = runOnDriver(row, *program);
     const std::vector<AgreementPoint> points = agreementPoints();
-    Tally driver[PartCount], single[PartCount];
+    Tally driver[PartCount], single[PartCount], loosest[PartCount];
     for (size_t s = 0; s < row.sets.size(); ++s) {
         const BoundLobe f32 = row.f32(row.sets[s].data());
         const BoundLobe f64 = row.f64(row.sets[s].data());
@@ -235,10 +247,18 @@ TEST_P(Agreement, OfLobeWithOracle) {
                 driver[part].add(d[part], s, i);
                 single[part].add(f[part], s, i);
             }
+            if (exact) continue;
+            differences(answerOf(allowed.f32(row.sets[s].data()), points[i]), oracle, f);
+            for (int part = 0; part < PartCount; ++part)
+                loosest[part].add(f[part], s, i);
         }
     }
     for (int part = 0; part < PartCount; ++part) {
-        const Tally &d = driver[part], &f = single[part];
+        const Tally& d = driver[part];
+        Tally f = single[part];
+        f.above5 = std::max(f.above5, loosest[part].above5);
+        f.above4 = std::max(f.above4, loosest[part].above4);
+        f.worst = std::max(f.worst, loosest[part].worst);
         const char* name = agreementPartNames[part];
         const char* reason = d.above4 > 0 ? reasonFor(row.name) : "";
         std::printf("  %-21s %-10s %5d points, above 1e-5 %6.3f%% (float C++ %6.3f%%), above 1e-4 "

@@ -55,6 +55,14 @@ HdPatinaRenderBuffer* HdPatinaRenderBuffer::known(const HdRenderBuffer* buffer) 
     return found == registry().buffers.end() ? nullptr : found->second;
 }
 
+void HdPatinaRenderBuffer::leaveDevice(const HdPatinaHostTextures& textures) {
+    const std::lock_guard<std::mutex> all(registry().mutex);
+    for (const auto& [key, buffer] : registry().buffers) {
+        const std::lock_guard<std::mutex> lock(buffer->_mutex);
+        if (buffer->_textures.get() == &textures) buffer->forgetImage();
+    }
+}
+
 bool HdPatinaRenderBuffer::Allocate(const GfVec3i& dimensions, HdFormat format, bool) {
     _Deallocate();
     const char* name = GetId().GetText();

@@ -23,6 +23,9 @@ public:
     /// Bindings may be older than the buffers that they point to.
     static HdPatinaRenderBuffer* known(const HdRenderBuffer* buffer);
 
+    /// Lets go of the images that buffers of a delegate have on the host's device.
+    static void leaveDevice(const HdPatinaHostTextures& textures);
+
     /// Zero sizes are allowed. @returns false, with a warning, for depths other than 1, for sizes
     /// that no film has or that there is no memory for, and for formats that cannot be written; the
     /// buffer is empty then.

@@ -67,7 +67,8 @@ HdPatinaRenderDelegate::HdPatinaRenderDelegate(const HdRenderSettingsMap& settin
 
 HdPatinaRenderDelegate::~HdPatinaRenderDelegate() {
     for (const auto& session : _state->sessions())
-        session->stop();
+        session->leaveDevice();
+    HdPatinaRenderBuffer::leaveDevice(*_state->hostTextures);
     _state->hostTextures->release();
 }
 

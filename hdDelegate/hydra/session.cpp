@@ -51,6 +51,20 @@ void HdPatinaSession::stop() {
     _stopping = false;
 }
 
+void HdPatinaSession::leaveDevice() {
+    stop();
+    std::shared_ptr<Renderer> last;
+    std::shared_ptr<HdPatinaFrame> frame;
+    std::vector<HdPatinaPixels> spare;
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (!_device) return;
+    std::swap(_renderer, last);
+    _frame.swap(frame);
+    _spare.swap(spare);
+    _device.reset();
+    _backend.clear();
+}
+
 void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& settings,
                             const std::vector<HdPatinaImageForm>& forms,
                             const std::shared_ptr<HostDevice>& device) {

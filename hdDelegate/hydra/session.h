@@ -44,6 +44,8 @@ public:
     void giveBack(HdPatinaPixels&& image);
 
     void stop(); ///< blocks until no thread renders
+    /// Stops, and lets go of the host's device: its display may be closed soon.
+    void leaveDevice();
     void restart();
     void pause();
     void resume();

@@ -172,8 +172,8 @@ void EmbreeScene::updateSplats(const View& view, const std::vector<SplatScene::P
             [&](const MovingPlace& place) { places.push_back(place); });
         return places;
     };
-    _splats.update(_device, _compiled.splats(), prims, placesOf, _shutterOpen, _shutterClose, _origin,
-                   *view.state.renderingSpace, view.stop, _diagnostics);
+    _splats.update(_device, _compiled.splats(), prims, placesOf, _shutterOpen, _shutterClose,
+                   _origin, *view.state.renderingSpace, view.stop, _diagnostics);
 }
 
 std::vector<GroupPlace> EmbreeScene::groupPlaces(const std::string& group) const {

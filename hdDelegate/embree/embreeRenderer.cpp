@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/embreeRenderer.h"
 
-#include "hdDelegate/embree/caustics/photonPass.h"
 #include "hdDelegate/embree/seenOrigin.h"
 #include "hdDelegate/lights/resolvedLight.h"
 #include "hdDelegate/parallel.h"
@@ -115,7 +114,7 @@ std::unique_ptr<CausticCasters> EmbreeRenderer::casters(const RenderSettings& se
     return nullptr;
 }
 
-PhotonMap EmbreeRenderer::photons(const Integrator& integrator, const CausticCasters& casters,
+PhotonMap EmbreeRenderer::photons(const PhotonTracer& tracer, const CausticCasters& casters,
                                   int block) {
     // Where caustics are not all there is, paths have most of the noise and cost less.
     constexpr double perPath = 1.0 / 16.0;
@@ -129,7 +128,7 @@ PhotonMap EmbreeRenderer::photons(const Integrator& integrator, const CausticCas
         TraceCounters counters;
         for (int i = b * batch; i < std::min(count, (b + 1) * batch) && !stopped(); ++i)
             sent[size_t(i)] =
-                integrator.photon(casters, uint32_t(block), uint32_t(i), uint32_t(count), counters);
+                tracer.trace(casters, uint32_t(block), uint32_t(i), uint32_t(count), counters);
         _rays += counters.rays;
         _shadowRays += counters.shadowRays;
     });
@@ -149,7 +148,8 @@ void EmbreeRenderer::takeBlocks(Integrator& integrator, const CausticCasters& ca
             _photonPass = std::make_unique<PhotonPass>();
             _photonPass->block = block;
             _photonPass->radius = PhotonPass::radiusOf(block);
-            arena.execute([&] { _photonPass->map = photons(integrator, casters, block); });
+            arena.execute(
+                [&] { _photonPass->map = photons(integrator.photonTracer(), casters, block); });
         }
         if (interrupted()) return;
         integrator.usePhotons(_photonPass.get());

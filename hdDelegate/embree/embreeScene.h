@@ -82,6 +82,7 @@ public:
     vec3 transmittance(const SplatScene::Ray& ray, Sampler& sampler) const;
     bool hasMedia() const { return _withMedia > 0; } ///< some material fills its object
     bool ranksMedia() const { return _ranksMedia; }  ///< some prim has a dielectric priority
+    int priorityOf(const Hit& hit) const { return _ranksMedia ? dielectricPriorityOf(hit) : 0; }
     /// Those with a material that glows, in the order of their paths.
     const std::vector<const Surface*>& emissiveSurfaces() const { return _emissive; }
     /// Those with a material for which `wanted` holds, in the order of their paths.

@@ -161,7 +161,7 @@ std::map<std::string, double> EmbreeRenderer::materialSeconds() {
     std::map<std::string, double> seconds;
     const std::lock_guard<std::mutex> lock(_spentMutex);
     if (_spent.empty()) return seconds;
-    const auto names = _embree->materialNames();
+    const auto names = _embree->surfaces().materialNames();
     for (const auto& [program, nanoseconds] : _spent) {
         const auto name = names.find(program);
         seconds[name == names.end() ? "camera" : name->second] += 1e-9 * double(nanoseconds);
@@ -239,14 +239,14 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         throw;
     }
     if (stopped()) return;
-    ScenePlan plan = _embree->plan();
+    ScenePlan plan = _embree->surfaces().plan();
     plan.addPaths(_settings);
     report([&](RenderProgress& progress) {
         progress.statistics = buildCounts();
         progress.statistics["lightsBuilt"] = double(_lightsBuilt);
         progress.statistics["bytes"] = double(_embree->bytes());
         progress.statistics["secondsBuild"] = secondsSinceStart();
-        progress.statistics["trianglesStored"] = double(_embree->trianglesStored());
+        progress.statistics["trianglesStored"] = double(_embree->surfaces().triangles());
         progress.statistics["instances"] = double(_embree->instanceCount());
         plan.addStatistics(_settings.tolerance, progress.statistics);
         progress.plans = plan.materials();

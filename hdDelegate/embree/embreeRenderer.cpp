@@ -30,6 +30,12 @@ void EmbreeRenderer::publish(const TileSchedule& schedule) {
     });
 }
 
+void EmbreeRenderer::addCounts(const TraceCounters& counters) {
+    _rays += counters.rays;
+    _shadowRays += counters.shadowRays;
+    _paths += counters.paths;
+}
+
 void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& schedule, int tile,
                                 int end) {
     if (interrupted()) return;
@@ -42,9 +48,7 @@ void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& sche
         for (int x = t.x0; x < t.x1; ++x)
             for (int i = int(_film->nextSample(x, y)); i < target; ++i)
                 integrator.sample(*_film, x, y, uint32_t(i), counters);
-    _rays += counters.rays;
-    _shadowRays += counters.shadowRays;
-    _paths += counters.paths;
+    addCounts(counters);
     schedule.look(tile);
     if (!_settings.timeMaterials) return;
     const std::lock_guard<std::mutex> lock(_spentMutex);
@@ -81,9 +85,7 @@ void EmbreeRenderer::showBlocks(const Integrator& integrator, const TileSchedule
                         if (isOfBlock(x, y) && !isLast && _film->nextSample(x, y) == 0)
                             integrator.sample(*_film, x, y, 0, counters);
                     }
-                _rays += counters.rays;
-                _shadowRays += counters.shadowRays;
-                _paths += counters.paths;
+                addCounts(counters);
             });
         });
         if (interrupted()) return;
@@ -129,8 +131,7 @@ PhotonMap EmbreeRenderer::photons(const PhotonTracer& tracer, const CausticCaste
         for (int i = b * batch; i < std::min(count, (b + 1) * batch) && !stopped(); ++i)
             sent[size_t(i)] =
                 tracer.trace(casters, uint32_t(block), uint32_t(i), uint32_t(count), counters);
-        _rays += counters.rays;
-        _shadowRays += counters.shadowRays;
+        addCounts(counters);
     });
     return PhotonMap(std::move(sent));
 }

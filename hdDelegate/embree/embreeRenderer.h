@@ -43,6 +43,7 @@ private:
     const std::shared_ptr<const DistortionMap>& distortionOf(const Camera& camera);
     std::map<std::string, double> buildCounts() const;
     void publish(const TileSchedule& schedule);
+    void addCounts(const TraceCounters& counters);
     std::map<std::string, double> materialSeconds();
 
     // Kept between renders, so that an edit rebuilds only what it touched.

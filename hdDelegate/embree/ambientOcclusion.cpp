@@ -53,9 +53,9 @@ float AmbientOcclusion::sample(const CameraRay& ray, Sampler& sampler,
     const float phi = 2.0f * pi * shift.y;
     vec2 around(std::cos(phi), std::sin(phi));
     int seen = 0;
-    for (int begin = 0; begin < rays; begin += EmbreeScene::packet) {
-        const int count = std::min(rays - begin, EmbreeScene::packet);
-        vec3 directions[EmbreeScene::packet];
+    for (int begin = 0; begin < rays; begin += WorldRays::packet) {
+        const int count = std::min(rays - begin, WorldRays::packet);
+        vec3 directions[WorldRays::packet];
         for (int i = 0; i < count; ++i) {
             const float u = (float(begin + i) + shift.x) / float(rays);
             const vec2 across = std::sqrt(u) * around;

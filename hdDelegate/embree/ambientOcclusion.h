@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hdDelegate/embree/aovWriter.h"
-#include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/worldRays.h"
 #include "hdDelegate/film/sampler.h"
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace patina {
 /// hemisphere over the surface (on the ray's side) that sees no geometry at any distance.
 /// A grey preview, and a workload of plain rays to compare with other renderers.
 struct AmbientOcclusion {
-    const EmbreeScene& scene;
+    const WorldRays& scene;
     int rays; ///< per hit, cosine distributed, stratified
 
     /// @param target where AOVs are written; @param rayCount is counted up by the rays traced

@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/cameraRays.h"
 
+#include "hdDelegate/embree/surfaceSpace.h"
 #include "base/maths.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace patina {
-
-mat4 interpolate(const MotionTransform& transform, float time, const dvec3& origin) {
-    const auto& times = transform.times;
-    const auto value = [&](size_t i) { return seenFrom(origin, transform.values[i]); };
-    if (transform.values.empty()) return seenFrom(origin, dmat4(1.0));
-    if (transform.values.size() == 1 || time <= times.front()) return value(0);
-    if (time >= times.back()) return value(transform.values.size() - 1);
-    const size_t i = std::upper_bound(times.begin(), times.end(), time) - times.begin();
-    const float f = (time - times[i - 1]) / (times[i] - times[i - 1]);
-    return value(i - 1) * (1.0f - f) + value(i) * f;
-}
 
 CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings, const dvec3& origin,
                        std::shared_ptr<const DistortionMap> distortion)

@@ -63,8 +63,4 @@ private:
     ScreenMotion _motion;
 };
 
-/// Value of a sampled quantity at a time, linear between samples and constant outside.
-/// @param origin of the space that it is wanted in, see seenFrom()
-mat4 interpolate(const MotionTransform& transform, float time, const dvec3& origin = dvec3(0.0));
-
 } // namespace patina

@@ -122,6 +122,8 @@ inline bool isTraceable(const RTCRay& ray, float limit) {
 
 /// Ray context with the stack of instances that user geometry went through.
 struct TraceContext {
+    explicit TraceContext(const EmbreeGroup* world) : group(world) { initContext(&base); }
+
     EmbreeContext base; ///< must be first: Embree hands its address to callbacks
     static constexpr int maxDepth = 8;
     struct Entry {
@@ -132,7 +134,7 @@ struct TraceContext {
     Entry stack[maxDepth];
     int hitDepth = 0;
     Entry hitChain[maxDepth];
-    const EmbreeGroup* group = nullptr;           ///< being traversed
+    const EmbreeGroup* group;                     ///< being traversed
     const EmbreeGroup* hitGroup = nullptr;        ///< innermost group of hitChain
     unsigned hitNative = RTC_INVALID_GEOMETRY_ID; ///< Embree instance inside hitGroup
 };

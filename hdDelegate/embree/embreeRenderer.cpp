@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/embreeRenderer.h"
 
-#include "hdDelegate/embree/caustics/photonPass.h"
 #include "hdDelegate/embree/seenOrigin.h"
 #include "hdDelegate/lights/resolvedLight.h"
 #include "hdDelegate/parallel.h"
@@ -31,6 +30,12 @@ void EmbreeRenderer::publish(const TileSchedule& schedule) {
     });
 }
 
+void EmbreeRenderer::addCounts(const TraceCounters& counters) {
+    _rays += counters.rays;
+    _shadowRays += counters.shadowRays;
+    _paths += counters.paths;
+}
+
 void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& schedule, int tile,
                                 int end) {
     if (interrupted()) return;
@@ -43,9 +48,7 @@ void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& sche
         for (int x = t.x0; x < t.x1; ++x)
             for (int i = int(_film->nextSample(x, y)); i < target; ++i)
                 integrator.sample(*_film, x, y, uint32_t(i), counters);
-    _rays += counters.rays;
-    _shadowRays += counters.shadowRays;
-    _paths += counters.paths;
+    addCounts(counters);
     schedule.look(tile);
     if (!_settings.timeMaterials) return;
     const std::lock_guard<std::mutex> lock(_spentMutex);
@@ -82,9 +85,7 @@ void EmbreeRenderer::showBlocks(const Integrator& integrator, const TileSchedule
                         if (isOfBlock(x, y) && !isLast && _film->nextSample(x, y) == 0)
                             integrator.sample(*_film, x, y, 0, counters);
                     }
-                _rays += counters.rays;
-                _shadowRays += counters.shadowRays;
-                _paths += counters.paths;
+                addCounts(counters);
             });
         });
         if (interrupted()) return;
@@ -115,7 +116,7 @@ std::unique_ptr<CausticCasters> EmbreeRenderer::casters(const RenderSettings& se
     return nullptr;
 }
 
-PhotonMap EmbreeRenderer::photons(const Integrator& integrator, const CausticCasters& casters,
+PhotonMap EmbreeRenderer::photons(const PhotonTracer& tracer, const CausticCasters& casters,
                                   int block) {
     // Where caustics are not all there is, paths have most of the noise and cost less.
     constexpr double perPath = 1.0 / 16.0;
@@ -129,9 +130,8 @@ PhotonMap EmbreeRenderer::photons(const Integrator& integrator, const CausticCas
         TraceCounters counters;
         for (int i = b * batch; i < std::min(count, (b + 1) * batch) && !stopped(); ++i)
             sent[size_t(i)] =
-                integrator.photon(casters, uint32_t(block), uint32_t(i), uint32_t(count), counters);
-        _rays += counters.rays;
-        _shadowRays += counters.shadowRays;
+                tracer.trace(casters, uint32_t(block), uint32_t(i), uint32_t(count), counters);
+        addCounts(counters);
     });
     return PhotonMap(std::move(sent));
 }
@@ -149,7 +149,8 @@ void EmbreeRenderer::takeBlocks(Integrator& integrator, const CausticCasters& ca
             _photonPass = std::make_unique<PhotonPass>();
             _photonPass->block = block;
             _photonPass->radius = PhotonPass::radiusOf(block);
-            arena.execute([&] { _photonPass->map = photons(integrator, casters, block); });
+            arena.execute(
+                [&] { _photonPass->map = photons(integrator.photonTracer(), casters, block); });
         }
         if (interrupted()) return;
         integrator.usePhotons(_photonPass.get());
@@ -161,7 +162,7 @@ std::map<std::string, double> EmbreeRenderer::materialSeconds() {
     std::map<std::string, double> seconds;
     const std::lock_guard<std::mutex> lock(_spentMutex);
     if (_spent.empty()) return seconds;
-    const auto names = _embree->materialNames();
+    const auto names = _embree->surfaces().materialNames();
     for (const auto& [program, nanoseconds] : _spent) {
         const auto name = names.find(program);
         seconds[name == names.end() ? "camera" : name->second] += 1e-9 * double(nanoseconds);
@@ -239,14 +240,14 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         throw;
     }
     if (stopped()) return;
-    ScenePlan plan = _embree->plan();
+    ScenePlan plan = _embree->surfaces().plan();
     plan.addPaths(_settings);
     report([&](RenderProgress& progress) {
         progress.statistics = buildCounts();
         progress.statistics["lightsBuilt"] = double(_lightsBuilt);
         progress.statistics["bytes"] = double(_embree->bytes());
         progress.statistics["secondsBuild"] = secondsSinceStart();
-        progress.statistics["trianglesStored"] = double(_embree->trianglesStored());
+        progress.statistics["trianglesStored"] = double(_embree->surfaces().triangles());
         progress.statistics["instances"] = double(_embree->instanceCount());
         plan.addStatistics(_settings.tolerance, progress.statistics);
         progress.plans = plan.materials();

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "hdDelegate/compiled/compiledScene.h"
-#include "hdDelegate/embree/caustics/photonPass.h"
 #include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/integrator.h"
 #include "hdDelegate/embree/lightsKey.h"
@@ -38,12 +37,13 @@ private:
                     const TileSchedule& schedule, const std::vector<int>& tiles, Arena& arena,
                     const std::function<void(int end)>& take);
     /// Sends out the photons of a block of samples.
-    PhotonMap photons(const Integrator& integrator, const CausticCasters& casters, int block);
+    PhotonMap photons(const PhotonTracer& tracer, const CausticCasters& casters, int block);
     void updateScene(const SceneState& state, const Camera& camera);
     /// The camera's map, from the render before where that has the same.
     const std::shared_ptr<const DistortionMap>& distortionOf(const Camera& camera);
     std::map<std::string, double> buildCounts() const;
     void publish(const TileSchedule& schedule);
+    void addCounts(const TraceCounters& counters);
     std::map<std::string, double> materialSeconds();
 
     // Kept between renders, so that an edit rebuilds only what it touched.

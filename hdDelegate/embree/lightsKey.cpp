@@ -18,7 +18,7 @@ LightsKey makeLightsKey(const SceneState& state, const EmbreeScene& scene, const
         key.objects.push_back(item.second);
         inGroups |= !light.group.empty();
         if (light.type != LightType::Mesh) continue;
-        const auto surface = scene.surfaceOf(light.geometry);
+        const auto surface = scene.surfaces().find(light.geometry);
         key.objects.push_back(surface);
         if (!surface) continue;
         inGroups |= !surface->prim->group.empty();
@@ -28,8 +28,8 @@ LightsKey makeLightsKey(const SceneState& state, const EmbreeScene& scene, const
     const auto append = [&](const auto& list) {
         key.objects.insert(key.objects.end(), list.begin(), list.end());
     };
-    append(scene.emissiveSources());
-    if (inGroups) append(scene.placements().drawn());
+    append(scene.surfaces().emissiveSources());
+    if (inGroups) append(scene.places().placements()->drawn());
     return key;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/heroWavelengths.h"
+#include "hdDelegate/embree/materialClock.h"
 #include "hdDelegate/embree/media/mediumStack.h"
+#include "hdDelegate/embree/surface.h"
 #include "hdDelegate/film/sampler.h"
 
 #include <type_traits>
@@ -12,6 +13,14 @@ namespace patina {
 
 class DeepRay;
 class LightPathRecord;
+
+/// Counts of one thread; summed up for the statistics.
+struct TraceCounters {
+    uint64_t rays = 0, shadowRays = 0, paths = 0;
+    MaterialClock clock;
+};
+
+constexpr int maxPassThroughs = 256; ///< surfaces that presence lets one ray through
 
 /// A path while it is traced, as plain data: the ray that goes on, what it carries, and what
 /// multiple importance sampling has to know about the vertex it comes from.
@@ -44,7 +53,7 @@ struct PathState {
     bool splatsSampled = false; ///< what it sees of splats a sample may have found, too
     bool departs = false;       ///< the ray comes from it directly, and was not traced yet
 
-    // caustics from photons, see integratorCaustics.cpp
+    // caustics from photons, see PhotonPass::meet()
     bool onPhotons = false;      ///< since a surface that shows photons it has met casters alone
     bool throughCasters = false; ///< and the last vertex is one of them: photons have its light
 
@@ -62,12 +71,27 @@ static_assert(std::is_trivially_copyable<PathState>::value, "a path moves as byt
 struct Path : PathState {
     using PathState::PathState;
 
+    /// What a stage makes of a path.
+    enum class Step { Arrives, GoesOn, Ends };
+
     MediumStack media;
     HeroWavelengths waves;
+    float indirectClamp = 0.0f;             ///< of luminance from the second vertex on; 0: none
     DeepRay* deep = nullptr;                ///< null where no deep image is made
     LightPathRecord* lightPaths = nullptr;  ///< shares radiance out; null where no AOV asks
     const Surface* vertexSurface = nullptr; ///< of the last vertex, for light linking
     const std::vector<int>* vertexInstanceCategories = nullptr;
+
+    /// Adds light that arrives by the path.
+    void add(const vec3& light);
+    /// Lets the ray go straight on behind a surface.
+    void pass(const SurfacePoint& point);
+    /// Sets the path on its way from a vertex, and keeps what later light hits have to know of it.
+    /// @param splitsLobes some light treats diffuse and other lobes differently
+    void depart(const SurfacePoint& point, const Hit& hit, const VertexBsdf& bsdf,
+                const BsdfSample& next, bool splitsLobes);
+    /// Ends paths by chance for what they have lost. @param rouletteDepth of RenderSettings
+    bool survivesRoulette(int rouletteDepth);
 };
 
 } // namespace patina

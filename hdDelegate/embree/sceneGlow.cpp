@@ -59,7 +59,7 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene, L
     int glowing = 0;
     for (unsigned t = 0; t < triangles.size(); ++t)
         glowing += isMeshLight || surface.material(t).program->hasEmission();
-    if (!haveRoom(scene.placeCount(surface.prim->group) * double(glowing), input)) {
+    if (!haveRoom(scene.places().count(surface.prim->group) * double(glowing), input)) {
         if (isMeshLight) {
             warnOfMany(meshLight->second.light->path, diagnostics);
             _meshLights.erase(meshLight);
@@ -69,7 +69,7 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene, L
         }
         return;
     }
-    std::vector<GroupPlace> places = scene.groupPlaces(surface.prim->group);
+    std::vector<GroupPlace> places = scene.places().places(surface.prim->group);
     if (places.empty()) return;
     const auto volume = [](const GroupPlace& where) {
         return glm::determinant(mat3(where.toWorld));

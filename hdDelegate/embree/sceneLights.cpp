@@ -86,11 +86,12 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
             meshLights.push_back(light);
             continue;
         }
-        if (!haveRoom(scene.placeCount(light->group), input)) {
+        if (!haveRoom(scene.places().count(light->group), input)) {
             warnOfMany(light->path, diagnostics);
             continue;
         }
-        if (!places.count(light->group)) places[light->group] = scene.groupTransforms(light->group);
+        if (!places.count(light->group))
+            places[light->group] = scene.places().transforms(light->group);
         for (const mat4& place : places[light->group]) {
             input.lights.push_back({light, place});
             _infos.push_back(describe(light, scene, settings));
@@ -101,7 +102,7 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
     _infos.back().triangles = true;
 
     for (const auto& light : meshLights) {
-        const Surface* surface = scene.surfaceOf(light->geometry).get();
+        const Surface* surface = scene.surfaces().find(light->geometry).get();
         if (!surface || surface->shape != Surface::Shape::Triangles) {
             diagnostics.warn(light->path, "geometry", messages::meshLightWithoutMesh);
             continue;
@@ -109,18 +110,18 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
         MeshLight meshLight{
             light, lightBaseRadiance(*light), int(_infos.size()), MeshLight::glowOf(*light), {}};
         _hidesMaterials |= meshLight.glow == MeshLight::Glow::Hidden;
-        const double places = scene.placeCount(surface->prim->group);
+        const double places = scene.places().count(surface->prim->group);
         if (!haveRoom(places * double(surface->topology().triangles.size()), input)) {
             warnOfMany(light->path, diagnostics);
             continue;
         }
         if (!light->filters.empty())
-            for (const GroupPlace& place : scene.groupPlaces(surface->prim->group))
+            for (const GroupPlace& place : scene.places().places(surface->prim->group))
                 meshLight.filters.emplace_back(*light, place.toWorld, scene.origin(),
                                                input.shutterOpen, images, diagnostics);
         if (light->normalize) {
             double area = -1.0;
-            scene.forTransforms(surface->prim->group, [&](const mat4& place) {
+            scene.places().each(surface->prim->group, [&](const mat4& place) {
                 if (area < 0.0) area = areaOf(*surface, place);
             });
             if (area > 0.0) meshLight.radiance /= float(area);
@@ -130,14 +131,14 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
         _meshLights[surface] = meshLight;
     }
 
-    std::vector<const Surface*> surfaces = scene.emissiveSurfaces();
+    std::vector<const Surface*> surfaces = scene.surfaces().emissive();
     for (const auto& item : _meshLights)
         surfaces.push_back(item.first);
     // In the order of their paths, so that equal scenes give equal light trees.
     std::sort(surfaces.begin(), surfaces.end(),
               [](const Surface* a, const Surface* b) { return a->prim->path < b->prim->path; });
     surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
-    _placements = scene.sharedPlacements();
+    _placements = scene.places().placements();
     for (const Surface* surface : surfaces)
         addSurface(*surface, scene, input, diagnostics);
     _set = std::make_unique<LightSet>(std::move(input), images, diagnostics);

@@ -51,8 +51,15 @@ public:
     const Surface* triangleSurface(int light) const {
         return light < _set->lightCount() ? nullptr : sourceOf(light).surface;
     }
-    /// Radiance of a sampled triangle towards a point.
-    vec3 triangleRadiance(const LightSample& sample, const vec3& from, float time) const;
+    /// Radiance of a sample towards a point, but for image().
+    vec3 radiance(const LightSample& sample, const vec3& from, float time) const {
+        return info(sample.light).triangles ? triangleRadiance(sample, from, time)
+                                            : sample.radiance;
+    }
+    /// The colour of an image there; reading it takes time.
+    vec3 image(const LightSample& sample) const {
+        return info(sample.light).triangles ? vec3(1.0f) : _set->image(sample);
+    }
     /// The radiance of a surface towards its viewer, by its material and as a mesh light.
     /// @param lit the point that it lights, which filters of mesh lights ask for; null: unfiltered
     vec3 emission(const SurfacePoint& point, const vec3* lit = nullptr) const;
@@ -88,6 +95,7 @@ private:
         int info; ///< in _infos
     };
 
+    vec3 triangleRadiance(const LightSample& sample, const vec3& from, float time) const;
     /// Whether so many more lights are within Limit::lights.
     static bool haveRoom(double more, const LightSetInput& input);
     static void warnOfMany(const std::string& light, Diagnostics& diagnostics);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/embree/integrator.h"
+#include "hdDelegate/embree/shadowRays.h"
 
 #include "hdDelegate/embree/media/freeFlight.h"
+#include "hdDelegate/embree/vertex.h"
 
 #include <algorithm>
 #include <cmath>
-
-// Shadow rays: what is left of a light on its way to a point.
 
 namespace patina {
 
@@ -16,80 +15,77 @@ bool contains(const std::vector<int>& sorted, int value) {
     return std::binary_search(sorted.begin(), sorted.end(), value);
 }
 
+vec3 left(const MediumStack& media, float length) {
+    return media.empty() ? vec3(1.0f) : transmittance(media.extinction(), length);
+}
+
+/// What a surface lets through of a light.
+vec3 leftBehind(const SurfacePoint& point, float distance, const LightInfo& light) {
+    vec3 transmittance(1.0f);
+    const float opacity =
+        point.slot->opaque ? 1.0f : point.slot->program->opacity(point.shading, &transmittance);
+    transmittance *= 1.0f - opacity;
+    if (!(light.shadowFalloff > 0.0f && light.shadowDistance > 0.0f)) return transmittance;
+    const float fade =
+        std::clamp((light.shadowDistance - distance) / light.shadowFalloff, 0.0f, 1.0f);
+    return glm::mix(vec3(1.0f), transmittance,
+                    std::pow(fade, std::max(light.shadowFalloffGamma, 1e-3f)));
+}
+
 } // namespace
 
-bool Integrator::linked(int category, const Surface* surface,
-                        const std::vector<int>* instance) const {
+bool isLinked(int category, const Surface* surface, const std::vector<int>* instance) {
     return category == SceneLights::everything || !surface ||
            contains(surface->categories, category) || (instance && contains(*instance, category));
 }
 
-/// The part of a light that reaches a point past everything in between. Surfaces block it but for
-/// their presence; media take their share, those of objects without a refracting surface too.
-/// @param media at the point, on the side that the light comes from
-vec3 Integrator::visibility(Path& path, const MediumStack& media, const vec3& origin,
-                            const vec3& direction, float distance, const LightInfo& light,
-                            TraceCounters& counters) const {
-    const auto left = [](const MediumStack& stack, float length) {
-        return stack.empty() ? vec3(1.0f) : transmittance(stack.extinction(), length);
+vec3 ShadowRays::seen(const LightInfo& light, const Way& way, const MediumStack& media,
+                      Sampler& sampler, TraceCounters& counters) const {
+    if (!light.castsShadows || !_enabled) return left(media, way.distance);
+    const auto throughSpace = [&] {
+        return _scene.fillsSpace() ? _scene.transmittance({way.origin, way.direction, 0.0f,
+                                                           way.distance, way.time, RayShadow},
+                                                          sampler)
+                                   : vec3(1.0f);
     };
-    if (!light.castsShadows || !_settings.enableShadows) return left(media, distance);
-    const auto volumes = [&] {
-        return _scene.fillsSpace()
-                   ? _scene.transmittance({origin, direction, 0.0f, distance, path.time, RayShadow},
-                                          path.sampler)
-                   : vec3(1.0f);
-    };
-    float far = distance * (1.0f - 1e-4f);
+    float far = way.distance * (1.0f - 1e-4f);
     if (light.shadowDistance > 0.0f) far = std::min(far, light.shadowDistance);
     ++counters.shadowRays;
     const bool simple = _scene.allOpaque() && !_scene.ranksMedia() &&
                         light.shadowCategory == SceneLights::everything &&
                         light.shadowFalloff <= 0.0f;
     if (simple) {
-        const bool blocked = _scene.occluded(origin, direction, 0.0f, far, path.time, RayShadow);
+        const bool blocked =
+            _scene.occluded(way.origin, way.direction, 0.0f, far, way.time, RayShadow);
         const vec3 seen = blocked ? light.shadowColor : vec3(1.0f);
-        return seen == vec3(0.0f) ? seen : seen * left(media, distance) * volumes();
+        return seen == vec3(0.0f) ? seen : seen * left(media, way.distance) * throughSpace();
     }
     MediumStack here = media;
     vec3 through(1.0f);
     float near = 0.0f, last = 0.0f; // last: where the present medium began
     for (int i = 0; i < maxPassThroughs && through != vec3(0.0f); ++i) {
         Hit hit;
-        if (!_scene.intersect(origin, direction, near, far, path.time, RayShadow, hit)) break;
+        if (!_scene.intersect(way.origin, way.direction, near, far, way.time, RayShadow, hit))
+            break;
         SurfacePoint point;
-        computeSurfacePoint(hit, origin, direction, 0.0f, point);
+        computeSurfacePoint(hit, way.origin, way.direction, 0.0f, point);
+        near = hit.distance + std::max(point.offset, hit.distance * 1e-6f);
         if (_scene.ranksMedia()) {
             const MediumStack before = here;
             if (!isThere(here, point, hit)) {
                 through *= left(before, hit.distance - last);
                 last = hit.distance;
-                near = hit.distance + std::max(point.offset, hit.distance * 1e-6f);
                 continue;
             }
         }
-        if (linked(light.shadowCategory, hit.surface, hit.instanceCategories)) {
-            const MaterialProgram& program = *point.slot->program;
-            vec3 transmittance(1.0f);
-            const float opacity =
-                point.slot->opaque ? 1.0f : program.opacity(point.shading, &transmittance);
-            transmittance *= 1.0f - opacity;
-            if (light.shadowFalloff > 0.0f && light.shadowDistance > 0.0f) {
-                const float fade = std::clamp(
-                    (light.shadowDistance - hit.distance) / light.shadowFalloff, 0.0f, 1.0f);
-                transmittance = glm::mix(vec3(1.0f), transmittance,
-                                         std::pow(fade, std::max(light.shadowFalloffGamma, 1e-3f)));
-            }
-            through *= transmittance;
-            if (program.passThroughEnters()) {
-                through *= left(here, hit.distance - last);
-                last = hit.distance;
-                here.cross(program, point.shading, priorityOf(hit));
-            }
-        }
-        near = hit.distance + std::max(point.offset, hit.distance * 1e-6f);
+        if (!isLinked(light.shadowCategory, hit.surface, hit.instanceCategories)) continue;
+        through *= leftBehind(point, hit.distance, light);
+        if (!point.slot->program->passThroughEnters()) continue;
+        through *= left(here, hit.distance - last);
+        last = hit.distance;
+        here.cross(*point.slot->program, point.shading, _scene.priorityOf(hit));
     }
-    if (through != vec3(0.0f)) through *= left(here, distance - last) * volumes();
+    if (through != vec3(0.0f)) through *= left(here, way.distance - last) * throughSpace();
     return through + (1.0f - through) * light.shadowColor;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/surfaceSpace.h"
 
-#include "hdDelegate/embree/cameraRays.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -30,6 +28,17 @@ std::vector<T> valuesAtStep(const std::vector<std::vector<T>>& steps, int step, 
 }
 
 } // namespace
+
+mat4 interpolate(const MotionTransform& transform, float time, const dvec3& origin) {
+    const auto& times = transform.times;
+    const auto value = [&](size_t i) { return seenFrom(origin, transform.values[i]); };
+    if (transform.values.empty()) return seenFrom(origin, dmat4(1.0));
+    if (transform.values.size() == 1 || time <= times.front()) return value(0);
+    if (time >= times.back()) return value(transform.values.size() - 1);
+    const size_t i = std::upper_bound(times.begin(), times.end(), time) - times.begin();
+    const float f = (time - times[i - 1]) / (times[i] - times[i - 1]);
+    return value(i - 1) * (1.0f - f) + value(i) * f;
+}
 
 std::vector<mat4> resample(const MotionTransform& transform, float open, float close,
                            const dvec3& origin) {

@@ -13,6 +13,10 @@ PlacedShape takeAtRest(PrimShape& shape);
 /// Takes the moments of TessellationOptions::withMoments out of what is at rest.
 PlacedShape takeMoments(PlacedShape& shape);
 
+/// Value of a sampled quantity at a time, linear between samples and constant outside.
+/// @param origin of the space that it is wanted in, see seenFrom()
+mat4 interpolate(const MotionTransform& transform, float time, const dvec3& origin = dvec3(0.0));
+
 /// A motion transform at uniform steps over the shutter; a single step where it stands still.
 /// @param origin of the space that it is wanted in, see seenFrom()
 std::vector<mat4> resample(const MotionTransform& transform, float open, float close,

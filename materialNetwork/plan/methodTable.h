@@ -9,6 +9,7 @@ namespace patina {
 /// Cells of a row.
 constexpr int methodBins = 8;
 constexpr int methodCosines = 4;
+using MethodCells = float[methodBins * methodCosines];
 
 /// One method of a choice point as it was measured on one subject. The data (methodTableData.cpp)
 /// are written by `patina chart --lobes --table`.
@@ -33,7 +34,8 @@ struct MeasuredMethod {
     /// quarter of the cosine of the view, grazing first. Rows about scenes have other columns:
     /// sizes on screen for `subdivision`, depths for `roulette`; for `pathDepth` all columns are
     /// equal.
-    float errors[methodBins * methodCosines], truths[methodBins * methodCosines];
+    MethodCells errors;
+    const MethodCells& truths; ///< methods of a subject share them
 };
 
 /// All rows, in the order of choicePoints() and their methods.

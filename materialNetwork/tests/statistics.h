@@ -98,6 +98,14 @@ inline Mean sampledAlbedo(const MaterialProgram& program, const glm::vec3& wo, i
     return mean;
 }
 
+/// Values in one random direction are finite, and the density is positive where they are.
+inline void expectSoundValue(const Bsdf& bsdf, Random& random) {
+    const BsdfEval e = bsdf.eval(random.direction());
+    const float value = e.diffuse.x + e.specular.x;
+    ASSERT_TRUE(std::isfinite(value) && std::isfinite(e.pdf) && value >= 0.0f);
+    EXPECT_TRUE(value == 0.0f || e.pdf > 0.0f) << value << " " << e.pdf;
+}
+
 /// Weights of samples of a material, binned by direction, without mirrors.
 inline Cells sampledCells(const MaterialProgram& program, const glm::vec3& wo, int samples,
                           uint32_t seed) {

@@ -168,9 +168,9 @@ HdSceneIndexPrim HdPatinaBackPlateLookSceneIndex::GetPrim(const SdfPath& path) c
     return prim;
 }
 
-void HdPatinaBackPlateLookSceneIndex::_PrimsDirtied(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::DirtiedPrimEntries& entries) {
-    HdSceneIndexObserver::DirtiedPrimEntries dirtied = entries;
+void HdPatinaBackPlateLookSceneIndex::_PrimsDirtied(const HdSceneIndexBase&,
+                                                    const Dirtied& entries) {
+    Dirtied dirtied = entries;
     for (const auto& entry : entries) {
         const bool camera =
             entry.dirtyLocators.Intersects(HdSceneGlobalsSchema::GetPrimaryCameraPrimLocator());

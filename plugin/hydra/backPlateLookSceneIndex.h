@@ -7,26 +7,19 @@
 
 PXR_NAMESPACE_OPEN_SCOPE
 
-TF_DECLARE_REF_PTRS(HdPatinaBackPlateLookSceneIndex);
-
 /// HdsiBackPlateSceneIndex, which comes before, makes a mesh and a material of each back plate of
 /// each camera. This one hides those that the image's camera does not show (`plateVisibility`), and
 /// makes the others pictures: cameras alone see them, and they reflect nothing.
-class HdPatinaBackPlateLookSceneIndex final : public HdPatinaFilterSceneIndex {
+class HdPatinaBackPlateLookSceneIndex final
+    : public HdPatinaFilterSceneIndex<HdPatinaBackPlateLookSceneIndex> {
 public:
-    static HdPatinaBackPlateLookSceneIndexRefPtr New(const HdSceneIndexBaseRefPtr& input) {
-        return TfCreateRefPtr(new HdPatinaBackPlateLookSceneIndex(input));
-    }
-
+    using HdPatinaFilterSceneIndex::HdPatinaFilterSceneIndex;
     HdSceneIndexPrim GetPrim(const SdfPath& path) const override;
 
 protected:
-    void _PrimsDirtied(const HdSceneIndexBase& sender,
-                       const HdSceneIndexObserver::DirtiedPrimEntries& entries) override;
+    void _PrimsDirtied(const HdSceneIndexBase& sender, const Dirtied& entries) override;
 
 private:
-    explicit HdPatinaBackPlateLookSceneIndex(const HdSceneIndexBaseRefPtr& input)
-        : HdPatinaFilterSceneIndex(input) {}
     /// Whether a path is of a mesh or a material of a back plate.
     bool isPart(const SdfPath& path) const;
     bool isShown(const SdfPath& mesh) const;

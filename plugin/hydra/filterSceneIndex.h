@@ -8,8 +8,15 @@
 PXR_NAMESPACE_OPEN_SCOPE
 
 /// A scene index that hands all on as it is. A filter overrides what it changes.
-class HdPatinaFilterSceneIndex : public HdSingleInputFilteringSceneIndexBase {
+/// @tparam Self the filter
+template <class Self> class HdPatinaFilterSceneIndex : public HdSingleInputFilteringSceneIndexBase {
 public:
+    explicit HdPatinaFilterSceneIndex(const HdSceneIndexBaseRefPtr& input)
+        : HdSingleInputFilteringSceneIndexBase(input) {}
+    static TfRefPtr<Self> New(const HdSceneIndexBaseRefPtr& input) {
+        return TfCreateRefPtr(new Self(input));
+    }
+
     HdSceneIndexPrim GetPrim(const SdfPath& path) const override {
         return _GetInputSceneIndex()->GetPrim(path);
     }
@@ -18,18 +25,17 @@ public:
     }
 
 protected:
-    using HdSingleInputFilteringSceneIndexBase::HdSingleInputFilteringSceneIndexBase;
+    using Added = HdSceneIndexObserver::AddedPrimEntries;
+    using Removed = HdSceneIndexObserver::RemovedPrimEntries;
+    using Dirtied = HdSceneIndexObserver::DirtiedPrimEntries;
 
-    void _PrimsAdded(const HdSceneIndexBase&,
-                     const HdSceneIndexObserver::AddedPrimEntries& entries) override {
+    void _PrimsAdded(const HdSceneIndexBase&, const Added& entries) override {
         _SendPrimsAdded(entries);
     }
-    void _PrimsRemoved(const HdSceneIndexBase&,
-                       const HdSceneIndexObserver::RemovedPrimEntries& entries) override {
+    void _PrimsRemoved(const HdSceneIndexBase&, const Removed& entries) override {
         _SendPrimsRemoved(entries);
     }
-    void _PrimsDirtied(const HdSceneIndexBase&,
-                       const HdSceneIndexObserver::DirtiedPrimEntries& entries) override {
+    void _PrimsDirtied(const HdSceneIndexBase&, const Dirtied& entries) override {
         _SendPrimsDirtied(entries);
     }
 };

@@ -166,7 +166,7 @@ void HdPatinaLevelsSceneIndex::update(bool all, const SdfPathVector& tops) {
     if (_roots.empty() || (!all && tops.empty())) return;
     static const HdDataSourceLocatorSet locators{HdVisibilitySchema::GetDefaultLocator(),
                                                  HdInstancerTopologySchema::GetDefaultLocator()};
-    HdSceneIndexObserver::DirtiedPrimEntries dirtied;
+    Dirtied dirtied;
     const auto tellBelow = [&](const SdfPath& top) {
         for (const SdfPath& path : HdSceneIndexPrimView(_GetInputSceneIndex(), top))
             dirtied.emplace_back(path, locators);
@@ -188,8 +188,7 @@ void HdPatinaLevelsSceneIndex::update(bool all, const SdfPathVector& tops) {
     _SendPrimsDirtied(dirtied);
 }
 
-void HdPatinaLevelsSceneIndex::_PrimsAdded(const HdSceneIndexBase&,
-                                           const HdSceneIndexObserver::AddedPrimEntries& entries) {
+void HdPatinaLevelsSceneIndex::_PrimsAdded(const HdSceneIndexBase&, const Added& entries) {
     bool view = false, instancer = false;
     SdfPathVector tops;
     for (const auto& entry : entries) {
@@ -210,8 +209,7 @@ void HdPatinaLevelsSceneIndex::_PrimsAdded(const HdSceneIndexBase&,
     update(view || instancer, tops);
 }
 
-void HdPatinaLevelsSceneIndex::_PrimsRemoved(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::RemovedPrimEntries& entries) {
+void HdPatinaLevelsSceneIndex::_PrimsRemoved(const HdSceneIndexBase&, const Removed& entries) {
     for (const auto& entry : entries)
         for (auto it = _roots.lower_bound(entry.primPath);
              it != _roots.end() && it->first.HasPrefix(entry.primPath);)
@@ -219,8 +217,7 @@ void HdPatinaLevelsSceneIndex::_PrimsRemoved(
     _SendPrimsRemoved(entries);
 }
 
-void HdPatinaLevelsSceneIndex::_PrimsDirtied(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::DirtiedPrimEntries& entries) {
+void HdPatinaLevelsSceneIndex::_PrimsDirtied(const HdSceneIndexBase&, const Dirtied& entries) {
     _SendPrimsDirtied(entries);
     if (_roots.empty()) return;
     bool all = false;

@@ -10,26 +10,18 @@
 
 PXR_NAMESPACE_OPEN_SCOPE
 
-TF_DECLARE_REF_PTRS(HdPatinaLevelsSceneIndex);
-
 /// Draws of each root of levels of detail (UsdLod, OpenUSD 26.08) what its override, its heuristic
 /// or its default index choose for the primary camera. All instances of a prototype show the level
 /// of the one that is nearest to the camera.
-class HdPatinaLevelsSceneIndex final : public HdPatinaFilterSceneIndex {
+class HdPatinaLevelsSceneIndex final : public HdPatinaFilterSceneIndex<HdPatinaLevelsSceneIndex> {
 public:
-    static HdPatinaLevelsSceneIndexRefPtr New(const HdSceneIndexBaseRefPtr& input) {
-        return TfCreateRefPtr(new HdPatinaLevelsSceneIndex(input));
-    }
-
+    explicit HdPatinaLevelsSceneIndex(const HdSceneIndexBaseRefPtr& input);
     HdSceneIndexPrim GetPrim(const SdfPath& path) const override;
 
 protected:
-    void _PrimsAdded(const HdSceneIndexBase& sender,
-                     const HdSceneIndexObserver::AddedPrimEntries& entries) override;
-    void _PrimsRemoved(const HdSceneIndexBase& sender,
-                       const HdSceneIndexObserver::RemovedPrimEntries& entries) override;
-    void _PrimsDirtied(const HdSceneIndexBase& sender,
-                       const HdSceneIndexObserver::DirtiedPrimEntries& entries) override;
+    void _PrimsAdded(const HdSceneIndexBase& sender, const Added& entries) override;
+    void _PrimsRemoved(const HdSceneIndexBase& sender, const Removed& entries) override;
+    void _PrimsDirtied(const HdSceneIndexBase& sender, const Dirtied& entries) override;
 
 private:
     struct Root {
@@ -37,7 +29,6 @@ private:
         std::optional<int> item; ///< as HdPatinaLevels::chosen()
     };
 
-    explicit HdPatinaLevelsSceneIndex(const HdSceneIndexBaseRefPtr& input);
     /// @returns whether the levels above say that a prim is drawn or not; nothing: it is as it is
     std::optional<bool> decided(const SdfPath& path) const;
     Root read(const SdfPath& path) const;

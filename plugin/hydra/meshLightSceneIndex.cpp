@@ -31,7 +31,7 @@ bool isMeshLight(const HdSceneIndexPrim& prim) {
 } // namespace
 
 HdPatinaMeshLightSceneIndex::HdPatinaMeshLightSceneIndex(const HdSceneIndexBaseRefPtr& input)
-    : HdSingleInputFilteringSceneIndexBase(input) {
+    : HdPatinaFilterSceneIndex(input) {
     populate(SdfPath::AbsoluteRootPath());
 }
 
@@ -74,10 +74,9 @@ SdfPathVector HdPatinaMeshLightSceneIndex::GetChildPrimPaths(const SdfPath& path
     return children;
 }
 
-void HdPatinaMeshLightSceneIndex::_PrimsAdded(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::AddedPrimEntries& entries) {
-    HdSceneIndexObserver::AddedPrimEntries added = entries;
-    HdSceneIndexObserver::RemovedPrimEntries removed;
+void HdPatinaMeshLightSceneIndex::_PrimsAdded(const HdSceneIndexBase&, const Added& entries) {
+    Added added = entries;
+    Removed removed;
     for (const auto& entry : entries) {
         const bool is = isMeshLight(_GetInputSceneIndex()->GetPrim(entry.primPath));
         if (entry.primPath.GetNameToken() == childName() &&
@@ -94,8 +93,7 @@ void HdPatinaMeshLightSceneIndex::_PrimsAdded(
     _SendPrimsAdded(added);
 }
 
-void HdPatinaMeshLightSceneIndex::_PrimsRemoved(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::RemovedPrimEntries& entries) {
+void HdPatinaMeshLightSceneIndex::_PrimsRemoved(const HdSceneIndexBase&, const Removed& entries) {
     // Removal takes descendants with it, the lights of meshes among them.
     for (const auto& entry : entries)
         for (std::set<SdfPath>* paths : {&_lights, &_hidden})
@@ -105,11 +103,10 @@ void HdPatinaMeshLightSceneIndex::_PrimsRemoved(
     _SendPrimsRemoved(entries);
 }
 
-void HdPatinaMeshLightSceneIndex::_PrimsDirtied(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::DirtiedPrimEntries& entries) {
-    HdSceneIndexObserver::DirtiedPrimEntries dirtied = entries;
-    HdSceneIndexObserver::AddedPrimEntries added;
-    HdSceneIndexObserver::RemovedPrimEntries removed;
+void HdPatinaMeshLightSceneIndex::_PrimsDirtied(const HdSceneIndexBase&, const Dirtied& entries) {
+    Dirtied dirtied = entries;
+    Added added;
+    Removed removed;
     for (const auto& entry : entries) {
         const bool was = _lights.count(entry.primPath) != 0;
         const bool maybe =

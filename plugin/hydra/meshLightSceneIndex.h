@@ -1,37 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/hydra/compat.h"
-
-#include <pxr/imaging/hd/filteringSceneIndex.h>
+#include "plugin/hydra/filterSceneIndex.h"
 
 #include <set>
 
 PXR_NAMESPACE_OPEN_SCOPE
 
-TF_DECLARE_REF_PTRS(HdPatinaMeshLightSceneIndex);
-
 /// Gives every mesh that is a light (UsdLuxMeshLightAPI) a child prim of type meshLight, which
 /// render delegates are told about as of any other light.
-class HdPatinaMeshLightSceneIndex final : public HdSingleInputFilteringSceneIndexBase {
+class HdPatinaMeshLightSceneIndex final
+    : public HdPatinaFilterSceneIndex<HdPatinaMeshLightSceneIndex> {
 public:
-    static HdPatinaMeshLightSceneIndexRefPtr New(const HdSceneIndexBaseRefPtr& input) {
-        return TfCreateRefPtr(new HdPatinaMeshLightSceneIndex(input));
-    }
-
+    explicit HdPatinaMeshLightSceneIndex(const HdSceneIndexBaseRefPtr& input);
     HdSceneIndexPrim GetPrim(const SdfPath& path) const override;
     SdfPathVector GetChildPrimPaths(const SdfPath& path) const override;
 
 protected:
-    void _PrimsAdded(const HdSceneIndexBase& sender,
-                     const HdSceneIndexObserver::AddedPrimEntries& entries) override;
-    void _PrimsRemoved(const HdSceneIndexBase& sender,
-                       const HdSceneIndexObserver::RemovedPrimEntries& entries) override;
-    void _PrimsDirtied(const HdSceneIndexBase& sender,
-                       const HdSceneIndexObserver::DirtiedPrimEntries& entries) override;
+    void _PrimsAdded(const HdSceneIndexBase& sender, const Added& entries) override;
+    void _PrimsRemoved(const HdSceneIndexBase& sender, const Removed& entries) override;
+    void _PrimsDirtied(const HdSceneIndexBase& sender, const Dirtied& entries) override;
 
 private:
-    explicit HdPatinaMeshLightSceneIndex(const HdSceneIndexBaseRefPtr& input);
     void populate(const SdfPath& path);
     void addLight(const SdfPath& mesh);
     /// Warns once of a child of the stage's own that the light of its mesh stands in for.

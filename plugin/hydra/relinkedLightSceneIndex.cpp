@@ -16,10 +16,10 @@ bool hasLinks(const TfToken& primType) {
 
 } // namespace
 
-void HdPatinaRelinkedLightSceneIndex::_PrimsDirtied(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::DirtiedPrimEntries& entries) {
+void HdPatinaRelinkedLightSceneIndex::_PrimsDirtied(const HdSceneIndexBase&,
+                                                    const Dirtied& entries) {
     // A prim that loses its type keeps its children, while removal would take them along.
-    HdSceneIndexObserver::AddedPrimEntries untyped, typed;
+    Added untyped, typed;
     for (const auto& entry : entries) {
         if (!entry.dirtyLocators.Intersects(HdCollectionsSchema::GetDefaultLocator())) continue;
         const TfToken type = _GetInputSceneIndex()->GetPrim(entry.primPath).primType;

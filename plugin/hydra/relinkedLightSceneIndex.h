@@ -7,24 +7,16 @@
 
 PXR_NAMESPACE_OPEN_SCOPE
 
-TF_DECLARE_REF_PTRS(HdPatinaRelinkedLightSceneIndex);
-
 /// Lets lights of which links change go and come again. HdsiLightLinkingSceneIndex, which has to
 /// follow, reads freed memory when it is told instead that a collection is dirty, unless another
 /// light has an equal one (seen in OpenUSD 24.11, by AddressSanitizer).
-class HdPatinaRelinkedLightSceneIndex final : public HdPatinaFilterSceneIndex {
+class HdPatinaRelinkedLightSceneIndex final
+    : public HdPatinaFilterSceneIndex<HdPatinaRelinkedLightSceneIndex> {
 public:
-    static HdPatinaRelinkedLightSceneIndexRefPtr New(const HdSceneIndexBaseRefPtr& input) {
-        return TfCreateRefPtr(new HdPatinaRelinkedLightSceneIndex(input));
-    }
+    using HdPatinaFilterSceneIndex::HdPatinaFilterSceneIndex;
 
 protected:
-    void _PrimsDirtied(const HdSceneIndexBase& sender,
-                       const HdSceneIndexObserver::DirtiedPrimEntries& entries) override;
-
-private:
-    explicit HdPatinaRelinkedLightSceneIndex(const HdSceneIndexBaseRefPtr& input)
-        : HdPatinaFilterSceneIndex(input) {}
+    void _PrimsDirtied(const HdSceneIndexBase& sender, const Dirtied& entries) override;
 };
 
 PXR_NAMESPACE_CLOSE_SCOPE

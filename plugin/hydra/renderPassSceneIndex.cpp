@@ -109,26 +109,23 @@ template <class Entries> void HdPatinaRenderPassSceneIndex::updateFrom(const Ent
     static const HdDataSourceLocatorSet locators{
         HdLightSchema::GetDefaultLocator(), HdVisibilitySchema::GetDefaultLocator(),
         HdPrimvarsSchema::GetDefaultLocator(), HdInstancerTopologySchema::GetDefaultLocator()};
-    HdSceneIndexObserver::DirtiedPrimEntries dirtied;
+    Dirtied dirtied;
     for (const SdfPath& path : HdSceneIndexPrimView(_GetInputSceneIndex()))
         dirtied.emplace_back(path, locators);
     _SendPrimsDirtied(dirtied);
 }
 
-void HdPatinaRenderPassSceneIndex::_PrimsAdded(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::AddedPrimEntries& entries) {
+void HdPatinaRenderPassSceneIndex::_PrimsAdded(const HdSceneIndexBase&, const Added& entries) {
     _SendPrimsAdded(entries);
     updateFrom(entries);
 }
 
-void HdPatinaRenderPassSceneIndex::_PrimsRemoved(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::RemovedPrimEntries& entries) {
+void HdPatinaRenderPassSceneIndex::_PrimsRemoved(const HdSceneIndexBase&, const Removed& entries) {
     _SendPrimsRemoved(entries);
     updateFrom(entries);
 }
 
-void HdPatinaRenderPassSceneIndex::_PrimsDirtied(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::DirtiedPrimEntries& entries) {
+void HdPatinaRenderPassSceneIndex::_PrimsDirtied(const HdSceneIndexBase&, const Dirtied& entries) {
     _SendPrimsDirtied(entries);
     updateFrom(entries);
 }

@@ -13,27 +13,20 @@
 
 PXR_NAMESPACE_OPEN_SCOPE
 
-TF_DECLARE_REF_PTRS(HdPatinaRenderPassSceneIndex);
-
 /// Draws what the collections of the active UsdRenderPass say: prims that `renderVisibility` leaves
 /// out and those that `prune` takes away are hidden, what `cameraVisibility` leaves out and what is
 /// a `matte` gets the marks of it. Of native instances whole ones are hidden; what is in them is
 /// where all of them say so.
-class HdPatinaRenderPassSceneIndex final : public HdPatinaFilterSceneIndex {
+class HdPatinaRenderPassSceneIndex final
+    : public HdPatinaFilterSceneIndex<HdPatinaRenderPassSceneIndex> {
 public:
-    static HdPatinaRenderPassSceneIndexRefPtr New(const HdSceneIndexBaseRefPtr& input) {
-        return TfCreateRefPtr(new HdPatinaRenderPassSceneIndex(input));
-    }
-
+    explicit HdPatinaRenderPassSceneIndex(const HdSceneIndexBaseRefPtr& input);
     HdSceneIndexPrim GetPrim(const SdfPath& path) const override;
 
 protected:
-    void _PrimsAdded(const HdSceneIndexBase& sender,
-                     const HdSceneIndexObserver::AddedPrimEntries& entries) override;
-    void _PrimsRemoved(const HdSceneIndexBase& sender,
-                       const HdSceneIndexObserver::RemovedPrimEntries& entries) override;
-    void _PrimsDirtied(const HdSceneIndexBase& sender,
-                       const HdSceneIndexObserver::DirtiedPrimEntries& entries) override;
+    void _PrimsAdded(const HdSceneIndexBase& sender, const Added& entries) override;
+    void _PrimsRemoved(const HdSceneIndexBase& sender, const Removed& entries) override;
+    void _PrimsDirtied(const HdSceneIndexBase& sender, const Dirtied& entries) override;
 
 private:
     enum Collection { RenderVisibility, Prune, CameraVisibility, Matte, CollectionCount };
@@ -43,7 +36,6 @@ private:
     };
     using Collections = std::array<Members, CollectionCount>;
 
-    explicit HdPatinaRenderPassSceneIndex(const HdSceneIndexBaseRefPtr& input);
     bool has(Collection collection, const SdfPath& path) const;
     bool isDrawn(const SdfPath& path) const {
         return has(RenderVisibility, path) && !has(Prune, path);

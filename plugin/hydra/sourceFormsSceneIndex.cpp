@@ -100,17 +100,15 @@ HdSceneIndexPrim HdPatinaSourceFormsSceneIndex::GetPrim(const SdfPath& path) con
     return prim;
 }
 
-void HdPatinaSourceFormsSceneIndex::_PrimsAdded(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::AddedPrimEntries& entries) {
-    HdSceneIndexObserver::AddedPrimEntries added = entries;
+void HdPatinaSourceFormsSceneIndex::_PrimsAdded(const HdSceneIndexBase&, const Added& entries) {
+    Added added = entries;
     for (auto& entry : added)
         entry.primType = knownType(entry.primType);
     _SendPrimsAdded(added);
 }
 
-void HdPatinaSourceFormsSceneIndex::_PrimsDirtied(
-    const HdSceneIndexBase&, const HdSceneIndexObserver::DirtiedPrimEntries& entries) {
-    HdSceneIndexObserver::DirtiedPrimEntries dirtied = entries;
+void HdPatinaSourceFormsSceneIndex::_PrimsDirtied(const HdSceneIndexBase&, const Dirtied& entries) {
+    Dirtied dirtied = entries;
     for (auto& entry : dirtied)
         for (const auto& type : attributes())
             if (entry.dirtyLocators.Intersects(HdDataSourceLocator(type.first)))

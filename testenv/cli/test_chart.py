@@ -131,4 +131,5 @@ def test_table_text(tmp_path):
     lobes.write_table([row], path)
     text = " ".join(path.read_text().split())
     assert ('{"p", "m", "s", "albedo", 3.0f, 1.0f, 0.0f, 1e-05f, 0.5f, "conductor", 0.9f, "roughness", 1.0f, '
-            '{0, 0.25f}, {1.0f, 0.5f}},') in text
+            '{0, 0.25f}, truths[0]},') in text
+    assert "truths[] = { {1.0f, 0.5f}, };" in text

@@ -66,8 +66,8 @@ bool castsCaustics(const MaterialProgram& program) {
     });
 }
 
-CausticCasters::CausticCasters(const EmbreeScene& scene) : _placements(scene.sharedPlacements()) {
-    for (const Surface* surface : scene.surfacesWith(castsCaustics)) {
+CausticCasters::CausticCasters(const EmbreeScene& scene) : _placements(scene.places().placements()) {
+    for (const Surface* surface : scene.surfaces().with(castsCaustics)) {
         if (surface->shape != Surface::Shape::Triangles || surface->shared) {
             _complete = false;
             continue;
@@ -82,13 +82,13 @@ CausticCasters::CausticCasters(const EmbreeScene& scene) : _placements(scene.sha
             shape.area += area;
         }
         if (shape.triangles.empty()) continue;
-        if (double(_placed.size()) + scene.placeCount(surface->prim->group) >
+        if (double(_placed.size()) + scene.places().count(surface->prim->group) >
             double(limitOf(Limit::lights))) {
             _complete = false;
             continue;
         }
         accumulate(shape.sums);
-        for (const GroupPlace& place : scene.groupPlaces(surface->prim->group)) {
+        for (const GroupPlace& place : scene.places().places(surface->prim->group)) {
             const float size = std::cbrt(std::abs(glm::determinant(glm::mat3(place.toWorld))));
             const float area = shape.area * size * size;
             if (!(area > 0.0f) || !std::isfinite(area)) continue;

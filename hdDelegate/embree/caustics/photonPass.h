@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/embree/caustics/causticCasters.h"
+#include "hdDelegate/embree/cameraRays.h"
 #include "hdDelegate/embree/caustics/photonMap.h"
+#include "hdDelegate/embree/path.h"
 
 namespace patina {
 
-/// Caustics that paths find while a block of samples is taken.
+/// Caustics that paths find while a block of samples is taken: light that comes to surfaces that
+/// are no glass by way of glass (Jensen 1996). docs/design/pathTracer.md has the partition between
+/// photons and paths.
 struct PhotonPass {
     static constexpr int samples = 16; ///< that share photons
     /// Width of a pixel's cone at the surface, in the first block.
@@ -18,6 +21,15 @@ struct PhotonPass {
 
     /// Shrinks such that noise and blur both go to zero (Knaus and Zwicker 2011).
     static float radiusOf(int block);
+
+    /// Shows photons where a path meets a surface that is no glass, and notes which light they have
+    /// from there. @param width of the ray's cone
+    void meet(Path& path, const SurfacePoint& point, const Bsdf& bsdf, float width,
+              const CameraRays& camera, int maxDepth) const;
+
+private:
+    vec3 light(const Path& path, const SurfacePoint& point, const Bsdf& bsdf, float width,
+               const CameraRays& camera, int maxDepth) const;
 };
 
 } // namespace patina

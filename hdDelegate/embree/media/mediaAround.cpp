@@ -43,7 +43,7 @@ void castRay(const EmbreeScene& scene, const vec3& point, const vec3& direction,
         computeSurfacePoint(hit, point, direction, 0.0f, surface);
         near = hit.distance + std::max(surface.offset, hit.distance * 1e-6f);
         const MaterialProgram* program = surface.slot->program.get();
-        const Object object(program, scene.ranksMedia() ? dielectricPriorityOf(hit) : 0);
+        const Object object(program, scene.priorityOf(hit));
         if (!(object.second > 0 ? program->encloses() : program->hasInterior())) continue;
         const ShadingPoint& s = surface.shading;
         if (glm::dot(s.geometricNormal, s.viewDirection) >= 0.0f) {

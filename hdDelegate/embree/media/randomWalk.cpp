@@ -55,7 +55,7 @@ struct Boundary {
 /// Follows a step over faces of the object that stay inside.
 class BoundarySearch {
 public:
-    BoundarySearch(const EmbreeScene& scene, const Hit& entry, bool back, uint64_t& rays)
+    BoundarySearch(const WorldRays& scene, const Hit& entry, bool back, uint64_t& rays)
         : _scene(scene), _entry(entry), _back(back), _rays(rays) {}
 
     /// @param reach beyond which nothing is looked for, but for some part of the object
@@ -106,7 +106,7 @@ private:
         float distance;
         int inside;
     };
-    const EmbreeScene& _scene;
+    const WorldRays& _scene;
     const Hit& _entry;
     bool _back;
     uint64_t& _rays;
@@ -219,7 +219,7 @@ WalkStart startWalk(const WalkMedium& medium, const vec2& u, float uPart) {
     return start;
 }
 
-WalkExit walkBeneath(const EmbreeScene& scene, const WalkMedium& medium, const Hit& entry,
+WalkExit walkBeneath(const WorldRays& scene, const WalkMedium& medium, const Hit& entry,
                      bool back, const vec3& outside, vec3 origin, vec3 direction, Sampler& sampler,
                      uint64_t& rays) {
     WalkExit exit;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/media/volumeScene.h"
 
-#include "hdDelegate/embree/cameraRays.h"
+#include "hdDelegate/embree/surfaceSpace.h"
 
 #include <algorithm>
 #include <cmath>

@@ -135,7 +135,7 @@ TEST(DrawnPrims, InstancerVisibilityHoldsAtEveryLevel) {
         built.set(hidden);
         built.update();
         EXPECT_FALSE(built.seen(0, RayShadow));
-        EXPECT_TRUE(built.embree.groupTransforms("A").empty()) << "nor does it glow";
+        EXPECT_TRUE(built.embree.places().transforms("A").empty()) << "nor does it glow";
     }
 }
 

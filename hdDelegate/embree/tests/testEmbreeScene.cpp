@@ -71,7 +71,7 @@ TEST(EmbreeScene, InstancesOfThreeLevelsLandWhereTheirTransformsSay) {
     EXPECT_FALSE(built.hit({1023.0f, 1.5f, 3}, {0, 0, -1}, hit));
     EXPECT_TRUE(built.embree.occluded({1021.5f, 1.5f, 3}, {0, 0, -1}, 0, 10, 0, RayShadow));
     EXPECT_FALSE(built.embree.occluded({1023.0f, 1.5f, 3}, {0, 0, -1}, 0, 10, 0, RayShadow));
-    EXPECT_EQ(built.embree.groupTransforms("A").size(), 8u);
+    EXPECT_EQ(built.embree.places().transforms("A").size(), 8u);
 }
 
 TEST(EmbreeScene, ANearerPlainHitIsNotMistakenForAnInstance) {
@@ -155,17 +155,17 @@ TEST(EmbreeScene, UnchangedPrimsKeepTheirSurfaces) {
     edit.set(std::shared_ptr<const Geometry>(makeQuad("/b")));
     edit.commit();
     built.update();
-    const auto a = built.embree.surfaceOf("/a");
-    const auto b = built.embree.surfaceOf("/b");
+    const auto a = built.embree.surfaces().find("/a");
+    const auto b = built.embree.surfaces().find("/b");
     built.scene.edit().set(std::shared_ptr<const Geometry>(makeQuad("/b")));
     built.update();
-    EXPECT_EQ(built.embree.surfaceOf("/b"), b) << "another object of equal contents";
+    EXPECT_EQ(built.embree.surfaces().find("/b"), b) << "another object of equal contents";
     auto changed = makeQuad("/b");
     changed->points.values[0][0].x = -2;
     built.scene.edit().set(std::shared_ptr<const Geometry>(changed));
     built.update();
-    EXPECT_EQ(built.embree.surfaceOf("/a"), a);
-    EXPECT_NE(built.embree.surfaceOf("/b"), b);
+    EXPECT_EQ(built.embree.surfaces().find("/a"), a);
+    EXPECT_NE(built.embree.surfaces().find("/b"), b);
 }
 
 TEST(EmbreeScene, VisibilityMasksRays) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/embree/integrator.h"
+#include "hdDelegate/embree/vertex.h"
 #include "hdDelegate/renderer/renderer.h"
 
 #include <gtest/gtest.h>

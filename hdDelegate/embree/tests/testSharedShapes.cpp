@@ -61,7 +61,7 @@ TEST(SharedShapes, HitsAreThoseOfPrimsThatAreDrawnAlone) {
         BuiltScene together, alone;
         fill(together, shape, false);
         fill(alone, shape, true);
-        EXPECT_LT(together.embree.trianglesStored(), alone.embree.trianglesStored() / 10);
+        EXPECT_LT(together.embree.surfaces().triangles(), alone.embree.surfaces().triangles() / 10);
         int hits = 0;
         for (int i = 0; i < 200; ++i) {
             const vec3 origin(0.11f * float(i) - 10.5f, 0.02f * float(i % 7), 2.0f);
@@ -115,7 +115,7 @@ TEST(SharedShapes, ThousandsOfSpheresAreTheTrianglesOfOne) {
     }
     edit.commit();
     built.update();
-    EXPECT_LE(built.embree.trianglesStored(), 4 * trianglesOfSphere); // one per fineness at most
+    EXPECT_LE(built.embree.surfaces().triangles(), 4 * trianglesOfSphere); // one per fineness at most
     // Embree keeps less than 4 kB per instance; a sphere of its own takes more than 600 kB.
     EXPECT_LT(built.embree.bytes(), size_t(count) * 4096 + (8u << 20));
 }
@@ -128,7 +128,7 @@ TEST(SharedShapes, ShapesAreAsFineAsTheirSizeOnScreen) {
         prim->transform = glm::translate(mat4(1.0f), vec3(0, 0, -away));
         built.scene.edit().set(std::shared_ptr<const Geometry>(prim));
         built.update();
-        return built.embree.trianglesStored();
+        return built.embree.surfaces().triangles();
     };
     EXPECT_EQ(stored(5.0f), trianglesOfSphere);
     EXPECT_EQ(stored(1e5f), 2u * 16u * 7u); // an eighth of the segments either way
@@ -154,7 +154,7 @@ TEST(SharedShapes, DistinctShapesAreAsCoarseAsPixelsAllow) {
     edit.commit();
     built.update();
     // 32 segments leave less than a hundredth of a pixel.
-    EXPECT_LE(built.embree.trianglesStored(), size_t(count) * 2 * 32 * 17);
+    EXPECT_LE(built.embree.surfaces().triangles(), size_t(count) * 2 * 32 * 17);
 }
 
 TEST(SharedShapes, PrimsThatMoveBetweenBothWaysOfBeingDrawn) {

@@ -17,6 +17,27 @@ void fill(Film& film, const Tile& tile, int samples, bool noisy) {
                 film.addColor(x, y, glm::vec3(noisy && i % 3 == 0 ? 0.0f : 1.0f), 1.0f);
 }
 
+/// As many samples as the error asks for, from 16 on.
+RenderSettings adaptive(double tolerance, int samples = 1024) {
+    RenderSettings settings;
+    settings.samples = samples;
+    settings.minSamples = 16;
+    settings.tolerance = tolerance;
+    return settings;
+}
+
+/// Targets of an image of one tile, after so many samples without noise.
+using Targets = std::vector<std::pair<int, int>>;
+void expectTargets(const RenderSettings& settings, const Targets& targets) {
+    for (const auto& [samples, target] : targets) {
+        Film film;
+        film.reset(4, 4, {});
+        const TileSchedule schedule(film, settings);
+        fill(film, schedule.tiles()[0], samples, false);
+        EXPECT_EQ(schedule.target(0), target) << samples;
+    }
+}
+
 } // namespace
 
 TEST(TileSchedule, TilesCoverTheImageOnce) {
@@ -64,11 +85,7 @@ TEST(TileSchedule, OnlyTheSlowestTilesArePending) {
 TEST(TileSchedule, QuietTilesStopAtTheToleranceAndNoisyOnesDoNot) {
     Film film;
     film.reset(32, 16, {});
-    RenderSettings settings;
-    settings.samples = 1024;
-    settings.minSamples = 16;
-    settings.tolerance = 0.05;
-    TileSchedule schedule(film, settings);
+    TileSchedule schedule(film, adaptive(0.05));
     fill(film, schedule.tiles()[0], 16, false);
     fill(film, schedule.tiles()[1], 16, true);
     EXPECT_EQ(schedule.target(0), 0);
@@ -76,39 +93,19 @@ TEST(TileSchedule, QuietTilesStopAtTheToleranceAndNoisyOnesDoNot) {
 }
 
 TEST(TileSchedule, TilesAreLookedAtAtSomeStepsOnly) {
-    for (const auto& [samples, target] : {std::pair(16, 0), {24, 26}, {32, 0}, {48, 0}, {80, 88}}) {
-        Film film;
-        film.reset(4, 4, {});
-        RenderSettings settings;
-        settings.samples = 1024;
-        settings.minSamples = 16;
-        settings.tolerance = 0.05;
-        const TileSchedule schedule(film, settings);
-        fill(film, schedule.tiles()[0], samples, false);
-        EXPECT_EQ(schedule.target(0), target) << samples;
-    }
+    expectTargets(adaptive(0.05), {{16, 0}, {24, 26}, {32, 0}, {48, 0}, {80, 88}});
 }
 
 TEST(TileSchedule, WithoutAToleranceStepsAreLong) {
-    Film film;
-    film.reset(4, 4, {});
     RenderSettings settings;
     settings.samples = 40;
-    const TileSchedule schedule(film, settings);
-    for (const auto& [samples, target] : {std::pair(0, 1), {8, 16}, {16, 32}, {18, 32}, {32, 40}}) {
-        fill(film, schedule.tiles()[0], samples, false);
-        EXPECT_EQ(schedule.target(0), target) << samples;
-    }
+    expectTargets(settings, {{0, 1}, {8, 16}, {16, 32}, {18, 32}, {32, 40}});
 }
 
 TEST(TileSchedule, ATileThatWasBrokenOffGoesOn) {
     Film film;
     film.reset(4, 4, {});
-    RenderSettings settings;
-    settings.samples = 1024;
-    settings.minSamples = 16;
-    settings.tolerance = 0.05;
-    TileSchedule schedule(film, settings);
+    TileSchedule schedule(film, adaptive(0.05));
     fill(film, schedule.tiles()[0], 32, false); // would be enough
     fill(film, {0, 0, 4, 1}, 48, false);        // but its first row has gone on
     EXPECT_EQ(schedule.target(0), 36);
@@ -129,14 +126,10 @@ void fillRandomly(Film& film, const Tile& tile, int samples, float noise, std::m
 /// absolute values: 0.104 after 16 samples.
 struct HalfNoisy : testing::Test {
     Film film;
-    RenderSettings settings;
+    RenderSettings settings = adaptive(0.08); // the tile has more, both together half
     std::mt19937 random{5};
 
-    HalfNoisy() {
-        film.reset(32, 16, {});
-        settings.samples = 1024;
-        settings.minSamples = 16;
-    }
+    HalfNoisy() { film.reset(32, 16, {}); }
     void fill(int samples) {
         const TileSchedule tiles(film, settings);
         fillRandomly(film, tiles.tiles()[0], 16, 0.0f, random);
@@ -148,7 +141,6 @@ struct HalfNoisy : testing::Test {
 
 TEST_F(HalfNoisy, TheImageIsDoneWhenItsMeanErrorIsWithinTheTolerance) {
     fill(16);
-    settings.tolerance = 0.08; // the tile has more, both together half
     const TileSchedule schedule(film, settings);
     EXPECT_EQ(schedule.target(1), 18) << "the tile alone is not done";
     EXPECT_TRUE(schedule.pending().empty());
@@ -158,7 +150,6 @@ TEST_F(HalfNoisy, TheImageIsDoneWhenItsMeanErrorIsWithinTheTolerance) {
 
 TEST_F(HalfNoisy, APartOfTheFrameDoesNotKnowTheOtherTiles) {
     fill(16);
-    settings.tolerance = 0.08;
     settings.tileParts = 2;
     int waiting = 0;
     for (settings.tilePart = 0; settings.tilePart < 2; ++settings.tilePart)
@@ -168,7 +159,6 @@ TEST_F(HalfNoisy, APartOfTheFrameDoesNotKnowTheOtherTiles) {
 
 TEST_F(HalfNoisy, AnImageThatWasToldToGoOnGoesOn) {
     fill(16);
-    settings.tolerance = 0.08;
     const Tile noisy = TileSchedule(film, settings).tiles()[1];
     fillRandomly(film, {noisy.x0, noisy.y0, noisy.x1, noisy.y0 + 1}, 32, 0.9f, random);
     EXPECT_EQ(TileSchedule(film, settings).pending(), std::vector<int>{1});
@@ -200,13 +190,9 @@ TEST(TileSchedule, AToleranceTakesTheSamplesThatItsNoiseNeeds) {
         for (unsigned seed = 0; seed < 3; ++seed) {
             Film film;
             film.reset(width, height, {});
-            RenderSettings settings;
-            settings.samples = 1 << 16;
-            settings.minSamples = 16;
-            settings.tolerance = tolerance;
             std::mt19937 random(seed);
             std::uniform_real_distribution<double> u;
-            const TileSchedule schedule(film, settings);
+            const TileSchedule schedule(film, adaptive(tolerance, 1 << 16));
             for (auto tiles = schedule.pending(); !tiles.empty(); tiles = schedule.pending())
                 for (const int tile : tiles) {
                     const Tile& t = schedule.tiles()[size_t(tile)];

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/geometry/curveSegments.h"
 #include "hdDelegate/geometry/tessellate.h"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
@@ -14,6 +17,42 @@ inline bool warned(const Diagnostics& diagnostics, const std::string& prim,
     for (const Diagnostic& d : diagnostics.all())
         if (d.prim == prim && d.input == input && !d.message.empty()) return true;
     return false;
+}
+
+/// Fails the test for each warning.
+inline void expectSilence(const Diagnostics& diagnostics) {
+    for (const Diagnostic& d : diagnostics.all())
+        ADD_FAILURE() << d.prim << " " << d.input << ": " << d.message;
+}
+
+/// Triangles of a mesh or an implicit prim, of which there is nothing to say.
+template <class Prim> TriangleMesh draw(const Prim& prim, const TessellationOptions& options = {}) {
+    Diagnostics diagnostics;
+    TriangleMesh mesh = tessellate(prim, options, diagnostics);
+    expectSilence(diagnostics);
+    return mesh;
+}
+
+/// The same with edges of that length. @param edge 0: as it is
+inline TriangleMesh draw(const Mesh& mesh, float edge) {
+    TessellationOptions options;
+    options.targetEdge = edge;
+    return draw(mesh, options);
+}
+
+/// @param roundEdge as of TessellationOptions: 10 draws as few segments as there may be
+inline TriangleMesh draw(const Implicit& prim, float roundEdge) {
+    TessellationOptions options;
+    options.roundEdge = roundEdge;
+    return draw(prim, options);
+}
+
+/// Segments of curves of which there is nothing to say.
+inline CurveSet build(const Curves& curves) {
+    Diagnostics diagnostics;
+    CurveSet set = buildCurves(curves, {}, diagnostics);
+    expectSilence(diagnostics);
+    return set;
 }
 
 /// The cube from -1 to 1, faces counterclockwise seen from outside: +x -x +y -y +z -z.

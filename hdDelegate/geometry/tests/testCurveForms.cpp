@@ -12,19 +12,10 @@
 namespace patina {
 namespace {
 
-CurveSet build(const Curves& curves) {
-    Diagnostics diagnostics;
-    CurveSet set = buildCurves(curves, {}, diagnostics);
-    for (const Diagnostic& d : diagnostics.all())
-        ADD_FAILURE() << d.prim << " " << d.input << ": " << d.message;
-    return set;
-}
-
 template <class T> CurveSet drawn(const T& curves) {
     Diagnostics diagnostics;
     const auto bezier = toBezier(curves, diagnostics);
-    for (const Diagnostic& d : diagnostics.all())
-        ADD_FAILURE() << d.prim << " " << d.input << ": " << d.message;
+    expectSilence(diagnostics);
     EXPECT_EQ(bezier->basis, CurveBasis::Bezier);
     return build(*bezier);
 }

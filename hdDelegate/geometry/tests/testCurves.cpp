@@ -24,14 +24,6 @@ Curves makeCurves(CurveBasis basis, CurveWrap wrap, std::vector<int> counts,
     return curves;
 }
 
-CurveSet build(const Curves& curves) {
-    Diagnostics diagnostics;
-    CurveSet result = buildCurves(curves, {}, diagnostics);
-    for (const Diagnostic& d : diagnostics.all())
-        ADD_FAILURE() << d.prim << " " << d.input << ": " << d.message;
-    return result;
-}
-
 /// Position and radius on a segment, by the basis that the set says.
 vec4 evaluate(const CurveSet& set, size_t segment, float u, size_t step = 0) {
     const vec4 w = basisWeights(set.basis, u);

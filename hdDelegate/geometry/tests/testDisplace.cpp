@@ -4,7 +4,7 @@
 #include "hdDelegate/geometry/displace.h"
 #include "hdDelegate/geometry/splitTriangles.h"
 #include "hdDelegate/geometry/tessellate.h"
-#include "materialNetwork/material.h"
+#include "hdDelegate/geometry/tests/noTextures.h"
 
 #include <gtest/gtest.h>
 
@@ -28,14 +28,6 @@ NetworkNode node(const std::string& path, const std::string& id,
     result.connections = std::move(connections);
     return result;
 }
-
-class NoTextures : public TextureSource {
-public:
-    int open(const TextureRequest&) override { return 0; }
-    bool valid(int) const override { return false; }
-    glm::vec4 sample(int, glm::vec2, float) const override { return glm::vec4(0.0f); }
-    int channels(int) const override { return 4; }
-};
 
 std::shared_ptr<const MaterialProgram> program(std::vector<NetworkNode> nodes) {
     Network network;

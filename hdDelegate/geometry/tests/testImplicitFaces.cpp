@@ -94,17 +94,6 @@ Primvar where(Interpolation interpolation, const std::vector<vec3>& points) {
     return makePrimvar("where", interpolation, 3, values);
 }
 
-/// @param roundEdge as of TessellationOptions: 10 draws as few segments as there may be
-TriangleMesh draw(const Implicit& prim, float roundEdge = 0.0f) {
-    Diagnostics diagnostics;
-    TessellationOptions options;
-    options.roundEdge = roundEdge;
-    TriangleMesh mesh = tessellate(prim, options, diagnostics);
-    for (const Diagnostic& d : diagnostics.all())
-        ADD_FAILURE() << d.prim << " " << d.input << ": " << d.message;
-    return mesh;
-}
-
 /// Values that are the points' places stay at their places: a face of OpenUSD's lies inside of the
 /// round shape by no more than the height of an arc of 36 degrees, along both of its directions.
 void expectInPlace(const TriangleMesh& mesh, bool round) {

@@ -22,14 +22,6 @@ Implicit makeImplicit(ImplicitShape shape, int axis = 2) {
     return prim;
 }
 
-TriangleMesh draw(const Implicit& prim) {
-    Diagnostics diagnostics;
-    TriangleMesh result = tessellate(prim, {}, diagnostics);
-    for (const Diagnostic& d : diagnostics.all())
-        ADD_FAILURE() << d.prim << " " << d.input << ": " << d.message;
-    return result;
-}
-
 /// Volume and area within the error that the segments allow, normals along the triangles.
 void expectSolid(const TriangleMesh& mesh, double wantedVolume, double wantedArea) {
     EXPECT_NEAR(volume(mesh), wantedVolume, 2e-3 * wantedVolume);
@@ -301,15 +293,6 @@ float distanceToFace(const TriangleMesh& mesh, int face, const vec3& p) {
     return nearest;
 }
 
-double area(const TriangleMesh& mesh) {
-    double sum = 0.0;
-    for (const uvec3& t : mesh.triangles) {
-        const auto& p = mesh.positions[0];
-        sum += 0.5 * glm::length(glm::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
-    }
-    return sum;
-}
-
 TEST(Implicits, FewerSegmentsKeepShapeAndFaceNumbers) {
     Diagnostics diagnostics;
     for (ImplicitShape shape : {ImplicitShape::Sphere, ImplicitShape::Cylinder, ImplicitShape::Cone,
@@ -325,8 +308,8 @@ TEST(Implicits, FewerSegmentsKeepShapeAndFaceNumbers) {
             EXPECT_NEAR(volume(coarse), volume(fine), 0.03 * volume(fine));
             // A convex outline covers a quarter of the surface in the mean over all directions
             // (Cauchy 1832).
-            EXPECT_NEAR(area(coarse), area(fine),
-                        (shape == ImplicitShape::Sphere ? 1e-3 : 1.2e-2) * area(fine));
+            EXPECT_NEAR(surfaceArea(coarse), surfaceArea(fine),
+                        (shape == ImplicitShape::Sphere ? 1e-3 : 1.2e-2) * surfaceArea(fine));
             EXPECT_NEAR(coarse.boundsMax.z, fine.boundsMax.z, 2e-2f * fine.boundsMax.z);
             const auto last = [](const TriangleMesh& m) {
                 return *std::max_element(m.triangleFace.begin(), m.triangleFace.end());

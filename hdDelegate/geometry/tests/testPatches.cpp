@@ -79,16 +79,6 @@ template <class Height> Mesh bicubic(int nu, int nv, Height height) {
     return mesh;
 }
 
-TriangleMesh draw(const Mesh& mesh, float targetEdge = 0.0f) {
-    Diagnostics diagnostics;
-    TessellationOptions options;
-    options.targetEdge = targetEdge;
-    TriangleMesh out = tessellate(mesh, options, diagnostics);
-    for (const Diagnostic& d : diagnostics.all())
-        ADD_FAILURE() << d.prim << " " << d.input << ": " << d.message;
-    return out;
-}
-
 TEST(Patch, rationalSphereIsASphere) {
     const TriangleMesh mesh = draw(sphere(), 0.1f);
     ASSERT_GT(mesh.triangles.size(), 500u);

@@ -10,14 +10,6 @@
 namespace patina {
 namespace {
 
-TriangleMesh draw(const Mesh& mesh) {
-    Diagnostics diagnostics;
-    TriangleMesh result = tessellate(mesh, {}, diagnostics);
-    for (const Diagnostic& d : diagnostics.all())
-        ADD_FAILURE() << d.prim << " " << d.input << ": " << d.message;
-    return result;
-}
-
 /// Areas of a triangulation: sum, and the smallest along the polygon's normal.
 void expectFillsPolygon(const std::vector<vec3>& polygon) {
     std::vector<uvec3> triangles;

@@ -3,7 +3,7 @@
 
 #include "hdDelegate/geometry/displace.h"
 #include "hdDelegate/geometry/tangentFrames.h"
-#include "materialNetwork/material.h"
+#include "hdDelegate/geometry/tests/noTextures.h"
 #include "materialNetwork/shadingPoint.h"
 
 #include <gtest/gtest.h>
@@ -40,14 +40,6 @@ TriangleMesh square(bool mirrored) {
                        attribute("turned", Rate::PerVertex, 2, turned)};
     return mesh;
 }
-
-class NoTextures : public TextureSource {
-public:
-    int open(const TextureRequest&) override { return 0; }
-    bool valid(int) const override { return false; }
-    glm::vec4 sample(int, glm::vec2, float) const override { return glm::vec4(0.0f); }
-    int channels(int) const override { return 4; }
-};
 
 } // namespace
 

@@ -63,23 +63,6 @@ void addPolygon(TrimCurves& trim, std::vector<dvec2> corners) {
     trim.vertexCounts.push_back(int(corners.size()));
 }
 
-TriangleMesh draw(const Mesh& mesh, float targetEdge = 0.0f) {
-    Diagnostics diagnostics;
-    TessellationOptions options;
-    options.targetEdge = targetEdge;
-    TriangleMesh out = tessellate(mesh, options, diagnostics);
-    for (const Diagnostic& d : diagnostics.all())
-        ADD_FAILURE() << d.prim << " " << d.input << ": " << d.message;
-    return out;
-}
-
-double area(const TriangleMesh& mesh) {
-    double sum = 0.0;
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
-        sum += 0.5 * double(glm::length(triangleCross(mesh, t)));
-    return sum;
-}
-
 /// Edges that only one triangle has; each edge has two at most, in opposite directions.
 std::vector<uvec2> outline(const TriangleMesh& mesh) {
     std::map<std::pair<uint32_t, uint32_t>, int> count;
@@ -104,15 +87,15 @@ TEST(TrimCurves, circleIsCutOutOfASquare) {
     const double radius = 0.6, circle = pi * radius * radius;
     for (const double edge : {0.0, 0.1, 0.03}) {
         patch.trim.keepInside = false;
-        const double outside = area(draw(square(patch), float(edge)));
+        const double outside = surfaceArea(draw(square(patch), float(edge)));
         patch.trim.keepInside = true;
         const TriangleMesh inside = draw(square(patch), float(edge));
-        EXPECT_NEAR(outside + area(inside), 4.0, 1e-5);
+        EXPECT_NEAR(outside + surfaceArea(inside), 4.0, 1e-5);
         // A polygon in a circle, whose sides see angles up to a, lacks up to a^2 / 6 of its area.
         // Without an edge a quarter turn has four sides, none of which sees more than 0.45.
         const double angle = edge > 0.0 ? 2.0 * std::asin(0.5 * edge / radius) : 0.45;
-        EXPECT_LE(area(inside), circle + 1e-5);
-        EXPECT_GE(area(inside), circle * (1.0 - angle * angle / 6.0) - 1e-5);
+        EXPECT_LE(surfaceArea(inside), circle + 1e-5);
+        EXPECT_GE(surfaceArea(inside), circle * (1.0 - angle * angle / 6.0) - 1e-5);
         for (const uvec2& e : outline(inside)) // where a side crosses a line, it is on the side
             for (const uint32_t end : {e.x, e.y}) {
                 const double distance = glm::distance(parameters(inside, end), dvec2(0.5, 0.45));
@@ -128,9 +111,9 @@ TEST(TrimCurves, loopsNest) {
     addPolygon(patch.trim, {{0.1, 0.1}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}});
     addPolygon(patch.trim, {{0.3, 0.7}, {0.7, 0.7}, {0.7, 0.3}, {0.3, 0.3}}); // the other way round
     patch.trim.keepInside = true;
-    EXPECT_NEAR(area(draw(square(patch))), 4.0 * (1.0 - 0.64 + 0.16), 1e-5);
+    EXPECT_NEAR(surfaceArea(draw(square(patch))), 4.0 * (1.0 - 0.64 + 0.16), 1e-5);
     patch.trim.keepInside = false;
-    EXPECT_NEAR(area(draw(square(patch))), 4.0 * (0.64 - 0.16), 1e-5);
+    EXPECT_NEAR(surfaceArea(draw(square(patch))), 4.0 * (0.64 - 0.16), 1e-5);
 }
 
 TEST(TrimCurves, loopOfSeveralCurvesThatReachesBeyondThePatch) {
@@ -143,7 +126,7 @@ TEST(TrimCurves, loopOfSeveralCurvesThatReachesBeyondThePatch) {
     patch.trim.knots = {0, 0, 1, 2, 2, 0, 0, 1, 2, 2};
     patch.trim.ranges = {0, 2, 0, 2};
     const TriangleMesh drawn = draw(square(patch));
-    EXPECT_NEAR(area(drawn), 2.0, 1e-6);
+    EXPECT_NEAR(surfaceArea(drawn), 2.0, 1e-6);
     EXPECT_NEAR(drawn.boundsMax.x, 1.0f, 1e-6f);
 }
 
@@ -251,8 +234,8 @@ TEST(TrimCurves, manySmallLoopsInOneCell) {
     const double circle = 400.0 * pi * 0.02 * 0.02;
     const TriangleMesh drawn = draw(square(patch));
     outline(drawn);
-    EXPECT_LE(4.0 - area(drawn), circle);
-    EXPECT_GE(4.0 - area(drawn), circle * (1.0 - 0.45 * 0.45 / 6.0)); // as of the one circle
+    EXPECT_LE(4.0 - surfaceArea(drawn), circle);
+    EXPECT_GE(4.0 - surfaceArea(drawn), circle * (1.0 - 0.45 * 0.45 / 6.0)); // as of the one circle
 }
 
 TEST(TrimCurves, nothingIsLeft) {
@@ -267,7 +250,7 @@ TEST(TrimCurves, unsoundLoopsAreLeftOut) {
         addCircle(patch.trim, {0.5, 0.5}, 0.2);
         change(patch.trim);
         Diagnostics diagnostics;
-        EXPECT_NEAR(area(tessellate(square(patch), {}, diagnostics)), 4.0, 1e-6) << input;
+        EXPECT_NEAR(surfaceArea(tessellate(square(patch), {}, diagnostics)), 4.0, 1e-6) << input;
         EXPECT_TRUE(warned(diagnostics, "/patch", input)) << input;
         EXPECT_EQ(diagnostics.count(), 1) << input;
     };
@@ -289,7 +272,7 @@ TEST(TrimCurves, unsoundLoopsAreLeftOut) {
     addCircle(patch.trim, {0.5, 0.5}, 0.2);
     patch.trim.ranges = {0, 1, 2};
     Diagnostics diagnostics;
-    EXPECT_LT(area(tessellate(square(patch), {}, diagnostics)), 3.6);
+    EXPECT_LT(surfaceArea(tessellate(square(patch), {}, diagnostics)), 3.6);
     EXPECT_TRUE(warned(diagnostics, "/patch", "trimCurve:ranges"));
 }
 

@@ -21,6 +21,10 @@ namespace patina {
 
 // clang-format off
 const std::vector<MeasuredMethod>& methodTable() {
+    static const MethodCells truths[] = {
+"""
+_TABLE_ROWS = """\
+    };
     static const std::vector<MeasuredMethod> rows = {
 """
 _TABLE_TAIL = """\
@@ -113,13 +117,16 @@ def write_table(rows, path):
         return "{" + ", ".join("0" if value == 0.0 else number(float(f"{value:.3g}")) for value in values) + "}"
 
     with outputs.writing(path) as file:
+        truths = list(dict.fromkeys(cells(row["truths"]) for row in rows))  # methods of a subject share them
         file.write(_TABLE_HEAD)
+        file.writelines(f"        {truth},\n" for truth in truths)
+        file.write(_TABLE_ROWS)
         for row in rows:
             texts = ", ".join(f'"{row[name]}"' for name in ("point", "method", "subject", "errorOf"))
             numbers = ", ".join(number(row[name]) for name in ("ns", "cost", "mean", "largest", "rms"))
             where = f'"{row["kind"]}", {number(row["reflectance"])}, "{row["axis"]}", {number(row["axisEnd"])}'
-            file.write(f"        {{{texts}, {numbers},\n         {where},\n         {cells(row['errors'])},\n"
-                       f"         {cells(row['truths'])}}},\n")
+            file.write(f"        {{{texts}, {numbers},\n         {where},\n         {cells(row['errors'])}, "
+                       f"truths[{truths.index(cells(row['truths']))}]}},\n")
         file.write(_TABLE_TAIL)
 
 

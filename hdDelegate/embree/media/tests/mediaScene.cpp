@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/media/tests/mediaScene.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 namespace patina::test {
@@ -117,6 +119,24 @@ MediaScene::Image MediaScene::render(int pixels, int samples) {
         image.error[c] = float(std::sqrt(std::max(squares / n - sum / n * sum / n, 0.0) / n));
     }
     return image;
+}
+
+void expectMean(const MediaScene::Image& image, const vec3& wanted, float slack) {
+    EXPECT_TRUE(image.finite);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(image.mean[c], wanted[c], 5.0f * image.error[c] + slack) << c;
+}
+
+void expectThreadsChangeNothing(int pixels, int samples,
+                                const std::function<void(MediaScene&)>& fill) {
+    std::vector<float> images[2];
+    for (int threads : {1, 2}) {
+        MediaScene s;
+        s.settings.threads = threads;
+        fill(s);
+        images[threads - 1] = s.render(pixels, samples).color;
+    }
+    EXPECT_EQ(images[0], images[1]);
 }
 
 NetworkNode node(const std::string& path, const std::string& id,

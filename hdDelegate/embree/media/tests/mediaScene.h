@@ -3,6 +3,7 @@
 
 #include "hdDelegate/renderer/renderer.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,13 @@ public:
     };
     Image render(int pixels, int samples);
 };
+
+/// Significance: five standard errors. @param slack more, for what the test says
+void expectMean(const MediaScene::Image& image, const vec3& wanted, float slack);
+
+/// Renders a scene with one thread, and with two: the images must be the same.
+void expectThreadsChangeNothing(int pixels, int samples,
+                                const std::function<void(MediaScene&)>& fill);
 
 NetworkNode node(const std::string& path, const std::string& id,
                  std::map<std::string, Value> inputs = {},

@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/worldRays.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace patina {
 
-bool EmbreeScene::finishHit(const RTCRayHit& rayHit, const TraceContext& context, Hit& hit) const {
+namespace {
+
+RTCRay rayOf(const vec3& origin, const vec3& direction, float near, float far, float time,
+             unsigned mask) {
+    return {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
+            direction.z, time,     far,      mask, 0,           0};
+}
+
+} // namespace
+
+bool WorldRays::finishHit(const RTCRayHit& rayHit, const TraceContext& context, Hit& hit) const {
     if (rayHit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     hit.time = rayHit.ray.time;
     hit.primitive = rayHit.hit.primID;
@@ -51,7 +61,7 @@ bool EmbreeScene::finishHit(const RTCRayHit& rayHit, const TraceContext& context
     return hit.surface != nullptr;
 }
 
-bool EmbreeScene::accepts(const RTCRay& ray) const {
+bool WorldRays::accepts(const RTCRay& ray) const {
     if (isTraceable(ray, _world->rayLimit)) return true;
     const bool clipped = ray.tfar < 0.0f; // there is nothing wrong with such a ray
     if (!clipped && !_warnedOfRays.exchange(true))
@@ -59,14 +69,11 @@ bool EmbreeScene::accepts(const RTCRay& ray) const {
     return false;
 }
 
-bool EmbreeScene::intersect(const vec3& origin, const vec3& direction, float near, float far,
-                            float time, unsigned mask, Hit& hit) const {
-    TraceContext context;
-    initContext(&context.base);
-    context.group = _world;
+bool WorldRays::intersect(const vec3& origin, const vec3& direction, float near, float far,
+                          float time, unsigned mask, Hit& hit) const {
+    TraceContext context(_world);
     RTCRayHit rayHit;
-    rayHit.ray = {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
-                  direction.z, time,     far,      mask, 0,           0};
+    rayHit.ray = rayOf(origin, direction, near, far, time, mask);
     if (!accepts(rayHit.ray)) return false;
     rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -74,42 +81,27 @@ bool EmbreeScene::intersect(const vec3& origin, const vec3& direction, float nea
     return finishHit(rayHit, context, hit);
 }
 
-bool EmbreeScene::occluded(const vec3& origin, const vec3& direction, float near, float far,
-                           float time, unsigned mask) const {
-    TraceContext context;
-    initContext(&context.base);
-    context.group = _world;
-    RTCRay ray = {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
-                  direction.z, time,     far,      mask, 0,           0};
+bool WorldRays::occluded(const vec3& origin, const vec3& direction, float near, float far,
+                         float time, unsigned mask) const {
+    TraceContext context(_world);
+    RTCRay ray = rayOf(origin, direction, near, far, time, mask);
     if (!accepts(ray)) return true;
     embreeOccluded(_world->scene, &context.base, &ray);
     return ray.tfar < 0.0f;
 }
 
-vec3 EmbreeScene::transmittance(const SplatScene::Ray& ray, Sampler& sampler) const {
-    vec3 left(1.0f);
-    if (!_volumes.empty())
-        left = _volumes.transmittance(ray.origin, ray.direction, ray.far, ray.rays, sampler);
-    if (!_splats.empty() && left != vec3(0.0f)) left *= _splats.transmittance(ray);
-    return left;
-}
-
-unsigned EmbreeScene::occludedRays(const vec3& origin, const vec3* directions, int count,
-                                   float time, unsigned mask) const {
-    TraceContext context;
-    initContext(&context.base);
-    context.group = _world;
+unsigned WorldRays::occludedRays(const vec3& origin, const vec3* directions, int count, float time,
+                                 unsigned mask) const {
+    TraceContext context(_world);
     alignas(64) RTCRay16 rays;
     alignas(64) int valid[packet];
     unsigned blocked = 0;
     for (int i = 0; i < packet; ++i) {
-        const vec3& direction = directions[std::min(i, count - 1)];
-        RTCRay ray = {origin.x,    origin.y, origin.z, 0.0f, direction.x, direction.y,
-                      direction.z, time,     INFINITY, mask, 0,           0};
+        RTCRay ray = rayOf(origin, directions[std::min(i, count - 1)], 0.0f, INFINITY, time, mask);
         valid[i] = i < count && accepts(ray) ? -1 : 0;
         if (i < count && !valid[i]) blocked |= 1u << i;
         if (!valid[i]) // builds of Embree with assertions look at rays that are left out, too
-            ray = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, time, 0.0f, mask, 0, 0};
+            ray = rayOf(vec3(0.0f), vec3(0.0f, 0.0f, 1.0f), 0.0f, 0.0f, time, mask);
         rays.org_x[i] = ray.org_x, rays.org_y[i] = ray.org_y, rays.org_z[i] = ray.org_z;
         rays.dir_x[i] = ray.dir_x, rays.dir_y[i] = ray.dir_y, rays.dir_z[i] = ray.dir_z;
         rays.tnear[i] = ray.tnear, rays.tfar[i] = ray.tfar, rays.time[i] = ray.time;

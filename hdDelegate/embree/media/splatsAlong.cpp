@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/embree/integrator.h"
+#include "hdDelegate/embree/media/splatsAlong.h"
 
 #include "hdDelegate/embree/lightPathRecord.h"
 #include "hdDelegate/embree/media/freeFlight.h"
+#include "hdDelegate/embree/vertex.h"
 
-#include <algorithm>
 #include <cmath>
-
-// Splats along the ray of a path: they shine and absorb, and scatter nothing.
 
 namespace patina {
 
-vec3 Integrator::splatsAlong(Path& path, float end, float way, float& left) const {
-    const SplatScene& splats = _scene.splats();
+namespace {
+
+/// What they shine. @param left of the light, up to `way`
+vec3 splatsAlong(const EmbreeScene& scene, Path& path, float end, float way, float& left) {
+    const SplatScene& splats = scene.splats();
     const SplatScene::Ray ray{path.origin, path.direction, path.near, end, path.time, path.rays};
     const bool camera = path.fromCamera(), inMedium = !path.media.empty();
     SplatScene::Look look(splats, ray);
@@ -20,7 +21,7 @@ vec3 Integrator::splatsAlong(Path& path, float end, float way, float& left) cons
     float leftAtWay = -1.0f, seen = 0.0f;
     left = 1.0f;
     // Volumes are asked for what they let through up to one kernel, which stands for all.
-    const bool inVolumes = !_scene.volumes().empty();
+    const bool inVolumes = !scene.volumes().empty();
     vec3 chosen(0.0f);
     float chosenAt = 0.0f, chosenWeight = 0.0f, weights = 0.0f;
     splats.along(ray, [&](const SplatHit& hit) {
@@ -50,8 +51,8 @@ vec3 Integrator::splatsAlong(Path& path, float end, float way, float& left) cons
     });
     if (inVolumes && chosenWeight > 0.0f)
         shines = chosen * (weights / chosenWeight) *
-                 _scene.volumes().transmittance(path.origin, path.direction, chosenAt, path.rays,
-                                                path.sampler);
+                 scene.volumes().transmittance(path.origin, path.direction, chosenAt, path.rays,
+                                               path.sampler);
     if (camera) path.alpha += (1.0f - path.alpha) * seen;
     path.alpha += path.caught * seen;
     path.caught *= left;
@@ -59,29 +60,29 @@ vec3 Integrator::splatsAlong(Path& path, float end, float way, float& left) cons
     return shines;
 }
 
-float Integrator::passSplats(Path& path, float end, float way) const {
+} // namespace
+
+float passSplats(const EmbreeScene& scene, Path& path, float end, float way) {
     float left = 1.0f;
-    vec3 shines = splatsAlong(path, end, way, left);
+    vec3 shines = splatsAlong(scene, path, end, way, left);
     if (shines == vec3(0.0f)) return left;
     if (path.splatsSampled)
         shines *= misWeight(
-            path.pdf, _scene.splats().lights().pdf(path.vertex, path.vertexNormal, path.direction),
+            path.pdf, scene.splats().lights().pdf(path.vertex, path.vertexNormal, path.direction),
             false);
     if (path.lightPaths) path.lightPaths->straight(LightEvent());
-    addRadiance(path, shines);
+    path.add(shines);
     // They are their own texture.
     if (!path.featured) path.featureAlbedo += glm::clamp(path.throughput * shines, 0.0f, 1.0f);
     return left;
 }
 
-/// Up to the first surface, on the side that the vertex is seen from. Samples of the BSDF have all
-/// else to themselves.
-vec3 Integrator::splatLight(Path& path, const SurfacePoint& point, const VertexBsdf& bsdf,
-                            TraceCounters& counters) const {
+vec3 sampleSplats(const EmbreeScene& scene, Path& path, const SurfacePoint& point,
+                  const VertexBsdf& bsdf, TraceCounters& counters) {
     const ShadingPoint& s = point.shading;
     const vec3 u(path.sampler.next4());
     const SplatLights::Direction drawn =
-        _scene.splats().lights().sample(s.position, facingNormal(s), u);
+        scene.splats().lights().sample(s.position, facingNormal(s), u);
     if (!(drawn.pdf > 0.0f) || !staysOutside(point, drawn.direction)) return vec3(0.0f);
     const BsdfEval f = bsdf.eval(drawn.direction);
     const vec3 value = f.diffuse + f.specular;
@@ -96,12 +97,12 @@ vec3 Integrator::splatLight(Path& path, const SurfacePoint& point, const VertexB
     there.near = 0.0f;
     ++counters.rays;
     Hit hit;
-    const bool found = _scene.intersect(there.origin, there.direction, 0.0f, INFINITY, there.time,
-                                        there.rays, hit);
+    const bool found =
+        scene.intersect(there.origin, there.direction, 0.0f, INFINITY, there.time, there.rays, hit);
     float left;
     const float end = found ? hit.distance : INFINITY;
-    const vec3 incident =
-        splatsAlong(there, end, end, left) * (misWeight(drawn.pdf, f.pdf, false) / drawn.pdf);
+    const vec3 incident = splatsAlong(scene, there, end, end, left) *
+                          (misWeight(drawn.pdf, f.pdf, false) / drawn.pdf);
     path.sampler = there.sampler;
     if (path.lightPaths)
         path.lightPaths->lit(EventType::Reflect, f.diffuse * incident, f.specular * incident,

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hdDelegate/embree/aovWriter.h"
+#include "hdDelegate/embree/lightPathRecord.h"
+#include "hdDelegate/embree/path.h"
+
+namespace patina {
+
+/// Writes what a sample of a pixel shows to the film: colour, AOVs, guides of the denoiser, light
+/// paths and deep pixels.
+class SampleWriter {
+public:
+    SampleWriter(const std::vector<AovSpec>& aovs, const CameraRays& camera);
+
+    const std::vector<AovSpec>& aovs() const { return _aovs; }
+    const LightPathAovs& lightPaths() const { return _lightPaths; }
+
+    /// AOVs and guides get what they show of a vertex.
+    void show(Path& path, const SurfacePoint& point, const Bsdf& bsdf,
+              const AovTarget& target) const;
+    /// A path that has ended.
+    void write(const Path& path, const AovTarget& target, const vec3& origin) const;
+    /// A sample of a pixel that sees nothing at all, through the edge of a fisheye, say.
+    void writeDark(const AovTarget& target) const;
+    /// A sample of one grey. @param seen less than 0: nothing is there
+    void writeGrey(float seen, float depth, const AovTarget& target) const;
+
+private:
+    /// Of every sample, so that means fade at outlines as the colour does.
+    void addGuides(const vec3& albedo, const vec3& normal, const AovTarget& target) const;
+
+    const std::vector<AovSpec> _aovs;
+    const CameraRays& _camera;
+    const LightPathAovs _lightPaths;
+    int _albedo = -1, _normal = -1; ///< places of the denoiser's guides in the film, or -1
+};
+
+} // namespace patina

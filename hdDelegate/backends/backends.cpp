@@ -38,6 +38,10 @@ const std::vector<std::string>& backendNames() {
     return names;
 }
 
+bool rasterizes(const std::string& name) {
+    return name == "raster" || name == "interactive" || (name == "auto" && worthWhile());
+}
+
 std::unique_ptr<Renderer> makeBackend(const std::string& wanted,
                                       const std::shared_ptr<HostDevice>& device) {
     const std::string name = wanted != "auto" ? wanted : worthWhile() ? "interactive" : "embree";

@@ -25,7 +25,10 @@ std::unique_ptr<Renderer> makeBackend(const std::string& name,
                                       const std::shared_ptr<HostDevice>& device = nullptr);
 
 /// The device whose context of OpenGL is current on this thread.
-/// @returns null, with a one-line reason, where images cannot be drawn on it
+/// @returns null, with a one-line reason, where images cannot be drawn on it, and without one where
+/// no context is current
 std::shared_ptr<HostDevice> currentHostDevice(std::string& why);
+/// Whether a back end of that name rasterizes here.
+bool rasterizes(const std::string& name);
 
 } // namespace patina

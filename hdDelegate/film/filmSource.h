@@ -26,8 +26,8 @@ class DeviceImage {
 public:
     virtual ~DeviceImage() = default;
     /// Copies it into a texture of its size and form, by commands of the host's context, which is
-    /// current on this thread.
-    virtual void copyTo(uint64_t texture) = 0;
+    /// current on this thread. @returns false where the driver refuses
+    virtual bool copyTo(uint64_t texture) = 0;
     /// Waits for the device. On any thread.
     /// @param bytes room for all pixels
     /// @returns false where the device fails

@@ -14,7 +14,7 @@ void HdPatinaHostTextures::setDrivers(const HdDriverVector& drivers) {
     for (const HdDriver* driver : drivers)
         if (driver->name == HgiTokens->renderDriver && driver->driver.IsHolding<Hgi*>())
             _hgi = driver->driver.UncheckedGet<Hgi*>();
-    _why = _hgi ? "" : "the host draws nothing";
+    _why = _hgi ? "" : "the host names no Hgi";
     if (!_hgi || _hgi->GetAPIName() == HgiTokens->OpenGL) return;
     _why = "the host draws by " + _hgi->GetAPIName().GetString();
     _hgi = nullptr;
@@ -22,16 +22,21 @@ void HdPatinaHostTextures::setDrivers(const HdDriverVector& drivers) {
 
 std::string HdPatinaHostTextures::whyNot() const {
     const std::lock_guard<std::mutex> lock(_mutex);
-    return _device ? "" : _why;
+    return _why;
 }
 
-std::shared_ptr<HostDevice> HdPatinaHostTextures::device(bool& isCurrent) {
+std::shared_ptr<HostDevice> HdPatinaHostTextures::device(bool make, bool& isCurrent) {
     const std::lock_guard<std::mutex> lock(_mutex);
-    if (_hgi && !_device && !_refused) {
+    if (_hgi && !_device && !_refused && make) {
         _device = currentHostDevice(_why);
-        _refused = !_device;
+        _refused = !_device && !_why.empty();
     }
     isCurrent = _device && _device->isCurrent();
+    if (_hgi && !_refused && make && !isCurrent)
+        _why = _device ? "another context is current than the first time"
+                       : "no context of EGL or GLX is current";
+    else if (isCurrent)
+        _why.clear();
     return _device;
 }
 
@@ -52,18 +57,17 @@ HgiTextureHandle HdPatinaHostTextures::of(const void* buffer, unsigned width, un
         return HgiTextureHandle();
     const GfVec3i size(int(width), int(height), 1);
     HgiTextureHandle& texture = _textures[buffer];
+    HgiTextureDesc wanted;
+    wanted.debugName = "Patina's image";
+    wanted.dimensions = size;
+    wanted.format = form;
+    wanted.usage = HgiTextureUsageBitsShaderRead |
+                   (depth ? HgiTextureUsageBitsDepthTarget : HgiTextureUsageBitsColorTarget);
     if (texture &&
-        (texture->GetDescriptor().dimensions != size || texture->GetDescriptor().format != form))
+        (texture->GetDescriptor().dimensions != size || texture->GetDescriptor().format != form ||
+         texture->GetDescriptor().usage != wanted.usage))
         destroy(texture);
-    if (!texture) {
-        HgiTextureDesc wanted;
-        wanted.debugName = "Patina's image";
-        wanted.dimensions = size;
-        wanted.format = form;
-        wanted.usage = HgiTextureUsageBitsShaderRead |
-                       (depth ? HgiTextureUsageBitsDepthTarget : HgiTextureUsageBitsColorTarget);
-        texture = _hgi->CreateTexture(wanted);
-    }
+    if (!texture) texture = _hgi->CreateTexture(wanted);
     return texture;
 }
 

@@ -16,16 +16,17 @@
 
 namespace patina {
 
-/// A host's Hgi, where that is OpenGL, and the textures of it that hold images of our buffers. All
-/// but device() is called on the thread of the host that draws.
+/// A host's Hgi, where that is OpenGL, and the textures of it that hold images of our buffers. Ask
+/// for the device and for textures on the thread of the host that draws.
 class HdPatinaHostTextures {
 public:
     void setDrivers(const HdDriverVector& drivers);
     /// The device of the host's context; null while images go by way of memory.
+    /// @param make whether to look for it
     /// @param isCurrent receives whether that context is current on this thread
-    std::shared_ptr<HostDevice> device(bool& isCurrent);
+    std::shared_ptr<HostDevice> device(bool make, bool& isCurrent);
 
-    std::string whyNot() const; ///< there is none; empty where there is one, or none was asked for
+    std::string whyNot() const; ///< images go by way of memory; empty where they do not have to
 
     /// The form of textures that hold pixels, and HgiFormatInvalid where none does.
     static HgiFormat formatOf(HdFormat format);

@@ -56,10 +56,13 @@ HdPatinaRenderBuffer* HdPatinaRenderBuffer::known(const HdRenderBuffer* buffer) 
 }
 
 void HdPatinaRenderBuffer::leaveDevice(const HdPatinaHostTextures& textures) {
+    std::vector<HdPatinaPixels> images; // go when nothing is locked
     const std::lock_guard<std::mutex> all(registry().mutex);
     for (const auto& [key, buffer] : registry().buffers) {
+        if (buffer->_textures.get() != &textures) continue;
         const std::lock_guard<std::mutex> lock(buffer->_mutex);
-        if (buffer->_textures.get() == &textures) buffer->forgetImage();
+        images.push_back(std::move(buffer->_image));
+        buffer->forgetImage();
     }
 }
 
@@ -111,14 +114,20 @@ void HdPatinaRenderBuffer::_Deallocate() {
     std::vector<uint8_t>().swap(_bytes);
     forgetImage();
     _mappers = 0;
+    _mappedInRow = 0;
     _converged = false;
     _allocation = nextAllocation();
 }
 
 void* HdPatinaRenderBuffer::Map() {
     std::lock_guard<std::mutex> lock(_mutex);
-    if (_bytesAreOld && !_image.device->read(_bytes.data()))
-        TF_RUNTIME_ERROR("render buffer %s: the device gives no pixels", GetId().GetText());
+    if (_bytesAreOld) {
+        ++_mappedInRow;
+        bool read = false;
+        runIsolated([&] { read = _image.device->read(_bytes.data()); });
+        if (!read)
+            TF_RUNTIME_ERROR("render buffer %s: the device gives no pixels", GetId().GetText());
+    }
     _bytesAreOld = false;
     ++_mappers;
     return _bytes.empty() ? nullptr : _bytes.data();
@@ -139,6 +148,7 @@ bool HdPatinaRenderBuffer::take(HdPatinaPixels& image) {
         return true;
     if (_mappers > 0) return false;
     if (image.device) {
+        if (_bytesAreOld) _mappedInRow = 0;
         std::swap(_image.device, image.device);
         _image.isDepth = image.isDepth;
         _bytesAreOld = true;
@@ -160,7 +170,14 @@ void HdPatinaRenderBuffer::Resolve() {
     const std::lock_guard<std::mutex> lock(_mutex);
     if (!_image.device) return;
     _resource = _textures->of(this, _width, _height, _format, _image.isDepth);
-    if (_resource) _image.device->copyTo(_resource->GetRawResource());
+    if (_resource && !_image.device->copyTo(_resource->GetRawResource()))
+        _resource = HgiTextureHandle();
+}
+
+bool HdPatinaRenderBuffer::staysOnDevice() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _mappedInRow < 2 && (_format == HdFormatInt32 ||
+                                HdPatinaHostTextures::formatOf(_format) != HgiFormatInvalid);
 }
 
 VtValue HdPatinaRenderBuffer::GetResource(bool) const {

@@ -55,6 +55,9 @@ public:
     /// were made before a host allocated anew, are left alone, and so are those that are empty.
     /// @returns false, and does nothing, while a host has the pixels mapped
     bool take(HdPatinaPixels& image);
+    /// Whether an image may come without a way through memory: the host can show it, or nobody has
+    /// looked at the last ones.
+    bool staysOnDevice() const;
     /// Fills every pixel with an AOV's clear value, unless a host has them mapped.
     void clear(const VtValue& value);
 
@@ -71,6 +74,7 @@ private:
     std::shared_ptr<HdPatinaHostTextures> _textures;
     std::vector<uint8_t> _bytes;
     HdPatinaPixels _image;             ///< on the device; its bytes are never used
+    int _mappedInRow = 0;              ///< images on the device that were mapped, one after another
     bool _bytesAreOld = false;         ///< of an image before that on the device
     HgiTextureHandle _resource;        ///< of the last Resolve()
     std::vector<uint8_t> _mappedBytes; ///< of before, and perhaps read by a host still

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/hydra/linkedPrim.h"
 
+#include "hdDelegate/backends/backends.h"
 #include "hdDelegate/film/aovTable.h"
 #include "hdDelegate/hydra/clearValue.h"
 #include "hdDelegate/hydra/readAgain.h"
@@ -155,12 +156,15 @@ void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
         } else {
             bool onDevice = false;
             std::shared_ptr<HostDevice> device;
-            if (settings.interactive) device = _state->hostTextures->device(onDevice);
+            if (rasterizes(backendOf(settings)))
+                device = _state->hostTextures->device(settings.interactive, onDevice);
+            onDevice = onDevice && settings.interactive;
             std::vector<HdPatinaImageForm> forms;
             for (const Target& target : _targets)
                 forms.push_back({target.shown.film, target.shown.layer, target.buffer->GetFormat(),
                                  target.buffer->GetWidth(), target.buffer->GetHeight(),
-                                 clearValueOf(target.clearValue), onDevice});
+                                 clearValueOf(target.clearValue),
+                                 onDevice && target.buffer->staysOnDevice()});
             _session->start(view.cameraPath, settings, forms, device);
         }
     }

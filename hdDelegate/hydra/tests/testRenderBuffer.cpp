@@ -27,7 +27,7 @@ HdPatinaPixels imageOf(const std::vector<float>& values) {
 /// A device whose pixels are all one number.
 struct OneNumber : DeviceImage {
     explicit OneNumber(float number, size_t size) : values(size, number) {}
-    void copyTo(uint64_t) override {}
+    bool copyTo(uint64_t) override { return true; }
     bool read(void* bytes) override {
         ++reads;
         std::memcpy(bytes, values.data(), values.size() * sizeof(float));

@@ -150,9 +150,9 @@ public:
     void leave(const Current& before) const override {
         if (before.context == EGL_NO_CONTEXT)
             eglMakeCurrent(_display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        else
-            eglMakeCurrent(before.display, EGLSurface(before.draw), EGLSurface(before.read),
-                           before.context);
+        else if (!eglMakeCurrent(before.display, EGLSurface(before.draw), EGLSurface(before.read),
+                                 before.context)) // its window may be gone
+            eglMakeCurrent(before.display, EGL_NO_SURFACE, EGL_NO_SURFACE, before.context);
         eglBindAPI(before.api);
     }
 

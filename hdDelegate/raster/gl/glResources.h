@@ -73,6 +73,7 @@ public:
     int levels() const { return _levels; }
     explicit operator bool() const { return _id != 0; }
     void bind(GLuint unit) const { gl.BindTextureUnit(unit, _id); }
+    void abandon() { _id = 0; } ///< leaves it to the driver: no context is left that knows it
     void parameter(GLenum name, GLint value) const { gl.TextureParameteri(_id, name, value); }
     void filter(GLint both) const { ///< of smaller and larger pictures of it
         parameter(GL_TEXTURE_MIN_FILTER, both);

@@ -36,6 +36,7 @@ struct Functions {
     int (*Sync)(Display, int) = nullptr;
     int (*Free)(void*) = nullptr;
     ErrorHandler (*SetErrorHandler)(ErrorHandler) = nullptr;
+    bool threads = true; ///< others than the host's may call them
     std::atomic<bool> all{false};
 
     void find() {
@@ -66,6 +67,8 @@ struct Functions {
         if (!found) return;
         CreateContextAttribsARB = reinterpret_cast<decltype(CreateContextAttribsARB)>(
             procedure("glXCreateContextAttribsARB"));
+        const auto lock = static_cast<void**>(dlsym(x, "_XLockMutex_fn"));
+        threads = !lock || *lock;
         all = CreateContextAttribsARB != nullptr;
     }
 };
@@ -81,7 +84,7 @@ const Functions& glx() {
     return functions;
 }
 
-bool errorSeen = false;
+std::atomic<bool> errorSeen{false};
 
 /// Keeps X from ending the process where a server refuses a context.
 struct ErrorGuard {
@@ -113,8 +116,10 @@ public:
 
     static std::unique_ptr<GlxNative> make(Display display, Config config, Context shared) {
         const int attributes[] = {contextMajor, 4, contextMinor, 5, contextProfile, coreProfile, 0};
+        const ErrorGuard guard(display);
         const Context made = glx().CreateContextAttribsARB(display, config, shared, 1, attributes);
-        return made ? std::make_unique<GlxNative>(display, config, made) : nullptr;
+        return made && !guard.failed() ? std::make_unique<GlxNative>(display, config, made)
+                                       : nullptr;
     }
 
     std::unique_ptr<NativeContext> sharing(std::string&) const override {
@@ -161,14 +166,18 @@ std::unique_ptr<NativeContext> sharingGlxCurrent(std::string& error) {
     const Context shared = glx().GetCurrentContext();
     const Display display = glx().GetCurrentDisplay();
     if (!shared || !display) return nullptr;
+    if (!glx().threads) {
+        error = "the host uses Xlib on one thread only (see XInitThreads)";
+        return nullptr;
+    }
     error = "GLX does not tell what framebuffers the host's context is for";
-    const ErrorGuard guard(display);
     const Config config = configOf(display, shared);
     if (!config) return nullptr;
     error = "GLX makes no context that shares the host's objects";
     std::unique_ptr<NativeContext> made = GlxNative::make(display, config, shared);
-    if (!made || guard.failed()) return nullptr;
+    if (!made) return nullptr;
     error = "GLX makes no context current without a window";
+    const ErrorGuard guard(display);
     NativeContext::Current before;
     const bool works = made->enter(before);
     if (works) made->leave(before);

@@ -37,11 +37,12 @@ HostImage::HostImage(std::shared_ptr<HostContext> host, GLenum format, int compo
       _texture(GL_TEXTURE_2D, format, width, height) {}
 
 HostImage::~HostImage() {
-    _host->use([this] {
+    const bool gone = _host->use([this] {
         for (const GLsync fence : {_drawn, _read})
             if (fence) gl.DeleteSync(fence);
         _texture = GlTexture();
     });
+    if (!gone) _texture.abandon();
 }
 
 void HostImage::waitForReaders() {
@@ -54,12 +55,19 @@ void HostImage::setDrawn() {
     mark(_drawn);
 }
 
-void HostImage::copyTo(uint64_t texture) {
+bool HostImage::copyTo(uint64_t texture) {
     const std::lock_guard<std::mutex> lock(_mutex);
+    const bool known = texture == _copiedTo; // that it fits was seen
+    if (!known)
+        while (gl.GetError() != GL_NO_ERROR) {
+        } // of the host
     wait(_drawn);
     gl.CopyImageSubData(_texture.id(), GL_TEXTURE_2D, 0, 0, 0, 0, GLuint(texture), GL_TEXTURE_2D, 0,
                         0, 0, 0, _texture.width(), _texture.height(), 1);
     mark(_read);
+    if (!known && gl.GetError() != GL_NO_ERROR) return false;
+    _copiedTo = texture;
+    return true;
 }
 
 bool HostImage::read(void* bytes) {
@@ -67,11 +75,16 @@ bool HostImage::read(void* bytes) {
     bool fine = false;
     const bool used = _host->use([&] {
         const PixelTransfer pixels(_format, _components);
+        GLint alignment = 4, buffer = 0;
+        gl.GetIntegerv(GL_PACK_ALIGNMENT, &alignment);
+        gl.GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &buffer);
         wait(_drawn);
         GlDownload().read(_texture, pixels.format, pixels.type,
                           pixels.size * size_t(_texture.width()) * size_t(_texture.height()),
                           bytes);
         fine = gl.GetError() == GL_NO_ERROR;
+        gl.PixelStorei(GL_PACK_ALIGNMENT, alignment);
+        gl.BindBuffer(GL_PIXEL_PACK_BUFFER, GLuint(buffer));
     });
     return used && fine;
 }

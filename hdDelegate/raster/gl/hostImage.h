@@ -32,7 +32,7 @@ public:
     void waitForReaders(); ///< before it is drawn again; nobody has it then
     void setDrawn();       ///< after the commands that draw it
 
-    void copyTo(uint64_t texture) override;
+    bool copyTo(uint64_t texture) override;
     bool read(void* bytes) override;
 
 private:
@@ -42,6 +42,7 @@ private:
     GlTexture _texture;
     std::mutex _mutex;
     GLsync _drawn = nullptr, _read = nullptr; ///< after the last commands of either kind
+    uint64_t _copiedTo = 0;
 };
 
 } // namespace patina

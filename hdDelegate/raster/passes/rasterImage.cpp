@@ -205,6 +205,7 @@ std::shared_ptr<DeviceImage> RasterImage::draw(AovId aov, const PixelForm& form)
     to.image->waitForReaders();
     drawInto(to.framebuffer, aov, form);
     to.image->setDrawn();
+    if (gl.GetError() != GL_NO_ERROR) throw DeviceError("the driver draws no image");
     return to.image;
 }
 

@@ -43,8 +43,8 @@ const char* const usage =
     "  --set KEY=VALUE           render setting, repeatable; a number, true or false, or text\n"
     "  --edit PATH.INPUT=NUMBERS value of an input, of which each edit takes another share\n"
     "  --repeats N               moves, and edits (0)\n"
-    "  --boxes N                 draws the last image N times with a box before it is written "
-    "(0)\n";
+    "  --select PATH             draws the last image once more, with a prim selected\n"
+    "  --times N                 so often (1)\n";
 
 double numberOf(const std::string& text) {
     char* end = nullptr;

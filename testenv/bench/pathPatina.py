@@ -128,6 +128,7 @@ def write(folder):
 def prepare(folder):
     """:returns: a function that draws, as pathWorker.serve() takes it"""
     path, scene = write(folder)
+    from patina import experiment
     from patina import stage as reader
     from patina.cli import compiled, denoiser
 
@@ -140,16 +141,12 @@ def prepare(folder):
 
     def draw(samples, seed, file, denoise):
         denoise = denoise and scene.get("denoise", False)
-        renderer.start(held, "/camera", {
+        experiment.draw(renderer, held, "/camera", {
             "width": scene["width"], "height": scene["height"], "samples": samples, "seed": seed, "threads": scene["threads"],
             "maxDepth": scene["depth"], "filterRadius": 0.5, "checkpointSeconds": 0.0,
             "aovs": list(denoiser.GUIDES) if denoise else [],
             "rouletteDepth": 1 if scene.get("roulette", True) else 4096,
             "methods": scene.get("methods", {})}, film)
-        renderer.wait()
-        state = renderer.progress()
-        if state["failed"]:
-            raise RuntimeError(state["error"])
         if denoise:
             denoiser.run(module, film, scene["threads"])
         if file != os.devnull:

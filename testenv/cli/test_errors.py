@@ -9,6 +9,7 @@ import zipfile
 
 import pytest
 
+from patina import experiment
 from patina.cli import bench, explain, frames, main, record
 from patina.cli.errors import UsageError
 
@@ -88,9 +89,8 @@ def test_as_many_threads_as_are_let(stage, tmp_path):
     scene, film, renderer = _patina.Scene(), _patina.Film(), _patina.make_renderer()
     with scene.edit() as edit:
         edit.set_camera("/camera", transform=[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
-    renderer.start(scene, "/camera", {"width": 4, "height": 4, "samples": 1, "threads": 1000000000}, film)
-    renderer.wait()
-    assert renderer.progress()["converged"]
+    settings = {"width": 4, "height": 4, "samples": 1, "threads": 1000000000}
+    assert experiment.draw(renderer, scene, "/camera", settings, film)["converged"]
 
 
 @pytest.mark.parametrize("arguments", [["record", "a.usda", "b\udcff.png"], ["record", "a\udcff.usda", "b.png"],

@@ -11,6 +11,7 @@ import pytest
 import hydraBuild
 import sceneText
 import stages
+from patina import experiment
 from rendering import color
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -54,10 +55,7 @@ def render_with_reader(shot):
     film, renderer = _patina.Film(), _patina.make_renderer("embree")
     settings = {"width": shot.size[0], "height": shot.size[1], "samples": SAMPLES, "seed": SEED,
                 "interactive": True}
-    renderer.start(shot.scene, shot.camera, settings, film)
-    while not renderer.wait(1.0):
-        pass
-    renderer.stop()
+    experiment.draw(renderer, shot.scene, shot.camera, settings, film)
     return np.array(film.resolve("color"))[..., :3]
 
 

@@ -5,6 +5,7 @@ import pytest
 
 import hydraBuild
 import stages
+from patina import experiment
 from rendering import color
 from test_oneTruth import MODES, compare, render_with_hydra
 
@@ -61,8 +62,8 @@ def test_hosts_agree_on_the_rasterizer(opengl, tmp_path, scene_index):
                                   "backend=raster", scene_index=scene_index)
     assert not [line for line in hydraBuild.warnings_of(process) if "splats" in line]
     film, renderer = _patina.Film(), _patina.make_renderer("raster")
-    renderer.start(shot.scene, shot.camera, {"width": shot.size[0], "height": shot.size[1], "samples": 4, "seed": 0}, film)
-    renderer.wait()
+    settings = {"width": shot.size[0], "height": shot.size[1], "samples": 4, "seed": 0}
+    experiment.draw(renderer, shot.scene, shot.camera, settings, film)
     wanted = np.array(film.resolve("color"))[..., :3]
     assert color(image) == pytest.approx(wanted, abs=1e-5)  # rounding of transforms
     assert wanted.std() > 0.01

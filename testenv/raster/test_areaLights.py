@@ -70,7 +70,7 @@ def test_outlines_keep_the_tolerance_that_they_would_be_taken_for_and_have_no_no
     truth = stage_of(tmp_path, "--samples", 256, "--maxDepth", 1).image(7)
     drawn = stage_of(tmp_path, "--backend", "raster")
     outlines = drawn.image(0, samples=16, tolerance=1.0, methods=OUTLINES)
-    error = max(c["error"] for plan in drawn.renderer.progress()["plans"].values()
+    error = max(c["error"] for plan in drawn.state["plans"].values()
                 for c in plan["choices"] if c["point"] == "areaLight")
     for channel in range(3):
         assert truth[..., channel].mean() > 0.01, "a light is off"

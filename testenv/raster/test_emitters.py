@@ -12,6 +12,7 @@ from pxr import Sdf, Usd
 _patina = pytest.importorskip("_patina")
 
 import bothBackEnds  # noqa: E402
+from patina import experiment  # noqa: E402
 from patina import stage as reader  # noqa: E402
 
 SEEDS, WIDTH, TILE = 8, 32, 8
@@ -139,10 +140,8 @@ def load(more, glow="4, 3, 2", scale=1.0, at="0, 0, 0"):
 
 def render(renderer, stage, samples, seed):
     film = _patina.Film()
-    renderer.start(*stage, {"width": WIDTH, "height": WIDTH, "samples": samples, "seed": seed, "maxDepth": 1}, film)
-    renderer.wait()
-    state = renderer.progress()
-    assert not state["failed"], state["error"]
+    settings = {"width": WIDTH, "height": WIDTH, "samples": samples, "seed": seed, "maxDepth": 1}
+    experiment.draw(renderer, *stage, settings, film)
     return np.array(film.resolve("color"))[..., :3].astype(np.float64)
 
 

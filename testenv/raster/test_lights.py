@@ -15,7 +15,7 @@ import inProcess  # noqa: E402
 import sameImage  # noqa: E402
 from floorLights import STAGE, light, write  # noqa: E402
 from patina.chart import sweepsSky  # noqa: E402
-from patina.chart.sceneMeasures import LUMINANCE  # noqa: E402
+from patina.experiment import LUMINANCE, relative_error  # noqa: E402
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
@@ -170,9 +170,9 @@ def test_a_method_of_domes_keeps_the_tolerance_that_it_would_be_taken_for(method
     """A method is taken where its error in the table is at most 0.4 of the tolerance: the whole image has to be within it."""
     truth, stage = skies[scene]
     image = stage.image(0, samples=32, tolerance=1.0, methods={"domeLight": method}) @ LUMINANCE
-    plans = stage.renderer.progress()["plans"].values()
+    plans = stage.state["plans"].values()
     error = max(c["error"] for plan in plans for c in plan["choices"] if c["point"] == "domeLight")
-    off = float((np.abs(image - truth @ LUMINANCE) / (truth @ LUMINANCE + 0.01)).mean())
+    off = relative_error(image, truth @ LUMINANCE)
     assert 0.0 < off <= error / 0.4, (off, error)
 
 

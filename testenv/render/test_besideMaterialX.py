@@ -10,10 +10,10 @@ import sys
 import numpy as np
 import pytest
 
+from patina.experiment import LUMINANCE
 from rendering import pixels, record
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 EXAMPLES = os.path.join(HERE, "..", "..", "..", "shared", "assets", "materialx")
 STAGE = """#usda 1.0
 (

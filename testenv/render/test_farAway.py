@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import inProcess
+from patina import experiment
 from usdaText import render_text
 
 pytest.importorskip("pxr.Usd")
@@ -188,7 +189,6 @@ def test_scenes_near_the_origin_keep_their_numbers():
             edit.clear()
             info = read_stage(open_text(STAGE % {"at": at}), edit, StageOptions(headlight=False))
         film = _patina.Film()
-        renderer.start(scene, info.camera, {"width": 16, "height": 16, "samples": 2, "threads": 1, "aovs": ["color"]}, film)
-        renderer.wait(-1.0)
+        experiment.draw(renderer, scene, info.camera, {"width": 16, "height": 16, "samples": 2, "threads": 1}, film)
         images.append(np.array(film.resolve("color")))
     assert np.array_equal(images[0], images[2])

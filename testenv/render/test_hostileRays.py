@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from patina import experiment
+from patina.chart import probes
 from usdaText import render_text
 from rendering import patina
 
@@ -100,15 +102,11 @@ def test_an_instance_that_turns_halfway_within_the_shutter_is_drawn():
         edit.set_implicit("/cube", shape="cube", group="A")
         edit.set_instancer("/turning", prototypes=["A"], prototype_indices=np.zeros(1, np.int32),
                            transforms=([0.0, 1.0], [np.eye(4)[None], turn[None]]))
-        camera = np.eye(4)
-        camera[3, 2] = 6.0
-        edit.set_camera("/camera", transform=camera, shutter_open=0.0, shutter_close=1.0)
+        edit.set_camera("/camera", transform=probes.moved(0, 0, 6), shutter_open=0.0, shutter_close=1.0)
         edit.set_light("/dome", type="dome")
-    renderer = _patina.make_renderer("embree")
-    renderer.start(scene, "/camera", {"width": 16, "height": 16, "samples": 64, "threads": 1, "aovs": ["color", "alpha"],
-                                        "domeLightCameraVisibility": False}, film)
-    renderer.wait(-1.0)
-    assert not renderer.progress()["failed"]
+    settings = {"width": 16, "height": 16, "samples": 64, "threads": 1, "aovs": ["color", "alpha"],
+                "domeLightCameraVisibility": False}
+    experiment.draw(_patina.make_renderer("embree"), scene, "/camera", settings, film)
     assert np.isfinite(film.resolve("color")).all()
     alpha = np.array(film.resolve("alpha"))
     assert alpha[8, 8] > 0.7 and 0.1 < alpha[8, 3] < 0.7  # in the middle it is thin, but always there

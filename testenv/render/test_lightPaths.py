@@ -27,12 +27,7 @@ def layer(image, name):
 
 def film_of(stage, names, **settings):
     """:returns: what a render of some aovs leaves, and the colour of one without them"""
-    films = [stage.module.Film(), stage.module.Film()]
-    for film, wanted in zip(films, (list(names), [])):
-        stage.renderer.start(stage.scene, stage.camera, {**stage.settings, **settings, "aovs": wanted}, film)
-        stage.renderer.wait()
-        assert not stage.renderer.progress()["failed"], stage.renderer.progress()["error"]
-    return films[0], films[1].resolve("color")
+    return stage.film(**settings, aovs=list(names)), stage.film(**settings, aovs=[]).resolve("color")
 
 
 def assert_is_sum(film, names, total):

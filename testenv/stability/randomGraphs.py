@@ -17,9 +17,10 @@ import tempfile
 import time
 from collections import Counter
 
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.join(FOLDER, "..", "fuzz"))
 if __name__ == "__main__":
-    folder = os.path.dirname(os.path.abspath(__file__))
-    sys.path[:0] = [folder, os.path.join(folder, "..")]
+    sys.path[:0] = [FOLDER, os.path.join(FOLDER, "..")]
     import checkout
 
     checkout.enter()
@@ -29,6 +30,7 @@ import graphLooks  # noqa: E402
 import graphShrink  # noqa: E402
 import graphText  # noqa: E402
 import kept  # noqa: E402
+import keptFindings  # noqa: E402
 
 # Of the path tracer alone, and with values that are estimates.
 WALKS = {("energyCompensation", "randomWalk"), ("layering", "positionFree")}
@@ -131,9 +133,8 @@ class Finding:
         return "\n  ".join([head, *self.failed]) + "\n" + graphText.document(self.nodes)
 
     def keep(self, folder):
-        os.makedirs(folder, exist_ok=True)
-        kept.write(os.path.join(folder, f"{self.words.replace(' ', '')}.mtlx"), graphText.document(self.nodes), self.graph,
-                   self.methods, self.failed)
+        text = kept.noted(graphText.document(self.nodes), self.graph, self.methods, self.failed)
+        keptFindings.save(folder, "randomGraphs", ".mtlx", ("promise", self.words, text.encode(), "\n".join(self.failed)))
 
 
 def of_processor(seed, count):
@@ -229,7 +230,6 @@ def main():
                         finding.keep(arguments.keep)
     seconds = (time.time() - start) * arguments.jobs
     if arguments.results is not None:
-        sys.path.append(os.path.join(folder, "..", "fuzz"))
         import results
 
         counts = {"fine": count - broken} | ({"promise": broken} if broken else {})

@@ -9,6 +9,8 @@ import subprocess
 import sys
 import tempfile
 
+import usda
+
 if __name__ == "__main__":
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
     import checkout
@@ -19,41 +21,11 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 SKY = os.path.join(HERE, "scenes", "textures", "sky.exr")
 TILE = 84  # pixels of a ball's cell
 
-HEAD = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float2 clippingRange = (0.01, 100)
-    float horizontalAperture = %(width)g
-    float verticalAperture = %(height)g
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "sky"
-{
-    asset inputs:texture:file = @%(sky)s@
-    float inputs:intensity = 0.8
-}
-def DistantLight "key"
-{
-    float inputs:intensity = 45
-    float inputs:angle = 12
-    float3 xformOp:rotateXYZ = (-40, -35, 0)
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-def Mesh "wall" (prepend apiSchemas = ["MaterialBindingAPI"])
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-40, -40, -1), (40, -40, -1), (40, 40, -1), (-40, 40, -1)]
-    texCoord2f[] primvars:st = [(-20, -20), (20, -20), (20, 20), (-20, 20)] (interpolation = "vertex")
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </wallMaterial>
-}
-"""
+HEAD = usda.stage(
+    usda.camera(flat=("%(width)g", "%(height)g"), clippingRange=(0.01, 100), at=(0, 0, 10)),
+    usda.prim("DomeLight", "sky", "asset inputs:texture:file = @%(sky)s@", intensity=0.8),
+    usda.prim("DistantLight", "key", intensity=45, angle=12, turn=(-40, -35, 0)),
+    usda.card("wall", 40, z=-1, bind="wallMaterial", st=[(-20, -20), (20, -20), (20, 20), (-20, 20)]))
 
 
 def material(name, nodes):
@@ -167,15 +139,8 @@ def stage(rows):
         for i, make in enumerate(row):
             name = f"m{j}_{i}"
             text += make(name)
-            text += f"""def Sphere "ball{j}_{i}" (prepend apiSchemas = ["MaterialBindingAPI"])
-{{
-    double radius = 0.44
-    rel material:binding = </{name}>
-    double3 xformOp:translate = ({i - 0.5 * (columns - 1)}, {0.5 * (len(rows) - 1) - j}, 0)
-    float3 xformOp:rotateXYZ = (-90, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}}
-"""
+            text += usda.prim("Sphere", f"ball{j}_{i}", bind=name, radius=0.44,
+                              at=(i - 0.5 * (columns - 1), 0.5 * (len(rows) - 1) - j, 0), turn=(-90, 0, 0))
     return text
 
 

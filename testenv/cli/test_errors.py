@@ -12,19 +12,12 @@ import pytest
 from patina import experiment
 from patina.cli import bench, explain, frames, main, record
 from patina.cli.errors import UsageError
+import usda
 
-BALL = """#usda 1.0
-def Sphere "ball"
-{
-    int elementSize = 1
-    uchar small = 1
-    float size = 1
-}
-def RectLight "light"
-{
-    int inputs:count = 3
-}
-"""
+BALL = usda.stage(
+    usda.prim("Sphere", "ball", "int elementSize = 1", "uchar small = 1", "float size = 1"),
+    usda.prim("RectLight", "light", "int inputs:count = 3"),
+    up="")
 
 
 def run(capsys, *arguments):
@@ -178,16 +171,10 @@ def test_damaged_stages(damage, tmp_path, capsys):
     pytest.importorskip("_patina")
     Sdf = pytest.importorskip("pxr.Sdf")
     layer = Sdf.Layer.CreateNew(str(tmp_path / "good.usdc"))
-    layer.ImportFromString("""#usda 1.0
-def Sphere "ballBallBall"
-{
-    rel material:binding = </ballBallBall/look>
-    def Material "look"
-    {
-        asset inputs:fileFileFile = @pictureOfPaint.png@
-    }
-}
-""")
+    layer.ImportFromString(usda.stage(
+        usda.prim("Sphere", "ballBallBall", "rel material:binding = </ballBallBall/look>",
+            usda.prim("Material", "look", "asset inputs:fileFileFile = @pictureOfPaint.png@")),
+        up=""))
     layer.Save()
     good = (tmp_path / "good.usdc").read_bytes()
     name = "bad.usdz" if damage >= 4 else "bad.usdc"

@@ -4,58 +4,17 @@ import numpy as np
 import pytest
 
 import pairs
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DistantLight "sun"
-{
-    float inputs:intensity = 500
-    float inputs:angle = 5
-    float3 xformOp:rotateXYZ = %(turn)s
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-def BasisCurves "curve" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    uniform token type = "cubic"
-    uniform token basis = "bezier"
-    int[] curveVertexCounts = [4]
-    point3f[] points = [(-0.6, -2, 0), (0.1, -1, 0.2), (-0.1, 1, 0.2), (0.6, 2, 0)]
-    float[] widths = [%(width)s] (
-        interpolation = "constant"
-    )
-    rel material:binding = </material>
-}
-def Material "material"
-{
-    token outputs:mtlx:surface.connect = </material/surface.outputs:out>
-    def Shader "hair"
-    {
-        uniform token info:id = "ND_chiang_hair_bsdf"
-        float3 inputs:absorption_coefficient = (0.1, 0.3, 0.6)
-        token outputs:out
-    }
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_surface"
-        token inputs:bsdf.connect = </material/hair.outputs:out>
-        token outputs:out
-    }
-}
-"""
+STAGE = usda.stage(
+    usda.camera(flat=(20, 20), at=(0, 0, 10)),
+    usda.prim("DistantLight", "sun", intensity=500, angle=5, turn="%(turn)s"),
+    usda.prim("BasisCurves", "curve", bind="material", type="cubic", basis="bezier", curveVertexCounts=[4],
+              points=[(-0.6, -2, 0), (0.1, -1, 0.2), (-0.1, 1, 0.2), (0.6, 2, 0)],
+              widths='[%(width)s] ( interpolation = "constant" )'),
+    usda.lobe("material", "chiang_hair_bsdf", **{"float3 absorption_coefficient": (0.1, 0.3, 0.6)}))
 
 
 @pytest.mark.parametrize("width", [0.0003, 0.03, 0.4])  # a hundredth of a pixel, a pixel, and 13

@@ -14,60 +14,22 @@ _patina = pytest.importorskip("_patina")
 import bothBackEnds  # noqa: E402
 from patina import experiment  # noqa: E402
 from patina import stage as reader  # noqa: E402
+import usda  # noqa: E402
 
 SEEDS, WIDTH, TILE = 8, 32, 8
 MARGIN = 0.01
 # Student's t with 7 degrees of freedom at 1 - (1 - 0.999 ** (1 / 51)) / 2: 16 tiles and the whole image in three channels.
 T = 9.9
 
-STAGE = """#usda 1.0
-(
-    defaultPrim = "World"
-    upAxis = "Y"
-    metersPerUnit = %(meters)s
-)
-def Xform "World"
-{
-    matrix4d xformOp:transform = ((%(scale)s, 0, 0, 0), (0, %(scale)s, 0, 0), (0, 0, %(scale)s, 0), (%(at)s, 1))
-    uniform token[] xformOpOrder = ["xformOp:transform"]
-    def Camera "camera"
-    {
-        float2 clippingRange = (0.01, 1000)
-        float focalLength = 24
-        float horizontalAperture = 20.955
-        float verticalAperture = 20.955
-        matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0.6, -0.8, 0), (0, 0.8, 0.6, 0), (0, 5.6, 4.2, 1))
-        uniform token[] xformOpOrder = ["xformOp:transform"]
-    }
-    def Mesh "floor"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-3, 0, 3), (3, 0, 3), (3, 0, -3), (-3, 0, -3)]
-        uniform token subdivisionScheme = "none"
-        color3f[] primvars:displayColor = [(0.6, 0.6, 0.6)]
-    }
-    def Cube "block"
-    {
-        double size = 0.8
-        double3 xformOp:translate = (0.5, 0.4, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-        color3f[] primvars:displayColor = [(0.6, 0.3, 0.2)]
-    }
-    def Material "glow"
-    {
-        token outputs:surface.connect = </World/glow/surface.outputs:surface>
-        def Shader "surface"
-        {
-            uniform token info:id = "UsdPreviewSurface"
-            color3f inputs:diffuseColor = (0, 0, 0)
-            color3f inputs:emissiveColor = (%(glow)s)
-            token outputs:surface
-        }
-    }
-%(more)s
-}
-"""
+STAGE = usda.stage(
+    usda.prim("Xform", "World",
+        usda.camera(lens=(24, 20.955, 20.955), clippingRange=(0.01, 1000),
+                    matrix=((1, 0, 0, 0), (0, 0.6, -0.8, 0), (0, 0.8, 0.6, 0), (0, 5.6, 4.2, 1))),
+        usda.floor("floor", 3, color=(0.6, 0.6, 0.6)),
+        usda.prim("Cube", "block", size=0.8, at=(0.5, 0.4, 0), color=(0.6, 0.3, 0.2)),
+        usda.preview("glow", inside="/World", diffuseColor=(0, 0, 0), **{"color3f emissiveColor": "(%(glow)s)"}),
+        "%(more)s", matrix="((%(scale)s, 0, 0, 0), (0, %(scale)s, 0, 0), (0, 0, %(scale)s, 0), (%(at)s, 1))"),
+    defaultPrim="World", metersPerUnit="%(meters)s")
 
 ABOVE = ((0, 7, 0), (-90, 0, 0))
 BEHIND = ((0.5, 4.5, 9), (-30, 3, 0))  # the camera
@@ -215,28 +177,12 @@ def test_a_panel_in_the_plane_of_an_emitter_hides_nothing(kind, renderers):
 def edf(name, kind, inputs):
     """A material with that EDF, for quad()."""
     texts = "".join(f"            {text}\n" for text in inputs)
-    return f"""    def Material "{name}"
-    {{
-        token outputs:mtlx:surface.connect = </World/{name}/surface.outputs:out>
-        def Shader "surface"
-        {{
-            uniform token info:id = "ND_surface"
-            token inputs:edf.connect = </World/{name}/edf.outputs:out>
-            token outputs:out
-        }}
-        def Shader "edf"
-        {{
-            uniform token info:id = "{kind}"
-{texts}            token outputs:out
-        }}
-        def Shader "even"
-        {{
-            uniform token info:id = "ND_uniform_edf"
-            color3f inputs:color = (4, 3, 2)
-            token outputs:out
-        }}
-    }}
-"""
+    return usda.prim("Material", name, f"token outputs:mtlx:surface.connect = </World/{name}/surface.outputs:out>",
+        usda.prim("Shader", "surface", 'uniform token info:id = "ND_surface"',
+                  f"token inputs:edf.connect = </World/{name}/edf.outputs:out>", "token outputs:out"),
+        usda.prim("Shader", "edf", f'uniform token info:id = "{kind}"', f"{texts}            token outputs:out"),
+        usda.prim("Shader", "even", 'uniform token info:id = "ND_uniform_edf"', "color3f inputs:color = (4, 3, 2)",
+                  "token outputs:out"))
 
 
 PROFILE = """IESNA:LM-63-1995
@@ -271,16 +217,9 @@ def cones(first, second):
     """An emitter's EDF of two hard cones, each `(half angle, color, normal)`, as ND_add_edf has it."""
     texts = ""
     for name, (angle, color, normal) in (("first", first), ("second", second)):
-        texts += f"""        def Shader "{name}"
-        {{
-            uniform token info:id = "ND_conical_edf"
-            color3f inputs:color = {color}
-            float inputs:inner_angle = {2 * angle}
-            float inputs:outer_angle = {2 * angle}
-            float3 inputs:normal = {normal}
-            token outputs:out
-        }}
-"""
+        texts += usda.prim("Shader", name, 'uniform token info:id = "ND_conical_edf"', f"color3f inputs:color = {color}",
+                           f"float inputs:inner_angle = {2 * angle}", f"float inputs:outer_angle = {2 * angle}",
+                           f"float3 inputs:normal = {normal}", "token outputs:out")
     inputs = [f"token inputs:in{i}.connect = </World/shaped/{name}.outputs:out>" for i, name in ((1, "first"), (2, "second"))]
     text = edf("shaped", "ND_add_edf", inputs)
     return text.replace('        def Shader "even"', texts + '        def Shader "even"')
@@ -346,24 +285,10 @@ def test_the_camera_sees_the_profile_of_a_measured_edf(tmp_path, renderers):
 
 def test_light_follows_the_places_on_an_emitter(renderers):
     """Its corners glow in four colours, by a primvar; it is as wide as the floor."""
-    material = """    def Material "places"
-    {
-        token outputs:surface.connect = </World/places/surface.outputs:surface>
-        def Shader "surface"
-        {
-            uniform token info:id = "UsdPreviewSurface"
-            color3f inputs:diffuseColor = (0, 0, 0)
-            color3f inputs:emissiveColor.connect = </World/places/color.outputs:result>
-            token outputs:surface
-        }
-        def Shader "color"
-        {
-            uniform token info:id = "UsdPrimvarReader_float3"
-            string inputs:varname = "glow"
-            float3 outputs:result
-        }
-    }
-"""
+    material = usda.material("places", {
+                             "surface": ("UsdPreviewSurface", {"diffuseColor": (0, 0, 0), "color3f emissiveColor": "<color>"}),
+                             "color": ("UsdPrimvarReader_float3", {"varname": "glow"})},
+                             inside="/World")
     text = (BOUND.replace("</World/glow>", "</World/places>")
             + '        color3f[] primvars:glow = [(8, 0, 1), (0, 0, 1), (0, 0, 9), (0, 4, 0)] (interpolation = "vertex")\n')
     hold(renderers, load(quad(((-1, 6, 1.2), (-80, 0, 0)), text, size=5.0) + material), passes=16)

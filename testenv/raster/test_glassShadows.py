@@ -5,53 +5,18 @@ import pytest
 
 import bothBackEnds
 from materialText import material
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
 # The camera sees the floor below the slab, and not the slab.
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float focalLength = 50
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    float2 clippingRange = (0.1, 4)
-    token projection = "orthographic"
-    double3 xformOp:translate = (0, 2, 0)
-    float3 xformOp:rotateXYZ = (-90, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-def DistantLight "sun"
-{
-    float inputs:angle = 0
-    float3 xformOp:rotateXYZ = (%(turn)s, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-def Mesh "floor"
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)]
-    uniform token subdivisionScheme = "none"
-    color3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]
-}
-%(object)s
-%(materials)s
-"""
+STAGE = usda.stage(
+    usda.camera(flat=(20, 20), focalLength=50, clippingRange=(0.1, 4), at=(0, 2, 0), turn=(-90, 0, 0)),
+    usda.prim("DistantLight", "sun", angle=0, turn="(%(turn)s, 0, 0)"),
+    usda.floor("floor", 9, color=(0.5, 0.5, 0.5)),
+    "%(object)s", "%(materials)s")
 
-SLAB = """def Cube "slab" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    rel material:binding = </material>
-    double3 xformOp:translate = (0, 5, 0)
-    float3 xformOp:scale = (20, 0.1, 20)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
-}
-"""
+SLAB = usda.prim("Cube", "slab", bind="material", at=(0, 5, 0), scale=(20, 0.1, 20))
 
 
 def floor(folder, thing, turn=-90, **inputs):

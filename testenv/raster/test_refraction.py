@@ -5,47 +5,16 @@ import pytest
 
 import bothBackEnds
 from materialText import material
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float focalLength = 50
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    float2 clippingRange = (0.1, 1000)
-    token projection = "orthographic"
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "sky"
-{
-    float inputs:intensity = 1
-}
-def %(shape)s "object" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    %(geometry)s
-    rel material:binding = </material>
-}
-def Mesh "wall" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-9, -9, -3), (9, -9, -3), (9, 9, -3), (-9, 9, -3)]
-    uniform token subdivisionScheme = "none"
-    token visibility = "%(wall)s"
-    rel material:binding = </red>
-}
-%(materials)s
-"""
+STAGE = usda.stage(
+    usda.camera(flat=(20, 20), focalLength=50, clippingRange=(0.1, 1000), at=(0, 0, 10)),
+    usda.prim("DomeLight", "sky", intensity=1),
+    usda.prim("%(shape)s", "object", "%(geometry)s", bind="material"),
+    usda.card("wall", 9, z=-3, bind="red", visibility="%(wall)s"),
+    "%(materials)s")
 
 
 def _materials(terminal, absorption, scattering):

@@ -6,6 +6,7 @@ import scipy.stats
 
 from inProcess import Stage
 from patina.significance import sidak
+from usda import mesh, prim
 
 SEEDS = range(8)
 SIGNIFICANCE = 1e-4  # of each test; fixed seeds
@@ -51,45 +52,11 @@ def Material "glass"
 }}
 {light}
 """
-SLAB = """def Mesh "slab" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
-    int[] faceVertexIndices = [4, 5, 6, 7, 3, 2, 1, 0, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7]
-    point3f[] points = [(-2, 1, 2), (2, 1, 2), (2, 1, -2), (-2, 1, -2), (-2, 2, 2), (2, 2, 2), (2, 2, -2), (-2, 2, -2)]
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </glass>
-}
-"""
-BALL = """def Sphere "ball" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    double radius = 0.4
-    double3 xformOp:translate = (0, 1.5, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-    rel material:binding = </glass>
-}
-"""
-SUN = """def DistantLight "sun"
-{
-    float inputs:intensity = 2
-    float inputs:angle = 0
-    float3 xformOp:rotateXYZ = (-90, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-"""
-LAMP = """def RectLight "lamp"
-{
-    float inputs:intensity = 5
-    float inputs:width = 3
-    float inputs:height = 3
-    double3 xformOp:translate = (0, 4, 0)
-    float3 xformOp:rotateXYZ = (-90, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-"""
+SLAB = mesh("slab", [(-2, 1, 2), (2, 1, 2), (2, 1, -2), (-2, 1, -2), (-2, 2, 2), (2, 2, 2), (2, 2, -2), (-2, 2, -2)],
+            faces=[(4, 5, 6, 7), (3, 2, 1, 0), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)], bind="glass")
+BALL = prim("Sphere", "ball", bind="glass", radius=0.4, at=(0, 1.5, 0))
+SUN = prim("DistantLight", "sun", intensity=2, angle=0, turn=(-90, 0, 0))
+LAMP = prim("RectLight", "lamp", intensity=5, width=3, height=3, at=(0, 4, 0), turn=(-90, 0, 0))
 
 
 def stage(folder, glass, light, roughness=0.0, color="1, 1, 1", aperture=10, x=0, **more):

@@ -4,20 +4,9 @@ import numpy as np
 import pytest
 
 import inProcess
+import usda
 
-HEAD = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = 120
-    float verticalAperture = 30
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+HEAD = usda.stage(usda.camera(flat=(120, 30), at=(0, 0, 10)))
 CUBE = """def %(kind)s "%(name)s"
 {
     uniform bool doubleSided = %(doubleSided)d

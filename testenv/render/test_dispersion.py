@@ -8,6 +8,7 @@ import scipy.stats
 from scipy.spatial.transform import Rotation
 
 from inProcess import Stage
+from usda import prim
 
 SEEDS = range(12)
 SIGNIFICANCE = 1e-4  # of each t-test; fixed seeds
@@ -73,16 +74,8 @@ def strip(near, far):
     """A lamp of radiance 1 that faces the origin from 100000 units away, between two angles from -z towards +x."""
     middle, width = (near + far) / 2, 2e5 * np.tan((far - near) / 2)
     x, z = 1e5 * np.sin(middle), -1e5 * np.cos(middle)
-    return f"""def RectLight "strip"
-{{
-    float inputs:intensity = 1
-    float inputs:width = {width:.9g}
-    float inputs:height = 20000
-    double3 xformOp:translate = ({x:.9g}, 0, {z:.9g})
-    float3 xformOp:rotateXYZ = (0, {180 - np.degrees(middle):.9g}, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}}
-"""
+    return prim("RectLight", "strip", intensity=1, width=f"{width:.9g}", height=20000, at=f"({x:.9g}, 0, {z:.9g})",
+                turn=f"(0, {180 - np.degrees(middle):.9g}, 0)")
 
 
 def prism_stage(folder, light):

@@ -6,35 +6,16 @@ import numpy as np
 import pytest
 
 from rendering import color, record
+import usda
 
 HEAD = '#usda 1.0\n(\n    upAxis = "Y"\n)\n'
-CAMERA = """def Camera "camera"
-{
-    float2 clippingRange = (0.01, 1000)
-    float focalLength = 50
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+CAMERA = usda.camera(lens=(50, 20, 20), clippingRange=(0.01, 1000), at=(0, 0, 10))
 
 
 def quad(name, z, size=1.0, x=0.0, material="white", extra=""):
     points = ", ".join(f"({x + sx * size}, {sy * size}, {z})" for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
-    return f"""def Mesh "{name}" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [{points}]
-    texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </{material}>
-    {extra}
-}}
-"""
+    return usda.prim("Mesh", name, extra, bind=material, faceVertexCounts=[4], faceVertexIndices=[0, 1, 2, 3],
+                     points=[points], subdivisionScheme="none", st=usda.ST)
 
 
 def material(name, nodes):

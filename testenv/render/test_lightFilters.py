@@ -8,6 +8,7 @@ import pytest
 
 from lightStages import DOWN, STAGE, light
 from rendering import color, record
+import usda
 
 POINT = ["float inputs:intensity = 4", "float inputs:radius = 0.01", "bool inputs:normalize = 1", "bool treatAsPoint = 1"]
 PLACED = ["double3 xformOp:translate = (%g, %g, %g)", "float xformOp:rotateX = -90",
@@ -140,18 +141,8 @@ def test_image(tmp_path, unfiltered, quarters, kind, lines, place, share):
     assert found == pytest.approx(share * unfiltered, rel=5e-3, abs=float(0.01 * unfiltered))
 
 
-MESH = """def Mesh "light" (
-    prepend apiSchemas = ["MeshLightAPI"]
-)
-{
-    float inputs:intensity = 2
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)]
-    uniform token subdivisionScheme = "none"
-    %s
-}
-"""
+MESH = usda.mesh("light", [(-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)], "float inputs:intensity = 2", "%s",
+                 apis=("MeshLightAPI",))
 
 
 @pytest.mark.parametrize("kind, lines, place, share, tolerance", [
@@ -168,18 +159,7 @@ def test_mesh_light(tmp_path, kind, lines, place, share, tolerance):
 
 def test_filters_of_a_mesh_light_leave_its_glow(tmp_path):
     """materialSyncMode independent: the light is filtered, and the glow of the material beside it is not."""
-    glow = '''def Material "glow"
-{
-    token outputs:surface.connect = </glow/surface.outputs:surface>
-    def Shader "surface"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:emissiveColor = (1, 1, 1)
-        color3f inputs:diffuseColor = (0, 0, 0)
-        token outputs:surface
-    }
-}
-'''
+    glow = usda.preview("glow", emissiveColor=(1, 1, 1), diffuseColor=(0, 0, 0))
     none = filter_text("PxrIntMultLightFilter", ["float inputs:intensity = 0"])
     bound = 'token light:materialSyncMode = "independent"\n    rel light:filters = %s\n    rel material:binding = </glow>'
     mesh = MESH.replace('["MeshLightAPI"]', '["MeshLightAPI", "MaterialBindingAPI"]')

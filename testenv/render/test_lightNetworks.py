@@ -8,49 +8,24 @@ import pytest
 from inProcess import Stage
 from lightStages import ABOVE, DOWN, STAGE, light
 from rendering import SCENES
+from usda import prim
 
 TEXTURE = os.path.join(SCENES, "textures", "checker.png")
-NODES = """def Scope "rig" {
-    def Shader "double" {
-        uniform token info:id = "ND_multiply_float"
-        float inputs:in1 = 1.5
-        float inputs:in2 = 2
-        float outputs:out
-    }
-    def Shader "tint" {
-        uniform token info:id = "ND_multiply_color3FA"
-        color3f inputs:in1 = (0.25, 0.5, 0.75)
-        float inputs:in2.connect = </rig/double.outputs:out>
-        color3f outputs:out
-    }
-    def Shader "image" {
-        uniform token info:id = "ND_image_color3"
-        asset inputs:file = @%s@ (colorSpace = "srgb_texture")
-        color3f outputs:out
-    }
-    def Shader "square" {
-        uniform token info:id = "ND_multiply_color3"
-        color3f inputs:in1.connect = </rig/image.outputs:out>
-        color3f inputs:in2.connect = </rig/image.outputs:out>
-        color3f outputs:out
-    }
-    def Shader "place" {
-        uniform token info:id = "ND_position_vector3"
-        vector3f outputs:out
-    }
-    def Shader "up" {
-        uniform token info:id = "ND_dotproduct_vector3"
-        vector3f inputs:in1.connect = </rig/place.outputs:out>
-        vector3f inputs:in2 = (0, 1, 0)
-        float outputs:out
-    }
-    def Shader "grey" {
-        uniform token info:id = "ND_convert_float_color3"
-        float inputs:in.connect = </rig/up.outputs:out>
-        color3f outputs:out
-    }
-}
-""" % TEXTURE
+NODES = prim("Scope", "rig",
+    prim("Shader", "double", 'uniform token info:id = "ND_multiply_float"', "float inputs:in1 = 1.5", "float inputs:in2 = 2",
+         "float outputs:out"),
+    prim("Shader", "tint", 'uniform token info:id = "ND_multiply_color3FA"', "color3f inputs:in1 = (0.25, 0.5, 0.75)",
+         "float inputs:in2.connect = </rig/double.outputs:out>", "color3f outputs:out"),
+    prim("Shader", "image", 'uniform token info:id = "ND_image_color3"',
+         'asset inputs:file = @%s@ (colorSpace = "srgb_texture")', "color3f outputs:out"),
+    prim("Shader", "square", 'uniform token info:id = "ND_multiply_color3"',
+         "color3f inputs:in1.connect = </rig/image.outputs:out>", "color3f inputs:in2.connect = </rig/image.outputs:out>",
+         "color3f outputs:out"),
+    prim("Shader", "place", 'uniform token info:id = "ND_position_vector3"', "vector3f outputs:out"),
+    prim("Shader", "up", 'uniform token info:id = "ND_dotproduct_vector3"',
+         "vector3f inputs:in1.connect = </rig/place.outputs:out>", "vector3f inputs:in2 = (0, 1, 0)", "float outputs:out"),
+    prim("Shader", "grey", 'uniform token info:id = "ND_convert_float_color3"',
+         "float inputs:in.connect = </rig/up.outputs:out>", "color3f outputs:out")) % TEXTURE
 BOTH = pytest.mark.parametrize("backend", ["embree", "raster"])
 
 
@@ -124,31 +99,13 @@ def test_what_no_light_can_take_is_told(tmp_path):
 @pytest.mark.parametrize("output, more", [("mtlx:light", ""), ("light", ""), ("mtlx:light", "surface")])
 def test_a_light_shader_on_geometry_shines(tmp_path, output, more, backend):
     """A material whose only shader is MaterialX's light: its radiance is edf * intensity * 2^exposure. Surfaces come first."""
-    look = f"""def Material "lamp"
-{{
-    token outputs:{output}.connect = </lamp/light.outputs:out>
-    %s
-    def Shader "edf"
-    {{
-        uniform token info:id = "ND_uniform_edf"
-        color3f inputs:color = (0.5, 0.25, 0.125)
-        token outputs:out
-    }}
-    def Shader "light"
-    {{
-        uniform token info:id = "ND_light"
-        token inputs:edf.connect = </lamp/edf.outputs:out>
-        float inputs:intensity = 3
-        float inputs:exposure = 1
-        token outputs:out
-    }}
-    def Shader "black"
-    {{
-        uniform token info:id = "ND_surface"
-        token outputs:out
-    }}
-}}
-""" % ("token outputs:mtlx:surface.connect = </lamp/black.outputs:out>" if more else "")
+    look = prim("Material", "lamp", f"token outputs:{output}.connect = </lamp/light.outputs:out>",
+        prim("Shader", "edf", 'uniform token info:id = "ND_uniform_edf"', "color3f inputs:color = (0.5, 0.25, 0.125)",
+             "token outputs:out"),
+        prim("Shader", "light", 'uniform token info:id = "ND_light"', "token inputs:edf.connect = </lamp/edf.outputs:out>",
+             "float inputs:intensity = 3", "float inputs:exposure = 1", "token outputs:out"),
+        prim("Shader", "black", 'uniform token info:id = "ND_surface"', "token outputs:out"),
+        "token outputs:mtlx:surface.connect = </lamp/black.outputs:out>" if more else "")
     image, warned = rendered(tmp_path, look, backend, nodes="", stage=STAGE.replace("</white>", "</lamp>"))
     wanted = [0, 0, 0] if more else [3, 1.5, 0.75]
     assert image == pytest.approx(np.broadcast_to(wanted, image.shape), rel=1e-6)

@@ -10,6 +10,7 @@ import pytest
 
 from rendering import SCENES, color, patina, record
 from test_features import CAMERA, HEAD, distant, glow, lambert, material, quad
+from usda import prim
 
 FIRST = ("emission", "diffuse", "specular", "transmission", "subsurface", "volume")  # by what happens first
 ORDER = ("emission", "direct", "indirect")  # by how often
@@ -87,15 +88,7 @@ def closed_room(albedo, glowing=1.0):
         "edf": ("ND_uniform_edf", [f"color3f inputs:color = ({glowing}, {glowing}, {glowing})"]),
         "surface": ("ND_surface", ["token inputs:bsdf.connect = </walls/diffuse.outputs:out>",
                                    "token inputs:edf.connect = </walls/edf.outputs:out>"])})
-    return both + """def Cube "room" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    double size = 60
-    uniform bool doubleSided = 1
-    rel material:binding = </walls>
-}
-"""
+    return both + prim("Cube", "room", bind="walls", size=60, doubleSided=1)
 
 
 def test_each_order_of_a_furnace_has_its_power_of_the_albedo(tmp_path):

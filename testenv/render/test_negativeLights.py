@@ -5,19 +5,10 @@ import pytest
 
 from lightStages import ABOVE, DOWN, STAGE, light
 from rendering import color, record
+from usda import mesh
 
-MESH = """def Mesh "light" (
-    prepend apiSchemas = ["MeshLightAPI"]
-)
-{
-    %s
-    uniform token light:materialSyncMode = "noMaterialResponse"
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)]
-    uniform token subdivisionScheme = "none"
-}
-"""
+MESH = mesh("light", [(-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)],
+            'uniform token light:materialSyncMode = "noMaterialResponse"', "%s", apis=("MeshLightAPI",))
 LIGHTS = {
     "sphere": lambda lines: light("SphereLight", lines, ABOVE),
     "rect": lambda lines: light("RectLight", lines),

@@ -11,33 +11,14 @@ import pytest
 pytest.importorskip("_patina")
 
 from rendering import color, patina, record  # noqa: E402
+import usda  # noqa: E402
 
-HEAD = """#usda 1.0
-( metersPerUnit = %g )
-def Camera "camera"
-{
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    float focalLength = 50
-    float2 clippingRange = (0.001, 100000)
-    double3 xformOp:translate = (%g, %g, %g)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "dome"
-{
-    float inputs:intensity = 0.3
-}
-def RectLight "lamp"
-{
-    float inputs:width = %g
-    float inputs:height = %g
-    float inputs:intensity = 8
-    color3f inputs:color = (1, 0.6, 0.3)
-    double3 xformOp:translate = (%g, %g, %g)
-    float xformOp:rotateX = -60
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]
-}
-"""
+HEAD = usda.stage("( metersPerUnit = %g )",
+    usda.camera(lens=(50, 20, 20), clippingRange=(0.001, 100000), at="(%g, %g, %g)"),
+    usda.prim("DomeLight", "dome", intensity=0.3),
+    usda.prim("RectLight", "lamp", "color3f inputs:color = (1, 0.6, 0.3)", width="%g", height="%g", intensity=8,
+              at="(%g, %g, %g)", rotateX=-60),
+    up="")
 GLASS, WATER, ICE = 1.5, 1.33, 1.31
 
 
@@ -166,13 +147,7 @@ def test_a_camera_in_the_drink(tmp_path):
 
 
 def test_photons_go_the_same_way(tmp_path):
-    text = head() + """def Mesh "floor"
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-6, -2, 6), (6, -2, 6), (6, -2, -6), (-6, -2, -6)]
-}
-"""
+    text = head() + usda.floor("floor", 6, y=-2, scheme="")
     text += material("water", WATER)
     nested = text + material("ice", ICE) + sphere("drink", 1.5, "water", 1) + sphere("cube", 0.8, "ice", 2)
     cut = text + material("ice", ICE / WATER) + sphere("drink", 1.5, "water") + sphere("cube", 0.8, "ice")

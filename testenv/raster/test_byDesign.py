@@ -16,7 +16,7 @@ import floorLights  # noqa: E402
 import inProcess  # noqa: E402
 import outOfView  # noqa: E402
 import sameImage  # noqa: E402
-from materialText import material  # noqa: E402
+from usda import material  # noqa: E402
 import usda  # noqa: E402
 
 pytestmark = pytest.mark.usefixtures("opengl")
@@ -32,8 +32,7 @@ def ball(name, height=0.4):
 
 
 def surface(name, node, inputs):
-    return material(name, {"mtlx:surface": "surface"}, {
-        "lobe": (node, inputs), "surface": ("ND_surface", {"token bsdf": "<lobe>"})})
+    return material(name, {"lobe": (node, inputs), "surface": ("ND_surface", {"bsdf": "<lobe>"})})
 
 
 def write(folder, name, contents, materials="", lights=LAMP):
@@ -68,7 +67,7 @@ def test_light_between_surfaces_is_left_out(tmp_path):
 
 def test_mirrors_show_the_environment(tmp_path):
     """A mirroring ball over a floor: of the floor it shows nothing."""
-    steel = surface("steel", "ND_conductor_bsdf", {"float2 roughness": "(0, 0)"})
+    steel = surface("steel", "ND_conductor_bsdf", {"roughness": (0, 0)})
     stage = write(tmp_path, "mirror", ball("steel"), steel, SKY)
     same(stage, stage, 1)
     found = differences(stage, stage, 16)
@@ -78,7 +77,7 @@ def test_mirrors_show_the_environment(tmp_path):
 def test_what_hides_the_sky_from_mirrors_is_blurred(tmp_path):
     """A mirroring floor, in whose middle a far board's upper edge shows: dark beyond it, the sky before it. The rasterizer
     knows what hides the sky by cells 17 degrees wide, so that the board takes light before its edge."""
-    steel = surface("steel", "ND_conductor_bsdf", {"float2 roughness": "(0.02, 0.02)"})
+    steel = surface("steel", "ND_conductor_bsdf", {"roughness": (0.02, 0.02)})
     board = usda.mesh("board", [(-12, 0, -9), (12, 0, -9), (12, 3.6, -9), (-12, 3.6, -9), (-12, 0.01, -8.9), (-12, 0.01, 8),
                        (12, 0.01, 8), (12, 0.01, -8.9)],
                       "rel material:binding = </steel>", faces=[(0, 1, 2, 3), (4, 5, 6, 7)])
@@ -91,8 +90,8 @@ def test_what_hides_the_sky_from_mirrors_is_blurred(tmp_path):
 
 def test_glass_shows_what_is_behind(tmp_path):
     """A pane over the whole floor of the view: direct light alone ends there, the rasterizer goes on behind it."""
-    pane = surface("pane", "ND_dielectric_bsdf", {"float ior": "1.0001", "float2 roughness": "(0, 0)",
-                                                  "string scatter_mode": '"RT"'})
+    pane = surface("pane", "ND_dielectric_bsdf", {"ior": 1.0001, "roughness": (0, 0),
+                                                  "scatter_mode": "RT"})
     glass = usda.prim("Cube", "pane", "rel material:binding = </pane>", at=(0, 0.8, 2.2), scale=(2, 2, 0.01))
     without, with_pane = write(tmp_path, "without", ""), write(tmp_path, "pane", glass, pane)
     same(with_pane, without, 1)
@@ -100,8 +99,8 @@ def test_glass_shows_what_is_behind(tmp_path):
 
 
 def test_subsurface_shows_as_diffuse(tmp_path):
-    wax = surface("thing", "ND_subsurface_bsdf", {"color3f color": "(0.8, 0.5, 0.3)", "color3f radius": "(0.3, 0.2, 0.1)"})
-    matte = surface("thing", "ND_oren_nayar_diffuse_bsdf", {"color3f color": "(0.8, 0.5, 0.3)"})
+    wax = surface("thing", "ND_subsurface_bsdf", {"color": (0.8, 0.5, 0.3), "radius": (0.3, 0.2, 0.1)})
+    matte = surface("thing", "ND_oren_nayar_diffuse_bsdf", {"color": (0.8, 0.5, 0.3)})
     scattering = write(tmp_path, "wax", ball("thing"), wax)
     same(scattering, write(tmp_path, "matte", ball("thing"), matte), 1)
     assert np.abs(differences(scattering, scattering, 16)).max() > 0.1

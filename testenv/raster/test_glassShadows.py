@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import bothBackEnds
-from materialText import material
+from usda import material
 import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
@@ -21,10 +21,10 @@ SLAB = usda.prim("Cube", "slab", bind="material", at=(0, 5, 0), scale=(20, 0.1, 
 
 def floor(folder, thing, turn=-90, **inputs):
     """:returns: what the floor reflects, shape (3,), of the rasterizer"""
-    nodes = {"ior": ("float", "1.5"), "roughness": ("float2", "(0, 0)"), "scatter_mode": ("string", '"RT"'), **inputs}
-    glass = material("material", {"mtlx:surface": "surface"}, {
+    nodes = {"ior": ("float", "1.5"), "roughness": ("float2", "(0, 0)"), "scatter_mode": ("string", "RT"), **inputs}
+    glass = material("material", {
         "glass": ("ND_dielectric_bsdf", {f"{kind} {name}": value for name, (kind, value) in nodes.items()}),
-        "surface": ("ND_surface", {"token bsdf": "<glass>"}),
+        "surface": ("ND_surface", {"bsdf": "<glass>"}),
     })
     (folder / "stage.usda").write_text(STAGE % {"object": thing, "materials": glass, "turn": turn})
     image = str(folder / "image.exr")
@@ -62,4 +62,4 @@ def test_a_slab_of_glass_lets_light_through(tmp_path, name):
 
 
 def test_what_only_reflects_casts_a_whole_shadow(tmp_path):
-    assert floor(tmp_path, SLAB, scatter_mode=("string", '"R"')).max() == 0.0
+    assert floor(tmp_path, SLAB, scatter_mode=("string", "R")).max() == 0.0

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import bothBackEnds
-from materialText import material
+from usda import material
 import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
@@ -18,15 +18,15 @@ STAGE = usda.stage(
 
 
 def _materials(terminal, absorption, scattering):
-    red = material("red", {"surface": "surface"}, {
-        "surface": ("ND_surface_unlit", {"color3f emission_color": "(0.5, 0.25, 0.125)"})})
-    return red + material("material", {"mtlx:" + terminal: terminal}, {
+    red = material("red", {
+        "surface": ("ND_surface_unlit", {"emission_color": (0.5, 0.25, 0.125)})})
+    return red + material("material", {
         "vdf": ("ND_anisotropic_vdf", {"vector3f absorption": absorption, "vector3f scattering": scattering}),
-        "glass": ("ND_dielectric_bsdf", {"float ior": "1.5", "float2 roughness": "(0, 0)", "string scatter_mode": '"RT"'}),
-        "layer": ("ND_layer_vdf", {"token top": "<glass>", "token base": "<vdf>"}),
-        "surface": ("ND_surface", {"token bsdf": "<layer>"}),
-        "volume": ("ND_volume", {"token vdf": "<vdf>"}),
-    })
+        "glass": ("ND_dielectric_bsdf", {"ior": 1.5, "roughness": (0, 0), "scatter_mode": "RT"}),
+        "layer": ("ND_layer_vdf", {"top": "<glass>", "base": "<vdf>"}),
+        "surface": ("ND_surface", {"bsdf": "<layer>"}),
+        "volume": ("ND_volume", {"vdf": "<vdf>"}),
+    }, **{terminal: terminal})
 
 
 def _middle(tmp_path, samples=4, terminal="volume", absorption="(0, 0, 0)", scattering="(0, 0, 0)", **parts):

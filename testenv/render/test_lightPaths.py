@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from rendering import SCENES, color, patina, record
-from test_features import CAMERA, HEAD, distant, glow, lambert, material, quad
-from usda import prim
+from test_features import CAMERA, HEAD, distant, glow, lambert, quad
+from usda import material, prim
 
 FIRST = ("emission", "diffuse", "specular", "transmission", "subsurface", "volume")  # by what happens first
 ORDER = ("emission", "direct", "indirect")  # by how often
@@ -84,10 +84,9 @@ def assert_mean(values, expected):
 def closed_room(albedo, glowing=1.0):
     """A cube seen from inside, whose walls glow and are Lambertian: light of k bounces is glowing * albedo^k everywhere."""
     both = material("walls", {
-        "diffuse": ("ND_oren_nayar_diffuse_bsdf", [f"color3f inputs:color = ({albedo}, {albedo}, {albedo})"]),
-        "edf": ("ND_uniform_edf", [f"color3f inputs:color = ({glowing}, {glowing}, {glowing})"]),
-        "surface": ("ND_surface", ["token inputs:bsdf.connect = </walls/diffuse.outputs:out>",
-                                   "token inputs:edf.connect = </walls/edf.outputs:out>"])})
+        "diffuse": ("ND_oren_nayar_diffuse_bsdf", {"color": (albedo, albedo, albedo)}),
+        "edf": ("ND_uniform_edf", {"color": (glowing, glowing, glowing)}),
+        "surface": ("ND_surface", {"bsdf": "<diffuse>", "edf": "<edf>"})})
     return both + prim("Cube", "room", bind="walls", size=60, doubleSided=1)
 
 
@@ -103,12 +102,10 @@ def test_lobes_get_their_own_light(tmp_path):
     """A mix of a diffuse and a rough metal lobe in a white sky: the diffuse AOV is half of the diffuse lobe's albedo, however
     the lobes are drawn. By which lobe was drawn alone it would be another."""
     mixed = material("white", {
-        "diffuse": ("ND_oren_nayar_diffuse_bsdf", ["color3f inputs:color = (0.8, 0.8, 0.8)"]),
-        "metal": ("ND_conductor_bsdf", ["float2 inputs:roughness = (0.6, 0.6)", "color3f inputs:ior = (0.2, 0.9, 1.1)",
-                                        "color3f inputs:extinction = (3.9, 2.4, 2.2)"]),
-        "mix": ("ND_mix_bsdf", ["token inputs:fg.connect = </white/diffuse.outputs:out>",
-                                "token inputs:bg.connect = </white/metal.outputs:out>", "float inputs:mix = 0.5"]),
-        "surface": ("ND_surface", ["token inputs:bsdf.connect = </white/mix.outputs:out>"])})
+        "diffuse": ("ND_oren_nayar_diffuse_bsdf", {"color": (0.8, 0.8, 0.8)}),
+        "metal": ("ND_conductor_bsdf", {"roughness": (0.6, 0.6), "ior": (0.2, 0.9, 1.1), "extinction": (3.9, 2.4, 2.2)}),
+        "mix": ("ND_mix_bsdf", {"fg": "<diffuse>", "bg": "<metal>", "mix": 0.5}),
+        "surface": ("ND_surface", {"bsdf": "<mix>"})})
     image = render(tmp_path, ["diffuse", "specular"], mixed, quad("wall", 0, 4.0), 'def DomeLight "sky"\n{\n}\n', samples=64)
     assert_mean(layer(image, "diffuse"), 0.4)
     assert layer(image, "specular").mean() > 0.1
@@ -123,7 +120,7 @@ def test_light_groups_are_their_lights(tmp_path):
     wall = quad("wall", 0, 4.0) + lambert("white", 0.5)
     names = ["key=lpe:C.*<L.'key'>", "fill=lpe:C.*<L.'fill'>", "sky=lpe:C.*<B.'sky'>", "rest=lpe:C.*<[LO].[^'key''fill''sky']>"]
     image = render(tmp_path, names, wall,
-                   distant("a", LABEL % "key" + '\n    custom string primvars:lightGroup = "fill"', intensity=math.pi),
+                   distant("a", LABEL % "key", 'custom string primvars:lightGroup = "fill"', intensity=math.pi),
                    distant("b", 'custom string primvars:lightGroup = "fill"', intensity=2 * math.pi),
                    distant("c", intensity=3 * math.pi),
                    'def DomeLight "sky"\n{\n    custom string primvars:lightGroup = "sky"\n}\n', samples=64)
@@ -135,9 +132,9 @@ def test_light_groups_are_their_lights(tmp_path):
 
 def test_emissive_geometry_has_a_light_group(tmp_path):
     """The label is inherited, and an edit of it changes the AOV."""
-    lamp = ('def Xform "lamps"\n{\n    custom string primvars:lightGroup = "%s" (interpolation = "constant")\n'
-            + quad("lamp", 0, 4.0, material="glow")
-            + "}\n" + glow("glow", (2.0, 2.0, 2.0)))
+    lamp = (prim("Xform", "lamps", 'custom string primvars:lightGroup = "%s" (interpolation = "constant")',
+                 quad("lamp", 0, 4.0, material="glow"))
+            + glow("glow", (2.0, 2.0, 2.0)))
     for label, expected in (("lamp", 2.0), ("other", 0.0)):
         image = render(tmp_path, ["lamp=lpe:C<O.'lamp'>", "glow=lpe:CO"], lamp % label, samples=2)
         assert layer(image, "lamp") == pytest.approx(expected, abs=1e-6)
@@ -149,8 +146,7 @@ def test_a_label_may_change_while_the_renderer_stays(tmp_path):
     from inProcess import Stage
     from patina import stage as reader
 
-    text = (quad("lamp", 0, 4.0, material="glow",
-                 extra='custom string primvars:lightGroup = "key" (interpolation = "constant")')
+    text = (quad("lamp", 0, 4.0, 0.0, "glow", 'custom string primvars:lightGroup = "key" (interpolation = "constant")')
             + glow("glow", (2.0, 2.0, 2.0)) + quad("wall", -1, 8.0) + lambert("white", 0.5)
             + distant("sun", 'custom string primvars:lightGroup = "key"'))
     path = write(tmp_path, text)

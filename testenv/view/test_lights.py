@@ -6,7 +6,6 @@ import urllib.parse
 import numpy as np
 import pytest
 
-from materialText import material
 from patina.cli import compiled, imageMetrics, materials
 from patina.view import compareImages, images, reference, shapes
 import usda
@@ -92,8 +91,7 @@ def test_a_page_has_room_for_so_many_lights(tmp_path, make, chromium, capsys, mo
     domes = [f'def DomeLight "dome{i}"\n{{\n    asset inputs:texture:file = @sky.exr@\n}}\n' for i in range(40)]
     rects = [f'def RectLight "rect{i}"\n{{\n    double3 xformOp:translate = (0, 0, {3 + i})\n'
              '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n' for i in range(300)]
-    plain = material("plain", {"mtlx:surface": "surface"}, {
-        "bsdf": ("ND_oren_nayar_diffuse_bsdf", {}), "surface": ("ND_surface", {"token bsdf": "<bsdf>"})})
+    plain = usda.lobe("plain", "oren_nayar_diffuse_bsdf")
     file.write_text("#usda 1.0\n" + plain + "".join(domes + rects))
     latlong = images.latlong
     monkeypatch.setattr(images, "latlong", lambda path, largest: read.append(path) or latlong(path, largest))

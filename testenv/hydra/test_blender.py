@@ -69,10 +69,9 @@ def test_the_viewport_shows_what_the_exported_stage_is(tmp_path):
         pytest.skip("this Blender draws nothing without a window")
     found = np.load(tmp_path / "viewport.npz")
     own, place, window = found["pixels"][::-1, :, :3], np.linalg.inv(found["view"].astype(np.float64)).T, found["window"]
-    rows = ", ".join(f"({', '.join(map(repr, map(float, row)))})" for row in place)
     (tmp_path / "view.usda").write_text(usda.stage(
         usda.camera(lens=(50, 100 / window[0, 0], 100 / window[1, 1]), name="view", clippingRange=(0.01, 10000),
-                    matrix=(rows)),
+                    matrix=tuple(tuple(map(float, row)) for row in place)),
         up="Z", subLayers="[@scene.usda@]", metersPerUnit=1), encoding="utf-8")
     height, width = own.shape[:2]
     stage = inProcess.Stage(str(tmp_path / "view.usda"), "--camera", "/view", "--frames", str(FRAME), "-w", str(width),

@@ -120,42 +120,18 @@ def test_camera_that_is_not_there(tmp_path):
     assert process.returncode >= 0  # a message or the framing camera, but no crash
 
 
-PRODUCTS = """#usda 1.0
-( subLayers = [@{stage}@]
-  renderSettingsPrimPath = "/Render/settings" )
-def Scope "Render"
-{{
-    def RenderSettings "settings"
-    {{
-        rel camera = </World/camera>
-        rel products = </Render/product>
-        custom int patina:samples = 3
-    }}
-    def RenderProduct "product"
-    {{
-        rel camera = </World/camera>
-        uniform int2 resolution = (40, 30)
-        token productName = "{product}"
-        rel orderedVars = [</Render/color>, </Render/depth>]
-    }}
-    def RenderVar "color"
-    {{
-        uniform token dataType = "color3f"
-        uniform string sourceName = "color"
-    }}
-    def RenderVar "depth"
-    {{
-        uniform token dataType = "float"
-        uniform string sourceName = "cameraDepth"
-    }}
-}}
-"""
-
-
 @pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
 def test_products_are_written(tmp_path, scene_index):
     stage, product = tmp_path / "stage.usda", tmp_path / "product.exr"
-    stage.write_text(PRODUCTS.format(stage=os.path.join(stages.SCENES, "diffuseBox.usda"), product=product))
+    stage.write_text(usda.stage(
+        usda.prim("Scope", "Render",
+            usda.prim("RenderSettings", "settings", "rel camera = </World/camera>", "rel products = </Render/product>",
+                      "custom int patina:samples = 3"),
+            usda.prim("RenderProduct", "product", "rel camera = </World/camera>", "uniform int2 resolution = (40, 30)",
+                      "rel orderedVars = [</Render/color>, </Render/depth>]", productName=str(product)),
+            *(usda.prim("RenderVar", name, f'uniform token dataType = "{kind}"', f'uniform string sourceName = "{source}"')
+              for name, kind, source in (("color", "color3f", "color"), ("depth", "float", "cameraDepth")))),
+        up="", subLayers=f"[@{os.path.join(stages.SCENES, 'diffuseBox.usda')}@]", renderSettingsPrimPath="/Render/settings"))
     process = hydraBuild.run_usdrecord(stage, tmp_path / "view.png", "--imageWidth", WIDTH,
                                        "--renderSettingsPrimPath", "/Render/settings", scene_index=scene_index)
     assert product.exists(), process.stderr

@@ -7,6 +7,7 @@ import os
 
 import numpy as np
 
+from floorLights import PROFILE
 from usda import camera, floor, lobe, material, mesh, prim, stage
 
 STAGE = stage(
@@ -21,18 +22,6 @@ BLOCK = prim("Cube", "block", "rel material:binding = </World/matte>", size=0.4,
 # Above the frame, turned down and a little aside; and farther away than all that is seen is deep.
 PLACE = {"at": (-0.4, 2.2, 0.2), "turn": (-80, 12, 0)}
 FAR = {"at": (-1.2, 8, 0.6), "turn": (-80, 12, 0), "scale": (4, 4, 4)}
-PROFILE = """IESNA:LM-63-1995
-TILT=NONE
-1 1000 1 5 5 1 1 0 0 0
-1.0 1.0 100
-0 20 40 60 90
-0 90 180 270 360
-1000 900 500 100 0
-1000 600 200 50 0
-1000 300 100 20 0
-1000 600 400 50 0
-1000 900 500 100 0
-"""
 
 
 def _light(kind, *lines, **inputs):

@@ -10,6 +10,7 @@ import pytest
 
 from rendering import SCENES, color, patina, record
 from test_features import CAMERA, HEAD, distant, glow, lambert, quad
+import usda
 from usda import material, prim
 
 FIRST = ("emission", "diffuse", "specular", "transmission", "subsurface", "volume")  # by what happens first
@@ -224,49 +225,24 @@ def test_an_expression_without_a_name_is_one(tmp_path):
     assert layer(image, "lpe_C_RD_L").max() > 0.0
 
 
-PRODUCT = """#usda 1.0
-( subLayers = [@{stage}@] )
-def Scope "Render"
-{{
-    def RenderSettings "settings"
-    {{
-        rel camera = </World/camera>
-        rel products = </Render/product>
-        uniform int2 resolution = (16, 12)
-        int patina:samples = 2
-    }}
-    def RenderProduct "product"
-    {{
-        token productName = "{image}"
-        rel orderedVars = [</Render/beauty>, </Render/bounce>, </Render/lit>, </Render/wrong>]
-    }}
-    def RenderVar "beauty"
-    {{
-        uniform string sourceName = "C.*"
-        uniform token sourceType = "lpe"
-    }}
-    def RenderVar "bounce"
-    {{
-        uniform string sourceName = "C<RD>.*L"
-        uniform token sourceType = "lpe"
-    }}
-    def RenderVar "lit"
-    {{
-        uniform string sourceName = "lpe:C<RD><L.>"
-        custom string driver:parameters:aov:name = "straight"
-    }}
-    def RenderVar "wrong"
-    {{
-        uniform string sourceName = "C<RD"
-        uniform token sourceType = "lpe"
-    }}
-}}
-"""
+def lpe(name, expression):
+    return prim("RenderVar", name, f'uniform string sourceName = "{expression}"', 'uniform token sourceType = "lpe"')
 
 
 def test_products_have_light_paths(tmp_path):
     stage, image = tmp_path / "stage.usda", tmp_path / "product.exr"
-    stage.write_text(PRODUCT.format(stage=os.path.join(SCENES, "lightRect.usda"), image=image))
+    stage.write_text(usda.stage(
+        prim("Scope", "Render",
+             prim("RenderSettings", "settings", "rel camera = </World/camera>", "rel products = </Render/product>",
+                  "uniform int2 resolution = (16, 12)", "int patina:samples = 2"),
+             prim("RenderProduct", "product",
+                  "rel orderedVars = [</Render/beauty>, </Render/bounce>, </Render/lit>, </Render/wrong>]",
+                  productName=str(image)),
+             lpe("beauty", "C.*"), lpe("bounce", "C<RD>.*L"),
+             prim("RenderVar", "lit", 'uniform string sourceName = "lpe:C<RD><L.>"',
+                  'custom string driver:parameters:aov:name = "straight"'),
+             lpe("wrong", "C<RD")),
+        up="", subLayers=f"[@{os.path.join(SCENES, 'lightRect.usda')}@]"))
     told = patina("record", stage, "--settings", "/Render/settings", "--outputFolder", tmp_path)
     assert "/Render/wrong.sourceName" in told.stderr.replace(": ", ".") and "column 5" in told.stderr
     assert layer(image, "bounce").max() > layer(image, "straight").max() * 0.99 > 0.0

@@ -30,9 +30,9 @@ STAGE = usda.stage(
               at=(0, 1, 0)),
     usda.prim("", "documents", meta=("prepend references = @%(document)s@</MaterialX>",)),
     usda.material("checker", {
-                  "pattern": ("ND_checkerboard_color3", {"color1": (0.45, 0.45, 0.45), "color2": (0.2, 0.2, 0.2)}),
-                  "diffuse": ("ND_oren_nayar_diffuse_bsdf", {"color3f color": "<pattern>"}),
-                  "surface": ("ND_surface", {"bsdf": "<diffuse>"})}))
+        "pattern": ("ND_checkerboard_color3", {"color1": (0.45, 0.45, 0.45), "color2": (0.2, 0.2, 0.2)}),
+        "diffuse": ("ND_oren_nayar_diffuse_bsdf", {"color3f color": "<pattern>"}),
+        "surface": ("ND_surface", {"bsdf": "<diffuse>"})}))
 
 
 def ball(columns=64, rows=32):

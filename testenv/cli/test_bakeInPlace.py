@@ -18,10 +18,9 @@ STAGE = usda.stage(
         usda.prim("Sphere", "ball", "rel material:binding = </world/looks/one>"),
         usda.prim("Scope", "looks",
             usda.material("one", {
-                          "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>", "roughness": 0.25}),
-                          "t": ("UsdUVTexture", {"file": "./paint.png", "float2 st": "<uv>"}),
-                          "uv": ("UsdPrimvarReader_float2", {"varname": "st"})},
-                          inside="/world/looks", surface="s"),
+                "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>", "roughness": 0.25}),
+                "t": ("UsdUVTexture", {"file": "./paint.png", "float2 st": "<uv>"}),
+                "uv": ("UsdPrimvarReader_float2", {"varname": "st"})}, inside="/world/looks", surface="s"),
             usda.prim("Material", "two", meta=("references = </world/looks/one>",))),
         meta=('customData = { string note = "kept" }',)),
     up="", defaultPrim="world", subLayers="[@./below.usda@]")

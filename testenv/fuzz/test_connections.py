@@ -21,9 +21,8 @@ STAGE = stage(
          meta=("prepend references = @http://example.org/many.usd@</many>", "prepend payload = @ftp://example.org/more.usdz@")),
     prim("Sphere", "ball", bind="look"),
     material("look", {
-             "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}),
-             "t": ("UsdUVTexture", {"file": "https://example.org/color.<UDIM>.png"}, "color3f rgb")},
-             surface="s"),
+        "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}),
+        "t": ("UsdUVTexture", {"file": "https://example.org/color.<UDIM>.png"}, "color3f rgb")}, surface="s"),
     up="", subLayers="[@http://example.org/layer.usda@]")
 DOCUMENT = """<?xml version="1.0"?>
 <materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">

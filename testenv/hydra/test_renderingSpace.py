@@ -10,15 +10,15 @@ import usda
 pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_usdrecord(),
                                 reason="this OpenUSD has no usdrecord")
 # A floor whose colour is a primvar, a card with a colour and a glow of a temperature, a coloured and a warm light.
-STAGE = usda.stage('( renderSettingsPrimPath = "/Render/settings" )',
+STAGE = usda.stage(
     usda.camera(flat=(60, 60), clippingRange=(1, 100), at=(0, 0, 20)),
     usda.card("floor", 9, z=-2, color=(0.7, 0.2, 0.1)),
     usda.mesh("card", [(-2, -2, 0), (2, -2, 0), (2, 1, 0), (-2, 2, 0)], bind="paint"),
     usda.material("paint", {
-                  "surface": ("ND_standard_surface_surfaceshader",
-                              {"base_color": (0.1, 0.7, 0.3), "specular": 0.2, "emission": 0.1,
-                               "color3f emission_color": "<glow>"}),
-                  "glow": ("ND_blackbody", {"temperature": 2500}, "color3f out")}),
+        "surface": ("ND_standard_surface_surfaceshader",
+                    {"base_color": (0.1, 0.7, 0.3), "specular": 0.2, "emission": 0.1,
+                     "color3f emission_color": "<glow>"}),
+        "glow": ("ND_blackbody", {"temperature": 2500}, "color3f out")}),
     usda.prim("DistantLight", "sun", "color3f inputs:color = (0.3, 0.9, 0.6)", intensity=1, rotateX=-30),
     usda.prim("DomeLight", "sky", intensity=0.5, enableColorTemperature=True, colorTemperature=3500),
     usda.prim("Scope", "Render",
@@ -27,7 +27,7 @@ STAGE = usda.stage('( renderSettingsPrimPath = "/Render/settings" )',
         usda.prim("RenderProduct", "product", "rel camera = </camera>", "uniform int2 resolution = (32, 32)",
                   "rel orderedVars = </Render/color>", productName="@product@"),
         usda.prim("RenderVar", "color", 'uniform token dataType = "color3f"', 'uniform string sourceName = "color"')),
-    up="")
+    up="", renderSettingsPrimPath="/Render/settings")
 
 
 def written(folder, space, host):

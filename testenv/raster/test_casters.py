@@ -20,11 +20,10 @@ PANEL = (
     + floor("floor", 9, color=(0.6, 0.6, 0.6))
     + mesh("panel", [(-1.5, 0.5, -1.5), (1.5, 0.5, -1.5), (1.5, 0.5, 1.5), (-1.5, 0.5, 1.5)], bind="World/cut", st=ST)
     + material("cut", {
-               "surface": ("UsdPreviewSurface", {"opacityThreshold": 0.5, "float opacity": "<image>"}),
-               "image": ("UsdUVTexture", {"file": "holes.exr", "token sourceColorSpace": "raw", "float2 st": "<st>"},
-                         "float r"),
-               "st": ("UsdPrimvarReader_float2", {"varname": "st"})},
-               inside="/World"))
+        "surface": ("UsdPreviewSurface", {"opacityThreshold": 0.5, "float opacity": "<image>"}),
+        "image": ("UsdUVTexture", {"file": "holes.exr", "token sourceColorSpace": "raw", "float2 st": "<st>"},
+                  "float r"),
+        "st": ("UsdPrimvarReader_float2", {"varname": "st"})}, inside="/World"))
 STAIRS = (
     prim("DistantLight", "sun", angle=2, intensity=300, turn="(%s, 0, 0)")
     + prim("Mesh", "stairs", faceVertexCounts="%s", faceVertexIndices="%s", points="%s", subdivisionScheme="%s",

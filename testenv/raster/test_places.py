@@ -35,14 +35,14 @@ STAGE = usda.stage(
 
 # Sines of the place, so that bumps are where the world is, not the prim.
 BUMPS = usda.material("bumps", {
-                      "diffuse": ("ND_oren_nayar_diffuse_bsdf", {"color": (0.6, 0.55, 0.5)}),
-                      "surface": ("ND_surface", {"bsdf": "<diffuse>"}),
-                      "place": ("ND_position_vector3", {"uniform string space": "world"}, "float3 out"),
-                      "wide": ("ND_multiply_vector3FA", {"float3 in1": "<place>", "in2": 4}, "float3 out"),
-                      "wave": ("ND_sin_vector3", {"float3 in": "<wide>"}, "float3 out"),
-                      "x": ("ND_extract_vector3", {"float3 in": "<wave>", "index": 0}, "float out"),
-                      "displacement": ("ND_displacement_float", {"float displacement": "<x>", "scale": 0.25})},
-                      surface="surface", displacement="displacement")
+    "diffuse": ("ND_oren_nayar_diffuse_bsdf", {"color": (0.6, 0.55, 0.5)}),
+    "surface": ("ND_surface", {"bsdf": "<diffuse>"}),
+    "place": ("ND_position_vector3", {"uniform string space": "world"}, "float3 out"),
+    "wide": ("ND_multiply_vector3FA", {"float3 in1": "<place>", "in2": 4}, "float3 out"),
+    "wave": ("ND_sin_vector3", {"float3 in": "<wide>"}, "float3 out"),
+    "x": ("ND_extract_vector3", {"float3 in": "<wave>", "index": 0}, "float out"),
+    "displacement": ("ND_displacement_float", {"float displacement": "<x>", "scale": 0.25})},
+    surface="surface", displacement="displacement")
 
 CARD = usda.mesh("card", [(-1e7, 1e7, 1e7), (1e7, 1e7, 1e7), (1e7, 1.1e7, 1e7), (-1e7, 1.1e7, 1e7)])
 

@@ -73,9 +73,9 @@ BUBBLE = usda.stage(
     usda.prim("DomeLight", "sky"),
     usda.prim("Sphere", "bubble", bind="soap", radius=0.45),
     usda.material("soap", {
-                  "surface": ("ND_open_pbr_surface_surfaceshader",
-                              {"transmission_weight": 1, "specular_ior": 1, "specular_roughness": 0, "thin_film_weight": 1,
-                               "thin_film_thickness": 0.5, "geometry_thin_walled": True})}),
+        "surface": ("ND_open_pbr_surface_surfaceshader",
+                    {"transmission_weight": 1, "specular_ior": 1, "specular_roughness": 0, "thin_film_weight": 1,
+                     "thin_film_thickness": 0.5, "geometry_thin_walled": True})}),
     up="")
 
 

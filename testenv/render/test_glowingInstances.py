@@ -17,8 +17,8 @@ STAGE = (
     + camera(flat=(60, 60), clippingRange=(0.01, 100), at=(0, 0.5, 0), turn=(-90, 0, 0))
     + floor("floor", 9, color=(0.8, 0.8, 0.8))
     + material("glow", {
-               "surface": ("UsdPreviewSurface", {"diffuseColor": (0, 0, 0), "color3f emissiveColor": "<reader>"}),
-               "reader": ("UsdPrimvarReader_float3", {"varname": "glow"})}))
+        "surface": ("UsdPreviewSurface", {"diffuseColor": (0, 0, 0), "color3f emissiveColor": "<reader>"}),
+        "reader": ("UsdPrimvarReader_float3", {"varname": "glow"})}))
 
 
 def _strip(count):

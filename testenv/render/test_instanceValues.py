@@ -13,9 +13,9 @@ HEAD = usda.stage(
     usda.camera(lens=(50, 20, 20), clippingRange=(0.01, 1000), at=(0, 0, 10)),
     usda.prim("DomeLight", "sky", intensity=1),
     usda.material("reads", {
-                  "surface": ("UsdPreviewSurface", {"color3f diffuseColor": "<tint>", "color3f emissiveColor": "<glow>"}),
-                  "tint": ("UsdPrimvarReader_float3", {"varname": "tint", "float3 fallback": (0.2, 0.2, 0.2)}),
-                  "glow": ("UsdPrimvarReader_float3", {"varname": "glow"})}))
+        "surface": ("UsdPreviewSurface", {"color3f diffuseColor": "<tint>", "color3f emissiveColor": "<glow>"}),
+        "tint": ("UsdPrimvarReader_float3", {"varname": "tint", "float3 fallback": (0.2, 0.2, 0.2)}),
+        "glow": ("UsdPrimvarReader_float3", {"varname": "glow"})}))
 PLACES = [(-1.2, -1, 0), (0, 1, 0), (1.2, -1, 0)]
 COLOURS = [(0.8, 0.1, 0.1), (0.1, 0.8, 0.1), (0.1, 0.1, 0.8)]
 

@@ -18,9 +18,8 @@ STAGE = stage(
     prim("DomeLight", "dome"),
     prim("Scope", "looks",
         material("red", {
-                 "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}),
-                 "t": ("UsdUVTexture", {"file": "none<i>.png"})},
-                 inside="/looks", surface="s")),
+            "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}),
+            "t": ("UsdUVTexture", {"file": "none<i>.png"})}, inside="/looks", surface="s")),
     prim("Sphere", "ball", "rel material:binding = </looks/red>", at=(0.5, 0, 0)),
     prim("SphereLight", "lamp", at=(5, 5, 5)),
     up="")

@@ -129,6 +129,14 @@ def pixels(image, channels="RGB"):
     return np.array(found.pixels)[..., [found.channels.index(c) for c in channels]]
 
 
+def channels(image):
+    """:returns: dict of a channel to its values (height, width), linear"""
+    import _patina
+
+    found = _patina.read_image(str(image))
+    return dict(zip(found.channels, np.moveaxis(np.array(found.pixels), -1, 0)))
+
+
 def references(stage, seeds, *arguments):
     """Path traced images, made once for each build.
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What charts, benchmarks and the tests of a checkout measure with: renders to their end, runs in turns, medians, errors, and
 rows as CSV or Markdown. The statistics of tests are in significance.py and regression/welch.py."""
+import concurrent.futures
 import csv
 import statistics
 
@@ -36,6 +37,19 @@ def turns(runs, subjects, measure):
         for subject, figures in found.items():
             figures.append(measure(subject, run))
     return found
+
+
+def as_done(pool, function, tasks):
+    """Runs tasks in the processes or threads of a pool. Leaving the loop, by an error too, drops those that have not begun.
+
+    :param tasks: tuples of arguments
+    :returns: iterator of (task, future), in the order in which they are done"""
+    waiting = {pool.submit(function, *task): task for task in tasks}
+    try:
+        for future in concurrent.futures.as_completed(waiting):
+            yield waiting[future], future
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def spread(ratios):

@@ -8,6 +8,7 @@ import pytest
 _patina = pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
+import inProcess  # noqa: E402
 from patina.cli import bake, bakeOutput, main, materials  # noqa: E402
 import usda  # noqa: E402
 
@@ -149,8 +150,7 @@ def _render(tmp_path, name, material):
     image = tmp_path / f"{name}.exr"
     assert main.main(["record", str(stage), str(image), "--quiet", "--camera", "/camera", "--imageWidth", "48",
                       "--imageHeight", "48", "--samples", "16"]) == 0
-    found = _patina.read_image(str(image))
-    return np.array(found.pixels)[..., [found.channels.index(c) for c in "RGB"]]
+    return inProcess.pixels(image)
 
 
 RING = usda.stage(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import hydraBuild
-from rendering import pixels
+import inProcess
 import usda
 
 MODES = pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
@@ -34,15 +34,11 @@ INSTANCES = usda.stage(
 
 def render(tmp_path, text, *arguments, scene_index, size=SIZE):
     """:returns: dict of channels, each (height, width), and the report of the host"""
-    import _patina
-
     stage, image, report = tmp_path / "stage.usda", tmp_path / "image.exr", tmp_path / "report.json"
     stage.write_text(text)
     hydraBuild.run_host(stage, image, "--camera", "/camera", "--size", f"{size}x{size}", "--set", "samples=4",
                         "--json", report, *arguments, scene_index=scene_index)
-    found = _patina.read_image(str(image))
-    with open(report, encoding="utf-8") as file:
-        return dict(zip(found.channels, np.moveaxis(pixels(image), -1, 0))), json.load(file)
+    return inProcess.channels(image), json.loads(report.read_text())
 
 
 def outputs(*names):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import _patina
-from inProcess import needs_opengl
+import inProcess
 from rendering import patina, record, scene
 import usda
 
@@ -26,8 +26,7 @@ def quad(name, left, right, z, material=""):
 
 def flat(path):
     """:returns: float array (height, width, 4) of R, G, B, A; of a deep image as OpenImageIO flattens it"""
-    read = _patina.read_image(str(path))
-    return np.array(read.pixels)[..., [read.channels.index(c) for c in "RGBA"]].astype(np.float64)
+    return inProcess.pixels(path, "RGBA").astype(np.float64)
 
 
 def samples_of(path, x, y):
@@ -112,7 +111,7 @@ def test_products_of_type_deep_raster(tmp_path):
 
 
 def test_the_rasterizer_says_that_it_has_none(tmp_path):
-    needs_opengl("raster")
+    inProcess.needs_opengl("raster")
     report = tmp_path / "report.json"
     record(scene("diffuseBox"), tmp_path / "image.exr", "-w", 16, "--samples", 1, "--backend", "raster", "--deep",
            tmp_path / "deep.exr", f"--json={report}")

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+import inProcess
 from rendering import color, record
 import usda
 from usda import material
@@ -126,10 +127,7 @@ def test_aovs_of_a_plain_quad(tmp_path):
     record(stage, image, "--imageWidth", 33, "--imageHeight", 33, "--samples", 16,
            *[f for name in ("depth", "cameraDepth", "normal", "Neye", "position", "albedo", "primvars:st", "primId",
                             "instanceId", "elementId", "sampleCount", "variance") for f in ("--aov", name)])
-    import _patina
-
-    found = _patina.read_image(str(image))
-    data = {name: np.array(found.pixels)[..., i] for i, name in enumerate(found.channels)}
+    data = inProcess.channels(image)
     middle, side = (16, 16), (16, 24)
     assert data["depth.Z"][middle] == pytest.approx(6, abs=1e-4)
     assert data["depth.Z"][side] == pytest.approx(10, abs=1e-4)

@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from inProcess import needs_opengl
+import inProcess
 from rendering import record
 import usda
 
@@ -56,17 +56,13 @@ def scaled(unit):
 
 def render(tmp_path, text, aovs, backend="embree", *arguments, samples=4):
     """:returns: dict of channel -> array, and the command's report"""
-    import _patina
-
-    needs_opengl(backend)
+    inProcess.needs_opengl(backend)
     stage, image, report = tmp_path / "stage.usda", tmp_path / "image.exr", tmp_path / "report.json"
     stage.write_text(text)
     record(stage, image, "-w", SIZE, "--samples", samples, "--frames", 5, "--backend", backend, "--filterRadius", 0.5,
            f"--json={report}",
            *[a for aov in aovs for a in ("--aov", aov)], *arguments)
-    found = _patina.read_image(str(image))
-    with open(report, encoding="utf-8") as file:
-        return dict(zip(found.channels, np.moveaxis(np.array(found.pixels), -1, 0))), json.load(file)
+    return inProcess.channels(image), json.loads(report.read_text())
 
 
 def vectors(channels, name, axes="XY"):
@@ -209,7 +205,6 @@ def test_asking_for_motion_changes_no_picture(tmp_path, backend):
 
 def test_a_product_without_blur(tmp_path):
     """The prim's own flag of UsdRender, and its name for the vectors."""
-    import _patina
     from rendering import patina
 
     settings = usda.prim("Scope", "Render",
@@ -227,8 +222,7 @@ def test_a_product_without_blur(tmp_path):
         stage_text(quad(moving("translate", {0: (-5, 0, 0), 10: (5, 0, 0)})), shutter=(0.5, 0.75)) + settings)
     patina("record", tmp_path / "stage.usda", "--settings", "/Render/main", "--outputFolder", tmp_path, "--frames", 5,
            "--samples", 4, "--quiet")
-    found = _patina.read_image(str(tmp_path / "product.exr"))
-    channels = dict(zip(found.channels, np.moveaxis(np.array(found.pixels), -1, 0)))
+    channels = inProcess.channels(tmp_path / "product.exr")
     assert {name.split(".")[0] for name in channels} == {"motionForward", "Ng", "Pref", "uv", "position"}
     assert vectors(channels, "motionForward") == pytest.approx(
         np.broadcast_to((PIXELS, 0.0), (SIZE, SIZE, 2)), abs=rounding({}))

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page of benchmarks: tables of docs/charts as Markdown. generateDocs.py writes it."""
-import csv
 import os
+
+from patina import experiment
 
 CHARTS = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "docs", "charts"))
 BACK_ENDS = {"embree": "path tracer", "raster": "rasterizer"}
@@ -20,8 +21,7 @@ HEAD = ("back end", "samples", "tolerance", "seconds", "in all", "relMSE", "FLIP
 
 def read(name):
     """:returns: the rows of a table of docs/charts"""
-    with open(os.path.join(CHARTS, name), encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    return experiment.read_csv(os.path.join(CHARTS, name))
 
 
 def number(text, digits=2):
@@ -41,10 +41,6 @@ def row(found):
             *(number(found[name]) for name in ("seconds", "secondsInAll", "relMSE", "flip", "relMSEDirect")))
 
 
-def table(head, rows):
-    return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head), *("| " + " | ".join(cells) + " |" for cells in rows)]
-
-
 def predictions():
     """:returns: lines on how many pictures came out within the tolerance that they were rendered to"""
     rows = read("predictions.csv")
@@ -59,7 +55,7 @@ def predictions():
             "Of every test scene, path traced until it met a tolerance (`docs/charts/predictions.csv`). *Undecided* are those "
             "that a",
             "limit of time ended, or whose reference was too noisy.", "",
-            *table(("tolerance", "pictures", "within", "outside", "undecided"), lines)]
+            *experiment.table(("tolerance", "pictures", "within", "outside", "undecided"), lines)]
 
 
 def page():
@@ -70,5 +66,5 @@ def page():
         of = sorted((r for r in rows if r["stage"] == stage),
                     key=lambda r: (r["backend"], bool(r["tolerance"]), -float(r["tolerance"] or 0), float(r["samples"])))
         name = os.path.splitext(os.path.basename(stage))[0]
-        lines += ["", f"## {name}", "", f"`{stage}`", "", *table(HEAD, map(row, of))]
+        lines += ["", f"## {name}", "", f"`{stage}`", "", *experiment.table(HEAD, map(row, of))]
     return lines + predictions()

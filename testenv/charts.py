@@ -97,13 +97,13 @@ def run(kind, folder, quick):
 
 def redraw(folder):
     """:returns: paths of the charts of scenes, lobes and features, drawn from their tables"""
-    import csv
+    from patina import experiment
     from patina.chart import lobes, sceneCharts, sceneResults
 
     with tempfile.TemporaryDirectory() as made:
         sceneCharts.write(sceneResults.read_csv(os.path.join(folder, "scenes.csv")), made)
-        with open(os.path.join(folder, "lobes.csv"), encoding="utf-8", newline="") as file:
-            rows = [dict(row, ns=float(row["ns"]), mean=float(row["mean"])) for row in csv.DictReader(file)]
+        rows = [dict(row, ns=float(row["ns"]), mean=float(row["mean"]))
+                for row in experiment.read_csv(os.path.join(folder, "lobes.csv"))]
         lobes.write_charts(rows, made)
         sys.path.append(os.path.join(ROOT, "testenv", "bench"))
         import featureBench

@@ -21,6 +21,7 @@ if __name__ == "__main__":
 
 import benchmarks
 from documents import read
+from patina import experiment
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 FOLDER = os.path.join(ROOT, "docs", "generated")
@@ -42,8 +43,7 @@ def cell(text):
 
 
 def table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return lines + ["| " + " | ".join(cell(column) for column in row) + " |" for row in rows]
+    return experiment.table(head, [list(map(cell, row)) for row in rows])
 
 
 def entries(text):

@@ -16,6 +16,8 @@ import types
 
 import numpy as np
 
+from patina import experiment
+
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scenes")
 STALE_SECONDS = 7 * 24 * 3600  # references of other builds are removed after so long
 
@@ -82,18 +84,17 @@ class Stage:
         :raises RuntimeError: where the render fails, another back end takes over, or a value is not finite"""
         if seed is not None:
             settings["seed"] = seed
-        film = self.module.Film()
-        self.renderer.start(self.scene, self.camera, {**self.settings, **settings}, film)
-        self.renderer.wait()
-        state = self.renderer.progress()
-        if state["failed"]:
-            raise RuntimeError(state["error"])
-        if state["backend"] != self.backend:
-            raise RuntimeError(f"{state['backend']} rendered instead of {self.backend}: {self.warnings()}")
-        pixels = np.array(film.resolve("color"), np.float64)[..., :3]
+        pixels = np.array(self.film(**settings).resolve("color"), np.float64)[..., :3]
         if not np.isfinite(pixels).all():
             raise RuntimeError(f"the image has {np.sum(~np.isfinite(pixels))} values that are no numbers")
         return pixels
+
+    def film(self, **settings):
+        """:param settings: that differ from those of the arguments
+        :raises RuntimeError: where the render fails, or another back end takes over"""
+        film = self.module.Film()
+        self.state = experiment.draw(self.renderer, self.scene, self.camera, {**self.settings, **settings}, film, self.backend)
+        return film
 
     def warnings(self):
         return [f"{w['prim']}: {w['message']}" for w in self.scene.warnings()]
@@ -126,6 +127,14 @@ def pixels(image, channels="RGB"):
 
     found = _patina.read_image(str(image))
     return np.array(found.pixels)[..., [found.channels.index(c) for c in channels]]
+
+
+def channels(image):
+    """:returns: dict of a channel to its values (height, width), linear"""
+    import _patina
+
+    found = _patina.read_image(str(image))
+    return dict(zip(found.channels, np.moveaxis(np.array(found.pixels), -1, 0)))
 
 
 def references(stage, seeds, *arguments):

@@ -16,82 +16,23 @@ if __name__ == "__main__":
     checkout.enter()
 
 import contactSheet  # noqa: E402
+import usda  # noqa: E402
 
 SKY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scenes", "textures", "sky.exr")
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float2 clippingRange = (0.01, 1000)
-    float focalLength = 50
-    float horizontalAperture = 24
-    float verticalAperture = 24
-    double3 xformOp:translate = (0, 1.9, 5)
-    float3 xformOp:rotateXYZ = (-10.5, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-def DomeLight "sky"
-{
-    asset inputs:texture:file = @%(sky)s@
-    float inputs:intensity = 0.7
-}
-def RectLight "key"
-{
-    float inputs:intensity = 20
-    float inputs:width = 2
-    float inputs:height = 2
-    double3 xformOp:translate = (-2.5, 4, 3)
-    float3 xformOp:rotateXYZ = (-48, -42, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-def Mesh "ground" (prepend apiSchemas = ["MaterialBindingAPI"])
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-8, 0, 8), (8, 0, 8), (8, 0, -8), (-8, 0, -8)]
-    texCoord2f[] primvars:st = [(0, 0), (8, 0), (8, 8), (0, 8)] (interpolation = "vertex")
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </checker>
-}
-def Mesh "ball" (prepend apiSchemas = ["MaterialBindingAPI"])
-{
-    int[] faceVertexCounts = %(counts)s
-    int[] faceVertexIndices = %(indices)s
-    point3f[] points = %(points)s
-    normal3f[] normals = %(normals)s (interpolation = "vertex")
-    texCoord2f[] primvars:st = %(uv)s (interpolation = "vertex")
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </documents/Materials/%(material)s>
-    double3 xformOp:translate = (0, 1, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def "documents" (prepend references = @%(document)s@</MaterialX>) {}
-def Material "checker"
-{
-    token outputs:mtlx:surface.connect = </checker/surface.outputs:out>
-    def Shader "pattern"
-    {
-        uniform token info:id = "ND_checkerboard_color3"
-        color3f inputs:color1 = (0.45, 0.45, 0.45)
-        color3f inputs:color2 = (0.2, 0.2, 0.2)
-        token outputs:out
-    }
-    def Shader "diffuse"
-    {
-        uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
-        color3f inputs:color.connect = </checker/pattern.outputs:out>
-        token outputs:out
-    }
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_surface"
-        token inputs:bsdf.connect = </checker/diffuse.outputs:out>
-        token outputs:out
-    }
-}
-"""
+STAGE = usda.stage(
+    usda.camera(lens=(50, 24, 24), clippingRange=(0.01, 1000), at=(0, 1.9, 5), turn=(-10.5, 0, 0)),
+    usda.prim("DomeLight", "sky", "asset inputs:texture:file = @%(sky)s@", intensity=0.7),
+    usda.prim("RectLight", "key", intensity=20, width=2, height=2, at=(-2.5, 4, 3), turn=(-48, -42, 0)),
+    usda.floor("ground", 8, bind="checker", st=[(0, 0), (8, 0), (8, 8), (0, 8)]),
+    usda.prim("Mesh", "ball", 'normal3f[] normals = %(normals)s (interpolation = "vertex")',
+              'texCoord2f[] primvars:st = %(uv)s (interpolation = "vertex")', bind="documents/Materials/%(material)s",
+              faceVertexCounts="%(counts)s", faceVertexIndices="%(indices)s", points="%(points)s", subdivisionScheme="none",
+              at=(0, 1, 0)),
+    usda.prim("", "documents", meta=("prepend references = @%(document)s@</MaterialX>",)),
+    usda.material("checker", {
+        "pattern": ("ND_checkerboard_color3", {"color1": (0.45, 0.45, 0.45), "color2": (0.2, 0.2, 0.2)}),
+        "diffuse": ("ND_oren_nayar_diffuse_bsdf", {"color3f color": "<pattern>"}),
+        "surface": ("ND_surface", {"bsdf": "<diffuse>"})}))
 
 
 def ball(columns=64, rows=32):

@@ -8,16 +8,12 @@ which have seeds of their own. Between two numbers of samples the error is taken
 bench path`, denoised by its own denoiser.
 """
 import math
-import os
 import statistics
-import tempfile
 
-import numpy as np
-
-import experiment
+import benchRun
 import pathBench
 import pathScenes
-import pathWorker
+from patina import experiment
 from patina.cli import outputs
 
 
@@ -28,15 +24,6 @@ def commands(without):
     denoiser.prepare(compiled.load())
     found = pathBench.peers(*{"Cycles"}.difference(without))
     return {who: command for who, command in found.items() if who not in without}
-
-
-def folder_for(who, name, folder, options):
-    own = os.path.join(folder, who)
-    os.makedirs(own)
-    pathWorker.save(pathScenes.SCENES[name](own), own, {
-        "width": options.pixels[0], "height": options.pixels[1], "depth": options.depth, "threads": options.threads,
-        "denoise": True})
-    return own
 
 
 def time_to(points, target):
@@ -53,43 +40,27 @@ def time_to(points, target):
     return points[-1][0], ">"
 
 
-def climb(name, who, worker, references, folder, options):
+def climb(workers, who, reference, options):
     """:returns: list of (samples, median of seconds, median of errors) until the last target is met"""
     from patina.cli import imageMetrics
 
-    file, rungs = os.path.join(folder, "image.npy"), []
+    rungs = []
     for samples in options.samples:
-        took, errors = [], []
-        for run in range(options.runs):
-            took.append(worker.draw(samples, run + 1, file)["processor"])
-            errors.append(imageMetrics.mean_flip(np.load(file), references[who], True))
-        rungs.append((samples, statistics.median(took), statistics.median(errors)))
+        runs = [workers.image(who, samples, run + 1) for run in range(options.runs)]
+        rungs.append((samples, statistics.median(took["processor"] for took, _ in runs),
+                      statistics.median(imageMetrics.mean_flip(image, reference, True) for _, image in runs)))
         if rungs[-1][2] < min(options.targets):
             break
     return rungs
 
 
 def measure(name, options):
-    found = {}
-    with tempfile.TemporaryDirectory(prefix="denoiseBench") as folder, open(os.path.join(folder, "log"), "w+",
-                                                                            encoding="utf-8") as log:
-        workers, references = {}, {}
-        try:
-            for who, command in commands(options.without).items():
-                workers[who] = pathBench.start(command, folder_for(who, name, folder, options), log)
-            file = os.path.join(folder, "reference.npy")
-            for who, worker in workers.items():
-                worker.draw(options.reference, 1000, file, denoise=False)
-                references[who] = np.load(file)
-            for who, worker in workers.items():
-                found[f"{who} {worker.version}".strip()] = climb(name, who, worker, references, folder, options)
-        except RuntimeError as error:
-            log.seek(0)
-            raise SystemExit(f"{name}: {error}\n" + "".join(log.readlines()[-8:])) from error
-        finally:
-            for worker in workers.values():
-                worker.close()
-    return found
+    with benchRun.Workers(name) as workers:
+        scene = pathScenes.SCENES[name](workers.folder)
+        for who, command in commands(options.without).items():
+            workers.start(who, command, scene, {**pathBench.settings_of(options), "denoise": True})
+        references = {who: workers.image(who, options.reference, 1000, denoise=False)[1] for who in workers}
+        return {workers.title(who): climb(workers, who, reference, options) for who, reference in references.items()}
 
 
 def show(name, found, options):
@@ -102,14 +73,14 @@ def show(name, found, options):
             seconds, bound = times[who][k]
             ratio = "" if times[who] is own else f" ({bound and '<' if bound == '>' else ''}{own[k][0] / seconds:.2f})"
             cells.append(f"{bound} {seconds:.2f} s{ratio}".strip())
-        print(f"| {name} | {target:g} | " + " | ".join(cells) + " |", flush=True)
+        print(experiment.table_row([name, f"{target:g}", *cells]), flush=True)
 
 
 def main(arguments):
     from patina.cli import imageMetrics
     from patina.cli.errors import CommandError
 
-    parser = experiment.Parser("denoise", __doc__, "192x108", reference=(1024, "samples of the references"),
+    parser = benchRun.Parser("denoise", __doc__, "192x108", reference=(1024, "samples of the references"),
                                runs=(5, "images of each"), depth=(8, "bounces"), threads=(0, "of each renderer"))
     parser.add_argument("scenes", nargs="*", help=f"of {', '.join(pathScenes.SCENES)} (default: all)")
     parser.add_argument("--samples", default="1,2,4,8,16,32,64,128,256", help="ever more (default: 1,2,4 ... 256)")
@@ -127,7 +98,7 @@ def main(arguments):
         results[name] = measure(name, options)
         if len(results) == 1:
             heads = [who + ("" if who == "Patina" else " (ratio)") for who in results[name]]
-            print("| scene | mean FLIP | " + " | ".join(heads) + " |\n|---|---|" + "---|" * len(heads))
+            print("\n".join(experiment.table(["scene", "mean FLIP", *heads])))
         show(name, results[name], options)
     outputs.write_json(options.json, {"size": options.pixels, "reference": options.reference, "scenes": results})
     return 0

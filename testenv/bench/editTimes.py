@@ -11,6 +11,7 @@ import time
 import numpy as np
 
 import _patina
+from patina import experiment
 from patina.chart import probes
 
 
@@ -20,8 +21,7 @@ def color(value):
 
 def quad(edit, count, i, value=0.5):
     points = np.float32([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * np.float32(0.01)
-    matrix = np.eye(4, dtype=np.float32)
-    matrix[3, :3] = 0.02 * (i % 100) - 1.0, 0.02 * (i // 100 % 100) - 1.0, -4.0 - i // 10000
+    matrix = probes.moved(0.02 * (i % 100) - 1.0, 0.02 * (i // 100 % 100) - 1.0, -4.0 - i // 10000)
     edit.set_mesh(f"/quad{i}", points=points, face_vertex_counts=[4], face_vertex_indices=[0, 1, 2, 3], transform=matrix,
                   material="/one" if i == count // 2 else f"/others{i % 10}",
                   primvars=[("displayColor", "constant", np.float32([[value, 0.4, 0.2]]), None)])
@@ -52,12 +52,8 @@ def main(count, backend, repeats=15, kind="material"):
     fill(scene, int(count))
 
     def render():
-        renderer.start(scene, "/camera", {"width": 32, "height": 32, "samples": 1, "interactive": True}, film)
-        renderer.wait()
-        found = renderer.progress()
-        if found["failed"]:
-            sys.exit(found["error"])
-        return found["statistics"]
+        settings = {"width": 32, "height": 32, "samples": 1, "interactive": True}
+        return experiment.draw(renderer, scene, "/camera", settings, film)["statistics"]
 
     last, commits, builds, looked = render(), [], [], []
     for i in range(int(repeats)):

@@ -4,7 +4,6 @@ turns; or, by --charts FOLDER, error over time of both as charts and a table. Re
 frame comes before.
 """
 import argparse
-import csv
 import os
 import statistics
 import sys
@@ -14,9 +13,9 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, ".."))
 
-import experiment  # noqa: E402
 import featurePairs  # noqa: E402
 import inProcess  # noqa: E402
+from patina import experiment  # noqa: E402
 
 RUNS = 5
 COLUMNS = ("chart", "title", "line", "samples", "seconds", "relMSE", "secondsToFirst", "width", "reference")
@@ -43,14 +42,13 @@ def ratios(width, only=None, runs=RUNS):
         for number, (name, pair) in enumerate(featurePairs.costs().items()):
             if only and only not in name:
                 continue
-            both = [_stage(folder, f"{which}{number}", variant, width)
-                    for which, variant in (("with", pair.with_), ("without", pair.without))]
-            for stage in both:
+            both = {which: _stage(folder, f"{which}{number}", variant, width)
+                    for which, variant in (("with", pair.with_), ("without", pair.without))}
+            for stage in both.values():
                 stage.image(0, samples=1)
-            times = [[_seconds(stage, pair.samples, run + 1)[0] for stage in both] for run in range(runs)]
-            medians = [statistics.median(column) for column in zip(*times)]
-            rows.append({"feature": name, **experiment.spread([a / b for a, b in times]),
-                         "with": medians[0], "without": medians[1], "samples": pair.samples})
+            times = experiment.turns(runs, both, lambda which, run: _seconds(both[which], pair.samples, run)[0])
+            rows.append({"feature": name, **experiment.spread([a / b for a, b in zip(times["with"], times["without"])]),
+                         "samples": pair.samples, **{which: statistics.median(column) for which, column in times.items()}})
     return rows
 
 
@@ -101,19 +99,14 @@ def draw(rows, folder):
 
 def read(path):
     numbers = ("samples", "seconds", "relMSE", "secondsToFirst", "width", "reference")
-    with open(path, encoding="utf-8", newline="") as file:
-        return [{**row, **{name: float(row[name]) for name in numbers}, "samples": int(row["samples"])}
-                for row in csv.DictReader(file)]
+    return [{**row, **{name: float(row[name]) for name in numbers}, "samples": int(row["samples"])}
+            for row in experiment.read_csv(path)]
 
 
 def _write_charts(options):
     rows = measure(options.width, options.only, options.reference)
     os.makedirs(options.charts, exist_ok=True)
-    with open(os.path.join(options.charts, "features.csv"), "w", encoding="utf-8", newline="") as file:
-        table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        table.writeheader()
-        table.writerows({**row, "seconds": f"{row['seconds']:.4g}", "relMSE": f"{row['relMSE']:.4g}",
-                         "secondsToFirst": f"{row['secondsToFirst']:.3g}"} for row in rows)
+    experiment.write_csv(os.path.join(options.charts, "features.csv"), COLUMNS, rows, digits=4)
     print("\n".join(draw(rows, options.charts)))
 
 
@@ -132,8 +125,8 @@ def main(arguments):
     if options.charts:
         _write_charts(options)
         return 0
-    print("| feature | time with it, over that without | seconds with, without |\n|---|---|---|")
+    print("\n".join(experiment.table(("feature", "time with it, over that without", "seconds with, without"))))
     for row in ratios(options.width or 64, options.only, options.runs):
-        print(f"| {row['feature']} | {row['ratio']:.2f} ({row['least']:.2f} to {row['most']:.2f}) | {row['with']:.2f}, "
-              f"{row['without']:.2f} |", flush=True)
+        print(experiment.table_row((row["feature"], f"{row['ratio']:.2f} ({row['least']:.2f} to {row['most']:.2f})",
+                                    f"{row['with']:.2f}, {row['without']:.2f}")), flush=True)
     return 0

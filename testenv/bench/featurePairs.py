@@ -3,6 +3,8 @@
 import dataclasses
 import os
 
+from usda import camera, floor, material, mesh, prim, stage
+
 SCENES = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scenes"))
 
 
@@ -65,48 +67,14 @@ def costs():
     }
 
 
-FLOOR = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float2 clippingRange = (0.01, 1000)
-    float focalLength = 24
-    float horizontalAperture = 20.955
-    float verticalAperture = 20.955
-    double3 xformOp:translate = (0, 0.9, 2.4)
-    float3 xformOp:rotateXYZ = (-20, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-def Mesh "floor"
-{
-    color3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-4, 0, 4), (4, 0, 4), (4, 0, -4), (-4, 0, -4)]
-    uniform token subdivisionScheme = "none"
-}
-"""
-LAMP = """def SphereLight "lamp"
-{
-    float inputs:intensity = 300
-    float inputs:radius = 0.15
-    double3 xformOp:translate = (0, 2.4, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-%s}
-"""
-BARN = """def LightFilter "opening"
-{
-    uniform token lightFilter:shaderId = "PxrBarnLightFilter"
-    float inputs:width = 1
-    float inputs:height = 0.5
-    float inputs:radius = 0
-    double3 xformOp:translate = (0, 1.8, 0)
-    float3 xformOp:rotateXYZ = (-90, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-"""
+FLOOR = stage(camera(lens=(24, 20.955, 20.955), clippingRange=(0.01, 1000), at=(0, 0.9, 2.4), turn=(-20, 0, 0)),
+              floor("floor", 4, color=(0.5, 0.5, 0.5)))
+BARN = prim("LightFilter", "opening", 'uniform token lightFilter:shaderId = "PxrBarnLightFilter"', "float inputs:width = 1",
+            "float inputs:height = 0.5", "float inputs:radius = 0", at=(0, 1.8, 0), turn=(-90, 0, 0))
+
+
+def _lamp(*lines):
+    return prim("SphereLight", "lamp", *lines, intensity=300, radius=0.15, at=(0, 2.4, 0))
 
 
 def _cards():
@@ -114,48 +82,20 @@ def _cards():
     wide, across, along, up = 40.0, 0.5, 0.25, 1.8
     parts = ((-wide, -across, -wide, wide), (across, wide, -wide, wide), (-across, across, -wide, -along),
              (-across, across, along, wide))
-    out = ""
-    for i, (left, right, near, far) in enumerate(parts):
-        out += f"""def Mesh "card{i}"
-{{
-    color3f[] primvars:displayColor = [(0, 0, 0)]
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [({left}, {up}, {near}), ({left}, {up}, {far}), ({right}, {up}, {far}), ({right}, {up}, {near})]
-    uniform token subdivisionScheme = "none"
-}}
-"""
-    return out
+    return "".join(mesh(f"card{i}", [(left, up, near), (left, up, far), (right, up, far), (right, up, near)], color=(0, 0, 0))
+                   for i, (left, right, near, far) in enumerate(parts))
 
 
 MANY = 24  # balls along a side
-PAINT = """def Material "paint"
-{
-    token outputs:surface.connect = </paint/surface.outputs:surface>
-    def Shader "surface"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor.connect = </paint/tint.outputs:result>
-        token outputs:surface
-    }
-    def Shader "tint"
-    {
-        uniform token info:id = "UsdPrimvarReader_float3"
-        string inputs:varname = "tint"
-        float3 outputs:result
-    }
-}
-"""
-SKY = 'def DomeLight "sky"\n{\n    float inputs:intensity = 1\n}\n'
-BALL = """{{
-    uniform token subdivisionScheme = "catmullClark"
-    int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
-    int[] faceVertexIndices = [0, 1, 3, 2, 2, 3, 5, 4, 4, 5, 7, 6, 6, 7, 1, 0, 1, 7, 5, 3, 6, 0, 2, 4]
-    point3f[] points = [(-.1, 0, .1), (.1, 0, .1), (-.1, .2, .1), (.1, .2, .1), (-.1, .2, -.1), (.1, .2, -.1), (-.1, 0, -.1),
-                        (.1, 0, -.1)]
-    rel material:binding = </paint>
-{more}}}
-"""
+PAINT = material("paint", {"surface": ("UsdPreviewSurface", {"color3f diffuseColor": "<tint>"}),
+                           "tint": ("UsdPrimvarReader_float3", {"varname": "tint"})})
+SKY = prim("DomeLight", "sky", intensity=1)
+
+
+def _ball(name, *lines, **more):
+    corners = [(x, y, z) for y, z in ((0, .1), (.2, .1), (.2, -.1), (0, -.1)) for x in (-.1, .1)]
+    faces = [(0, 1, 3, 2), (2, 3, 5, 4), (4, 5, 7, 6), (6, 7, 1, 0), (1, 7, 5, 3), (6, 0, 2, 4)]
+    return mesh(name, corners, *lines, faces=faces, scheme="catmullClark", bind="paint", **more)
 
 
 def _places():
@@ -166,29 +106,14 @@ def _places():
 
 def _instanced():
     places, tints = zip(*_places())
-    ball = BALL.format(more="").replace("\n", "\n    ")
-    return f"""def PointInstancer "balls"
-{{
-    point3f[] positions = {list(places)}
-    color3f[] primvars:tint = {list(tints)} (
-        interpolation = "vertex"
-    )
-    int[] protoIndices = {[0] * len(places)}
-    rel prototypes = </balls/ball>
-    def Mesh "ball" (
-        prepend apiSchemas = ["MaterialBindingAPI"]
-    )
-    {ball}}}
-"""
+    return prim("PointInstancer", "balls", "rel prototypes = </balls/ball>",
+                f'color3f[] primvars:tint = {list(tints)} (interpolation = "vertex")', _ball("ball"),
+                positions=list(places), protoIndices=[0] * len(places))
 
 
 def _copied():
-    out = ""
-    for i, (place, tint) in enumerate(_places()):
-        more = (f"    color3f[] primvars:tint = [{tint}]\n    double3 xformOp:translate = {place}\n"
-                '    uniform token[] xformOpOrder = ["xformOp:translate"]\n')
-        out += f'def Mesh "ball{i}" (\n    prepend apiSchemas = ["MaterialBindingAPI"]\n)\n{BALL.format(more=more)}'
-    return out
+    return "".join(_ball(f"ball{i}", f"color3f[] primvars:tint = [{tint}]", at=place)
+                   for i, (place, tint) in enumerate(_places()))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -212,8 +137,8 @@ def curves():
             "photons": Variant(caustics, ("--method", "caustics=photons")),
             "paths alone": Variant(caustics)}),
         "feature_filters": Curve("A lamp over an opening", {
-            "barn doors": Variant(FLOOR + LAMP % "    rel light:filters = </opening>\n" + BARN),
-            "a sheet with a hole": Variant(FLOOR + LAMP % "" + _cards())}),
+            "barn doors": Variant(FLOOR + _lamp("rel light:filters = </opening>") + BARN),
+            "a sheet with a hole": Variant(FLOOR + _lamp() + _cards())}),
         "feature_instances": Curve(f"{MANY * MANY} balls, each of its own colour", {
             "values per instance": Variant(FLOOR + PAINT + SKY + _instanced()),
             "a prim for each": Variant(FLOOR + PAINT + SKY + _copied())}),

@@ -16,7 +16,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path += [HERE, os.path.join(HERE, "..", "hydra")]
 
-import experiment  # noqa: E402
+import benchRun  # noqa: E402
 import hydraBuild  # noqa: E402
 import viewportBench  # noqa: E402
 from patina.cli import outputs  # noqa: E402
@@ -38,7 +38,7 @@ def flags(camera, renderer, options):
 def milliseconds(stage, camera, renderer, options):
     """:returns: processor milliseconds of a move, None where the renderer does not run here"""
     process = hydraBuild.run_engine(stage, *flags(camera, renderer, options), **NOTHING)
-    report = experiment.told(process, renderer)
+    report = benchRun.told(process, renderer)
     return report and 1e3 * statistics.median(report["processor"])
 
 
@@ -63,7 +63,7 @@ def owners(stage, camera, renderer, options):
 
 
 def main(arguments):
-    parser = experiment.Parser("frame", __doc__, "1280x720", repeats=(100, "moves in each process"))
+    parser = benchRun.Parser("frame", __doc__, "1280x720", repeats=(100, "moves in each process"))
     parser.add_argument("stages", nargs="*", choices=[[], *STAGES], help="of testenv/scenes (default: all)")
     options = parser.parse(arguments)
     missing = hydraBuild.missing() or hydraBuild.missing_engine()

@@ -13,7 +13,8 @@ import math
 import os
 import tempfile
 
-import experiment
+import benchRun
+from patina import experiment
 from patina.cli import outputs
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -25,7 +26,7 @@ PARTS = ("open", "read", "draw", "first")
 def measure(stage, options, settings):
     """:returns: what growthWorker.py tells of a stage
     :raises SystemExit: with its reason"""
-    return experiment.figures(stage, [os.path.join(HERE, "growthWorker.py"), stage, options.size, options.samples, *settings])
+    return benchRun.figures(stage, [os.path.join(HERE, "growthWorker.py"), stage, options.size, options.samples, *settings])
 
 
 def axis(name, options):
@@ -35,16 +36,11 @@ def axis(name, options):
     make, sizes = growthStages.AXES[name]
     sizes = [size for size in sizes if size <= options.most]
     settings = [f"textureMemory={TEXTURE_MEMORY}"] if name == "textures" else []
-    found = {size: [] for size in sizes}
     with tempfile.TemporaryDirectory(prefix="growthBench") as folder:
         stages = {}
         for size in sizes:
-            own = os.path.join(folder, str(size))
-            os.makedirs(own)
-            stages[size] = make(own, size)
-        for _ in range(options.runs):
-            for size in sizes:
-                found[size].append(measure(stages[size], options, settings))
+            stages[size] = make(tempfile.mkdtemp(dir=folder), size)
+        found = experiment.turns(options.runs, sizes, lambda size, _: measure(stages[size], options, settings))
     return [{"size": size, **experiment.medians(runs, PARTS, lambda run, part: run[part]["processor"]),
              **experiment.medians(runs, ["wall"], lambda run, clock: run["first"][clock]),
              **experiment.medians(runs, ("sample", "peak", "textures"))} for size, runs in found.items()]
@@ -56,14 +52,15 @@ def exponents(rows, part):
 
 
 def show(name, rows):
-    print(f"\n| {name} | open, translate, build and draw | first image | a sample of all pixels | memory |\n"
-          "|---|---|---|---|---|")
+    print("\n" + "\n".join(experiment.table((name, "open, translate, build and draw", "first image", "a sample of all pixels",
+                                            "memory"))))
     for i, row in enumerate(rows):
         slope = {part: f" ({exponents(rows[i - 1:i + 1], part)[0]:.2f})" if i else "" for part in ("first", "sample", "peak")}
         texels = f", {row['textures']:.0f} of texels" if row["textures"] else ""
-        print(f"| {row['size']:,} | {row['open']:.2f} + {row['read']:.2f} + {row['draw']:.2f} s | "
-              f"{row['first']:.2f} s{slope['first']} | {1e3 * row['sample']:.1f} ms{slope['sample']} | "
-              f"{row['peak']:.0f} MB{slope['peak']}{texels} |", flush=True)
+        print(experiment.table_row((
+            f"{row['size']:,}", f"{row['open']:.2f} + {row['read']:.2f} + {row['draw']:.2f} s",
+            f"{row['first']:.2f} s{slope['first']}", f"{1e3 * row['sample']:.1f} ms{slope['sample']}",
+            f"{row['peak']:.0f} MB{slope['peak']}{texels}")), flush=True)
     if len(rows) > 1:
         print()
         steps = [1e3 * (b["sample"] - a["sample"]) / math.log10(b["size"] / a["size"]) for a, b in zip(rows, rows[1:])]
@@ -76,7 +73,7 @@ def show(name, rows):
 def main(arguments):
     import growthStages
 
-    parser = experiment.Parser("growth", __doc__, "160x120", samples=(9, "from which the time of one is taken"),
+    parser = benchRun.Parser("growth", __doc__, "160x120", samples=(9, "from which the time of one is taken"),
                                runs=(3, "processes of each size"))
     parser.add_argument("axes", nargs="*", help=f"of {', '.join(growthStages.AXES)} (default: all)")
     parser.add_argument("--most", type=float, default=math.inf, help="of a thing: leaves larger stages out")

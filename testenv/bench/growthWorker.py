@@ -8,6 +8,7 @@ import sys
 import time
 
 import _patina
+from patina import experiment
 from patina import stage as reader
 from patina.cli import openStage
 
@@ -33,13 +34,8 @@ def main(path, size, samples, *settings):
     marks.append((time.perf_counter(), time.process_time()))
 
     def draw(count):
-        renderer.start(scene, camera, {"width": width, "height": height, "samples": count, "checkpointSeconds": 0.0, **given},
-                       film)
-        renderer.wait()
-        found = renderer.progress()
-        if found["failed"]:
-            sys.exit(found["error"])
-        return found["statistics"]
+        settings = {"width": width, "height": height, "samples": count, "checkpointSeconds": 0.0, **given}
+        return experiment.draw(renderer, scene, camera, settings, film)["statistics"]
 
     statistics = draw(1)
     marks.append((time.perf_counter(), time.process_time()))

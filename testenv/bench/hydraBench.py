@@ -15,8 +15,8 @@ import tempfile
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "hydra"))
 
+import benchRun  # noqa: E402
 import benchStages  # noqa: E402
-import experiment  # noqa: E402
 import hydraBuild  # noqa: E402
 from patina.cli import outputs  # noqa: E402
 
@@ -38,7 +38,7 @@ def run_host(stage, renderer, samples, size, moves=0, outputs=()):
     flags += [word for output in outputs for word in ("--aov", output)]
     process = hydraBuild.run_host(stage, "--renderer", plugin, "--camera", "/camera", "--size", f"{size[0]}x{size[1]}",
                                   "--repeats", moves, "--json", "-", *flags, *(["--pickAll"] if outputs else []))
-    return experiment.told(process, renderer)
+    return benchRun.told(process, renderer)
 
 
 def hits_of(stage, size):
@@ -64,7 +64,7 @@ def measure_storm(stage, size):
         return None
     process = hydraBuild.run_engine(stage, "--renderer", "HdStormRendererPlugin", "--camera", "/camera", "--size",
                                     f"{size[0]}x{size[1]}", "--repeats", MOVES)
-    report = experiment.told(process, "Storm")
+    report = benchRun.told(process, "Storm")
     return report and {"first": report["seconds"]["first"], "moved": statistics.median(report["seconds"]["moved"]),
                        "memory": report["peakMemory"]}
 
@@ -88,7 +88,7 @@ def show(results):
 
 
 def main(arguments):
-    parser = experiment.Parser("hydra", __doc__, "640x480", samples=(32, "of a pixel"))
+    parser = benchRun.Parser("hydra", __doc__, "640x480", samples=(32, "of a pixel"))
     parser.add_argument("stages", nargs="*", help="with a camera at /camera (default: stages made for this)")
     options = parser.parse(arguments)
     reason = hydraBuild.missing()

@@ -9,14 +9,12 @@ nanoseconds.
 
 Renderers and materials take turns, image by image; times are of processors; a row is the median of the runs.
 """
-import os
 import statistics
-import tempfile
 
-import experiment
+import benchRun
 import pathBench
 import pathScenes
-import pathWorker
+from patina import experiment
 from patina.cli import outputs
 
 DEPTHS = (2, 6)  # few, for some paths end where a sample goes below the surface
@@ -41,39 +39,22 @@ MATERIALS = {
 
 def measure(commands, options):
     """:returns: renderer -> material -> list of ns of a vertex, one per run"""
-    found, workers = {}, {}
-    with tempfile.TemporaryDirectory(prefix="lobeBench") as folder, open(os.path.join(folder, "log"), "w+",
-                                                                         encoding="utf-8") as log:
-        try:
-            for who, command in commands.items():
-                try:
-                    for name, material in MATERIALS.items():
-                        for depth in DEPTHS:
-                            own = os.path.join(folder, f"{who}{name}{depth}".replace(" ", "_"))
-                            os.makedirs(own)
-                            pathWorker.save(room(material), own, {"width": SIZE[0], "height": SIZE[1], "depth": depth,
-                                                                  "threads": 1, "roulette": False})
-                            workers[who, name, depth] = pathBench.start(command, own, log)
-                    found[who] = {}
-                except RuntimeError as error:
-                    if who == "Patina":
-                        raise SystemExit(f"Patina: {error}") from error
-                    print(f"{who} is left out: {error}")
-            for run in range(options.runs):
-                for who in found:
-                    for name in MATERIALS:
-                        took = [workers[who, name, depth].draw(options.samples, run + 1, os.devnull)["processor"]
-                                for depth in DEPTHS]
-                        vertices = SIZE[0] * SIZE[1] * options.samples * (DEPTHS[1] - DEPTHS[0])
-                        found[who].setdefault(name, []).append(1e9 * (took[1] - took[0]) / vertices)
-        finally:
-            for worker in workers.values():
-                worker.close()
-    return found
+    with benchRun.Workers("lobes") as workers:
+        here = [who for who, command in commands.items() if all(
+            workers.start((who, name, depth), command, room(material), {
+                "width": SIZE[0], "height": SIZE[1], "depth": depth, "threads": 1, "roulette": False})
+            for name, material in MATERIALS.items() for depth in DEPTHS)]
+
+        def nanoseconds(asked, run):
+            took = [workers[(*asked, depth)].draw(options.samples, run)["processor"] for depth in DEPTHS]
+            return 1e9 * (took[1] - took[0]) / (SIZE[0] * SIZE[1] * options.samples * (DEPTHS[1] - DEPTHS[0]))
+
+        found = experiment.turns(options.runs, [(who, name) for who in here for name in MATERIALS], nanoseconds)
+    return {who: {name: found[who, name] for name in MATERIALS} for who in here}
 
 
 def main(arguments):
-    parser = experiment.Parser("lobes", __doc__, runs=(5, "images of each"), samples=(64, "of a pixel"))
+    parser = benchRun.Parser("lobes", __doc__, runs=(5, "images of each"), samples=(64, "of a pixel"))
     options = parser.parse(arguments)
     if options.runs < 1 or options.samples < 1:
         parser.error("--runs and --samples take 1 or more")

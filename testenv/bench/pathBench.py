@@ -13,51 +13,20 @@ All have the same geometry, camera, bounces, light and box filter; principled ma
 Cycles is that of PyPI's bpy, with its light tree, and a second time with path guiding. $PATINA_BPY_PYTHON names a Python that
 has bpy. Without it the benchmark installs bpy (requirements-cycles.txt) into an environment of its own, inside of Patina's.
 """
-import json
 import os
 import statistics
 import subprocess
 import sys
-import tempfile
 import venv
 
 import numpy as np
 
-import experiment
+import benchRun
 import pathScenes
-import pathWorker
+from patina import experiment
 from patina.cli import outputs
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-
-
-class Worker:
-    """A renderer's process, ready for images of one scene."""
-
-    def __init__(self, command, log):
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True)
-        first = self._answer()
-        self.ready, self.version = first["ready"], first["version"]
-
-    def _answer(self):
-        last = "no message"
-        for line in self.process.stdout:
-            last = line.strip() or last
-            _, said, after = line.partition(pathWorker.SAID)  # after what the renderer's own log left in the line
-            if said:
-                return json.loads(after)
-        raise RuntimeError(f"{os.path.basename(self.process.args[0])} ended with status {self.process.wait()}: {last}")
-
-    def draw(self, samples, seed, file, denoise=True):
-        """:param denoise: False: not even where the scene asks for it
-        :returns: {seconds, processor}: wall and processor seconds of the image"""
-        self.process.stdin.write(json.dumps({"samples": samples, "seed": seed, "file": file, "denoise": denoise}) + "\n")
-        self.process.stdin.flush()
-        return self._answer()
-
-    def close(self):
-        self.process.stdin.close()
-        self.process.wait()
 
 
 def bpy_python():
@@ -100,9 +69,9 @@ def mitsuba():
     return found
 
 
-def start(command, folder, log):
-    filled = [folder if word is None else word for word in command]
-    return Worker(filled if None in command else filled + [folder], log)
+def settings_of(options):
+    """:returns: what pathWorker.save() takes besides a scene"""
+    return {"width": options.pixels[0], "height": options.pixels[1], "depth": options.depth, "threads": options.threads}
 
 
 def errors_of(few, many):
@@ -123,57 +92,33 @@ def to_target(low, high, errors, target):
 
 
 def measure(name, commands, options, pictures):
-    with tempfile.TemporaryDirectory(prefix="pathBench") as folder, open(os.path.join(folder, "log"), "w+",
-                                                                         encoding="utf-8") as log:
-        scene = pathScenes.SCENES[name](folder)
-        pathWorker.save(scene, folder, {"width": options.pixels[0], "height": options.pixels[1], "depth": options.depth,
-                                        "threads": options.threads, "methods": options.method})
-        workers, found = {}, {}
-        try:
-            for who, command in commands.items():
-                own = os.path.join(folder, who.replace(" ", "_"))
-                os.makedirs(own)
-                for file in ("scene.json", "meshes.npz"):
-                    os.symlink(os.path.join(folder, file), os.path.join(own, file))
-                try:
-                    workers[who] = start(command, own, log)
-                except RuntimeError as error:
-                    if who == "Patina":
-                        raise
-                    print(f"{name}: {who} is left out: {error}")
-            images = {(who, n): [] for who in workers for n in options.samples}
-            times = {key: [] for key in images}
-            for run in range(options.runs):
-                for n in options.samples:
-                    for who, worker in workers.items():
-                        file = os.path.join(folder, "image.npy")
-                        times[who, n].append(worker.draw(n, run + 1, file))
-                        images[who, n].append(np.load(file))
-        except RuntimeError as error:
-            log.seek(0)
-            raise SystemExit(f"{name}: {error}\n" + "".join(log.readlines()[-8:])) from error
-        finally:
-            for worker in workers.values():
-                worker.close()
-        few, many = options.samples
-        for who, worker in workers.items():
-            errors = errors_of(np.array(images[who, few], float), np.array(images[who, many], float))
-            each = {}
-            for clock in ("seconds", "processor"):
-                took = {n: [t[clock] for t in times[who, n]] for n in options.samples}
-                each[clock] = (statistics.median(took[many]) - statistics.median(took[few])) / (many - few)
-                each[clock + "Spread"] = (max(took[many]) - min(took[many])) / statistics.median(took[many])
-            wanted = to_target(few, many, errors, options.target)
-            found[f"{who} {worker.version}".strip()] = {
-                "ready": worker.ready, "errors": errors, "samplesToTarget": wanted, **each,
-                "secondsToTarget": wanted * each["seconds"], "processorToTarget": wanted * each["processor"],
-                "mean": float(np.mean(images[who, many]))}
-            if pictures:
-                from patina.cli import compiled
+    with benchRun.Workers(name) as workers:
+        scene = pathScenes.SCENES[name](workers.folder)
+        for who, command in commands.items():
+            workers.start(who, command, scene, {**settings_of(options), "methods": options.method})
+        runs = experiment.turns(options.runs, [(who, n) for n in options.samples for who in workers],
+                                lambda asked, run: workers.image(*asked, run))
+    few, many = options.samples
+    found = {}
+    for who, worker in workers.items():
+        images = {n: np.array([image for _, image in runs[who, n]], float) for n in options.samples}
+        errors = errors_of(images[few], images[many])
+        each = {}
+        for clock in ("seconds", "processor"):
+            took = {n: [took[clock] for took, _ in runs[who, n]] for n in options.samples}
+            each[clock] = (statistics.median(took[many]) - statistics.median(took[few])) / (many - few)
+            each[clock + "Spread"] = (max(took[many]) - min(took[many])) / statistics.median(took[many])
+        wanted = to_target(few, many, errors, options.target)
+        found[workers.title(who)] = {
+            "ready": worker.ready, "errors": errors, "samplesToTarget": wanted, **each,
+            "secondsToTarget": wanted * each["seconds"], "processorToTarget": wanted * each["processor"],
+            "mean": float(np.mean(images[many]))}
+        if pictures:
+            from patina.cli import compiled
 
-                mean = np.mean(images[who, many], axis=0).astype(np.float32)
-                compiled.load().write_image(os.path.join(pictures, f"{name} {who}.exr".replace(" ", "-")), mean)
-        return found
+            mean = np.mean(images[many], axis=0).astype(np.float32)
+            compiled.load().write_image(os.path.join(pictures, f"{name} {who}.exr".replace(" ", "-")), mean)
+    return found
 
 
 def show(name, found, options):
@@ -190,7 +135,7 @@ def show(name, found, options):
 
 
 def main(arguments):
-    parser = experiment.Parser("path", __doc__, "192x108", runs=(5, "images of each"), depth=(8, "bounces"),
+    parser = benchRun.Parser("path", __doc__, "192x108", runs=(5, "images of each"), depth=(8, "bounces"),
                                threads=(0, "of each renderer"))
     parser.add_argument("scenes", nargs="*", help=f"of {', '.join(pathScenes.SCENES)} (default: all)")
     parser.add_argument("--samples", default="8,64", help="few and many (default: 8,64)")

@@ -18,48 +18,43 @@ def matrix(rows):
 
 def material(stage, name, given):
     made = UsdShade.Material.Define(stage, f"/materials/{name}")
-    surface = UsdShade.Shader.Define(stage, f"/materials/{name}/surface")
+    kinds = Sdf.ValueTypeNames
+
+    def shader(node, identity, **inputs):
+        """:param inputs: type and value, or output and shader that is connected"""
+        shaded = UsdShade.Shader.Define(stage, f"/materials/{name}/{node}")
+        shaded.CreateIdAttr(identity)
+        for key, (kind, value) in inputs.items():
+            if isinstance(value, UsdShade.Shader):
+                shaded.CreateInput(key, kinds.Token).ConnectToSource(value.ConnectableAPI(), kind)
+            else:
+                shaded.CreateInput(key, kind).Set(value)
+        return shaded
+
+    def mtlx(surface):
+        made.CreateSurfaceOutput("mtlx").ConnectToSource(surface.ConnectableAPI(), "out")
+        return made
+
     if "glass" in given:
         alpha = given["roughness"] ** 2
-        lobe = UsdShade.Shader.Define(stage, f"/materials/{name}/lobe")
-        lobe.CreateIdAttr("ND_dielectric_bsdf")
-        lobe.CreateInput("ior", Sdf.ValueTypeNames.Float).Set(given["glass"])
-        lobe.CreateInput("roughness", Sdf.ValueTypeNames.Float2).Set((alpha, alpha))
-        lobe.CreateInput("scatter_mode", Sdf.ValueTypeNames.String).Set("RT")
-        surface.CreateIdAttr("ND_surface")
-        surface.CreateInput("bsdf", Sdf.ValueTypeNames.Token).ConnectToSource(lobe.ConnectableAPI(), "out")
-        made.CreateSurfaceOutput("mtlx").ConnectToSource(surface.ConnectableAPI(), "out")
-        return made
+        lobe = shader("lobe", "ND_dielectric_bsdf", ior=(kinds.Float, given["glass"]), roughness=(kinds.Float2, (alpha, alpha)),
+                      scatter_mode=(kinds.String, "RT"))
+        return mtlx(shader("surface", "ND_surface", bsdf=("out", lobe)))
     if "diffuse" in given:
-        lobe = UsdShade.Shader.Define(stage, f"/materials/{name}/lobe")
-        lobe.CreateIdAttr("ND_oren_nayar_diffuse_bsdf")
-        lobe.CreateInput("color", Sdf.ValueTypeNames.Color3f).Set(tuple(given["diffuse"]))
-        surface.CreateIdAttr("ND_surface")
-        surface.CreateInput("bsdf", Sdf.ValueTypeNames.Token).ConnectToSource(lobe.ConnectableAPI(), "out")
-        made.CreateSurfaceOutput("mtlx").ConnectToSource(surface.ConnectableAPI(), "out")
-        return made
+        lobe = shader("lobe", "ND_oren_nayar_diffuse_bsdf", color=(kinds.Color3f, tuple(given["diffuse"])))
+        return mtlx(shader("surface", "ND_surface", bsdf=("out", lobe)))
+    color, roughness, metallic = tuple(given["color"]), given["roughness"], given["metallic"]
     if given.get("standard"):
-        surface.CreateIdAttr("ND_standard_surface_surfaceshader")
-        surface.CreateInput("base", Sdf.ValueTypeNames.Float).Set(1.0)
-        surface.CreateInput("base_color", Sdf.ValueTypeNames.Color3f).Set(tuple(given["color"]))
-        surface.CreateInput("metalness", Sdf.ValueTypeNames.Float).Set(given["metallic"])
-        surface.CreateInput("specular_roughness", Sdf.ValueTypeNames.Float).Set(given["roughness"])
-        made.CreateSurfaceOutput("mtlx").ConnectToSource(surface.ConnectableAPI(), "out")
-        return made
-    surface.CreateIdAttr("UsdPreviewSurface")
-    color = surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f)
-    color.Set(tuple(given["color"]))
-    surface.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(given["roughness"])
-    surface.CreateInput("metallic", Sdf.ValueTypeNames.Float).Set(given["metallic"])
+        return mtlx(shader("surface", "ND_standard_surface_surfaceshader", base=(kinds.Float, 1.0),
+                           base_color=(kinds.Color3f, color), metalness=(kinds.Float, metallic),
+                           specular_roughness=(kinds.Float, roughness)))
+    surface = shader("surface", "UsdPreviewSurface", diffuseColor=(kinds.Color3f, color),
+                     roughness=(kinds.Float, roughness), metallic=(kinds.Float, metallic))
     if given["image"]:
-        place = UsdShade.Shader.Define(stage, f"/materials/{name}/st")
-        place.CreateIdAttr("UsdPrimvarReader_float2")
-        place.CreateInput("varname", Sdf.ValueTypeNames.String).Set("st")
-        image = UsdShade.Shader.Define(stage, f"/materials/{name}/image")
-        image.CreateIdAttr("UsdUVTexture")
-        image.CreateInput("file", Sdf.ValueTypeNames.Asset).Set(given["image"])
-        image.CreateInput("st", Sdf.ValueTypeNames.Float2).ConnectToSource(place.ConnectableAPI(), "result")
-        color.ConnectToSource(image.ConnectableAPI(), "rgb")
+        place = shader("st", "UsdPrimvarReader_float2", varname=(kinds.String, "st"))
+        image = shader("image", "UsdUVTexture", file=(kinds.Asset, given["image"]))
+        image.CreateInput("st", kinds.Float2).ConnectToSource(place.ConnectableAPI(), "result")
+        surface.GetInput("diffuseColor").ConnectToSource(image.ConnectableAPI(), "rgb")
     made.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
     return made
 
@@ -128,6 +123,7 @@ def write(folder):
 def prepare(folder):
     """:returns: a function that draws, as pathWorker.serve() takes it"""
     path, scene = write(folder)
+    from patina import experiment
     from patina import stage as reader
     from patina.cli import compiled, denoiser
 
@@ -140,16 +136,12 @@ def prepare(folder):
 
     def draw(samples, seed, file, denoise):
         denoise = denoise and scene.get("denoise", False)
-        renderer.start(held, "/camera", {
+        experiment.draw(renderer, held, "/camera", {
             "width": scene["width"], "height": scene["height"], "samples": samples, "seed": seed, "threads": scene["threads"],
             "maxDepth": scene["depth"], "filterRadius": 0.5, "checkpointSeconds": 0.0,
             "aovs": list(denoiser.GUIDES) if denoise else [],
             "rouletteDepth": 1 if scene.get("roulette", True) else 4096,
             "methods": scene.get("methods", {})}, film)
-        renderer.wait()
-        state = renderer.progress()
-        if state["failed"]:
-            raise RuntimeError(state["error"])
         if denoise:
             denoiser.run(module, film, scene["threads"])
         if file != os.devnull:

@@ -15,8 +15,9 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, ".."))
 
-import experiment  # noqa: E402
+import benchRun  # noqa: E402
 import inProcess  # noqa: E402
+from patina import experiment  # noqa: E402
 from patina.cli import outputs  # noqa: E402
 
 # Below the folder of assets: public stages of others, of all kinds. The standard shader ball is ASWF's, the others are of the
@@ -55,8 +56,8 @@ def stages_of(options):
 def truths_of(stage):
     """:returns: choice point -> the method that tolerance 0 takes there; where materials differ (points of noise), none"""
     stage.image(0, samples=1, tolerance=0.0, dataWindow=(0, 0, 0, 0))
-    state, found = stage.renderer.progress(), {}
-    for choice in [*state["sceneChoices"], *(c for plan in state["plans"].values() for c in plan["choices"])]:
+    found = {}
+    for choice in [*stage.state["sceneChoices"], *(c for plan in stage.state["plans"].values() for c in plan["choices"])]:
         found.setdefault(choice["point"], set()).add(choice["method"])
     return {point: next(iter(methods)) for point, methods in found.items() if len(methods) == 1}
 
@@ -72,15 +73,11 @@ class Once:
     def seconds(self, seed):
         """:returns: processor seconds, samples of a pixel, whether it ended before the tolerance was reached, and the error
             that the plan expects"""
-        film, stage, begin, wall = self.stage.module.Film(), self.stage, time.process_time(), time.perf_counter()
-        stage.renderer.start(stage.scene, stage.camera, {**stage.settings, "seed": seed}, film)
-        stage.renderer.wait()
-        took, state = time.process_time() - begin, stage.renderer.progress()
-        if state["failed"]:
-            raise RuntimeError(state["error"])
-        counts = film.resolve("sampleCount")
+        stage, begin, wall = self.stage, time.process_time(), time.perf_counter()
+        film = stage.film(seed=seed)
+        took, counts = time.process_time() - begin, film.resolve("sampleCount")
         ended = counts.max() >= stage.settings["samples"] or time.perf_counter() - wall >= stage.settings["seconds"]
-        return took, float(counts.mean()), bool(ended), state["statistics"].get("predictedError", 0.0)
+        return took, float(counts.mean()), bool(ended), stage.state["statistics"].get("predictedError", 0.0)
 
 
 def measure(path, options):
@@ -106,7 +103,7 @@ def ratio_of(plan, without):
 
 
 def main(arguments):
-    parser = experiment.Parser("plan", __doc__, width=(64, "of the images"), samples=(4096, "at most"),
+    parser = benchRun.Parser("plan", __doc__, width=(64, "of the images"), samples=(4096, "at most"),
                                runs=(5, "pairs of images"), threads=(0, "of a render"))
     parser.add_argument("stages", nargs="*", help="(default: those of --assets, else scenes of testenv)")
     parser.add_argument("--assets", metavar="FOLDER", help="takes twelve public stages from it: StandardShaderBall, Teapot, "
@@ -117,14 +114,15 @@ def main(arguments):
     if options.runs < 1 or options.tolerance <= 0.0:
         parser.error("--runs takes at least 1, --tolerance more than 0")
     results = {}
-    print(f"to a tolerance of {options.tolerance:g}\n| stage | with the plan, over without | seconds | samples of a pixel |\n"
-          "|---|---|---|---|")
+    print(f"to a tolerance of {options.tolerance:g}")
+    print("\n".join(experiment.table(("stage", "with the plan, over without", "seconds", "samples of a pixel"))))
     for name, path in stages_of(options).items():
         row = results[name] = measure(path, options)
         early = row["without"]["ended"] and ("of a sample" if row["plan"]["ended"] else "at most")
-        print(f"| {name} | {early + ' ' if early else ''}{row['ratio']:.2f} ({row['least']:.2f} to {row['most']:.2f}) | "
-              f"{row['plan']['seconds']:.2f}, {row['without']['seconds']:.2f} | {row['plan']['samples']:.0f}, "
-              f"{row['without']['samples']:.0f} |", flush=True)
+        print(experiment.table_row((
+            name, f"{early + ' ' if early else ''}{row['ratio']:.2f} ({row['least']:.2f} to {row['most']:.2f})",
+            f"{row['plan']['seconds']:.2f}, {row['without']['seconds']:.2f}",
+            f"{row['plan']['samples']:.0f}, {row['without']['samples']:.0f}")), flush=True)
     ratios = [row["ratio"] for row in results.values()]
     print(f"median {statistics.median(ratios):.2f} (target: at most 0.5), largest {max(ratios):.2f} (target: 1.05)")
     outputs.write_json(options.json, {"tolerance": options.tolerance, "width": options.width, "stages": results})

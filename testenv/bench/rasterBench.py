@@ -14,7 +14,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, "..", "hydra"))
 
-import experiment  # noqa: E402
+import benchRun  # noqa: E402
 import hydraBuild  # noqa: E402
 from patina.cli import outputs  # noqa: E402
 
@@ -36,7 +36,7 @@ def measure(stage, size, edit, repeats, cold, backend):
     :raises SystemExit: with its reason when it cannot"""
     with tempfile.TemporaryDirectory() as folder:
         fresh = {"PATINA_CACHE": folder, "MESA_SHADER_CACHE_DIR": folder} if cold else {}
-        return experiment.figures(stage, [os.path.join(HERE, "rasterTimes.py"), stage, f"{size[0]}x{size[1]}", edit, repeats,
+        return benchRun.figures(stage, [os.path.join(HERE, "rasterTimes.py"), stage, f"{size[0]}x{size[1]}", edit, repeats,
                                           backend], env=dict(os.environ, **fresh))
 
 
@@ -46,7 +46,7 @@ def measure_storm(stage, size, edit, repeats):
         return None
     process = hydraBuild.run_engine(stage, "--renderer", "HdStormRendererPlugin", "--camera", CAMERA, "--size",
                                     f"{size[0]}x{size[1]}", "--repeats", repeats, "--edit", edit)
-    report = experiment.told(process, "Storm")
+    report = benchRun.told(process, "Storm")
     if report is None:
         return None
     seconds = report["seconds"]
@@ -68,7 +68,7 @@ def show(name, found):
 
 
 def main(arguments):
-    parser = experiment.Parser("raster", __doc__, "1280x720", repeats=(5, "edits and moves, of which medians are shown"))
+    parser = benchRun.Parser("raster", __doc__, "1280x720", repeats=(5, "edits and moves, of which medians are shown"))
     parser.add_argument("stages", nargs="*", choices=[[], *STAGES], help="of testenv/scenes (default: all five)")
     parser.add_argument("--cold", action="store_true", help="begin with empty caches of shaders")
     parser.add_argument("--backend", default="raster", choices=["raster", "embree"])

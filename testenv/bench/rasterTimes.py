@@ -11,6 +11,7 @@ import time
 import numpy as np
 
 import _patina
+from patina import experiment
 from patina import stage as reader
 from patina.cli import openStage
 
@@ -52,15 +53,9 @@ class Frames:
 
     def draw(self, start):
         """:returns: seconds since `start`, and the shares of this frame"""
-        self.renderer.start(self.scene, self.info.camera, self.settings, self.film)
-        self.renderer.wait()
+        found = experiment.draw(self.renderer, self.scene, self.info.camera, self.settings, self.film, self.backend)
         pixels = self.film.resolve("color")
         seconds = time.perf_counter() - start
-        found = self.renderer.progress()
-        if found["failed"]:
-            sys.exit(found["error"])
-        if found["backend"] != self.backend:
-            sys.exit(self.scene.warnings()[0]["message"])
         shares = {name[len("seconds"):].lower(): found["statistics"].get(name, 0.0) for name in SHARES}
         return seconds, shares, float(np.mean(pixels))
 

@@ -11,9 +11,10 @@ import statistics
 import subprocess
 import tempfile
 
-import experiment
+import benchRun
 import pathScenes
 import pathWorker
+from patina import experiment
 from patina.cli import outputs
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -47,19 +48,19 @@ def measure(name, library, options):
     with tempfile.TemporaryDirectory(prefix="rayBench") as folder:
         pathWorker.save(pathScenes.SCENES[name](folder), folder, {
             "width": options.pixels[0], "height": options.pixels[1], "depth": options.depth, "threads": 1})
-        return experiment.figures(name, [os.path.join(HERE, "rayWorker.py"), folder, library, options.samples, options.runs],
+        return benchRun.figures(name, [os.path.join(HERE, "rayWorker.py"), folder, library, options.samples, options.runs],
                                   env=dict(os.environ, LD_PRELOAD=library))
 
 
 def main(arguments):
-    parser = experiment.Parser("rays", __doc__, "192x108", samples=(8, "of a pixel"), runs=(5, "of each"), depth=(8, "bounces"))
+    parser = benchRun.Parser("rays", __doc__, "192x108", samples=(8, "of a pixel"), runs=(5, "of each"), depth=(8, "bounces"))
     parser.add_argument("scenes", nargs="*", help=f"of {', '.join(pathScenes.SCENES)} (default: all)")
     options = parser.parse(arguments)
     names = parser.known(options.scenes, pathScenes.SCENES, options.runs >= 1 and options.samples >= 1,
                          "--runs and --samples take at least 1")
     results = {}
-    print("| scene | rays of a frame, of that to lights | rays per second | the same rays alone | ratio (target 0.6) |\n"
-          "|---|---|---|---|---|")
+    print("\n".join(experiment.table(("scene", "rays of a frame, of that to lights", "rays per second", "the same rays alone",
+                                     "ratio (target 0.6)"))))
     with tempfile.TemporaryDirectory(prefix="rayBench") as folder:
         library = recorder(folder)
         for name in names:
@@ -68,7 +69,8 @@ def main(arguments):
             frame, bare = (rays / statistics.median(found[key]) for key in ("frame", "bare"))
             share = experiment.spread([b / f for b, f in zip(found["bare"], found["frame"])])
             shadows = 100 * found["occluded"] / rays
-            print(f"| {name} | {rays / 1e6:.2f} M, {shadows:.0f} % | {frame / 1e6:.2f} M | {bare / 1e6:.2f} M | "
-                  f"{share['ratio']:.2f} ({share['least']:.2f} to {share['most']:.2f}) |", flush=True)
+            print(experiment.table_row((
+                name, f"{rays / 1e6:.2f} M, {shadows:.0f} %", f"{frame / 1e6:.2f} M", f"{bare / 1e6:.2f} M",
+                f"{share['ratio']:.2f} ({share['least']:.2f} to {share['most']:.2f})")), flush=True)
     outputs.write_json(options.json, {"size": options.pixels, "samples": options.samples, "scenes": results})
     return 0

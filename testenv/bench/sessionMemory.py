@@ -9,6 +9,7 @@ import sys
 
 import _patina
 import rasterTimes
+from patina import experiment
 
 MEGABYTE = 2.0 ** 20
 
@@ -38,11 +39,7 @@ def main(stage, size, *backends):
     for backend in backends:
         renderer, film = _patina.make_renderer(backend), _patina.Film()
         kept.append((renderer, film))
-        renderer.start(frames.scene, frames.info.camera, frames.settings, film)
-        renderer.wait()
-        found = renderer.progress()
-        if found["failed"]:
-            sys.exit(found["error"])
+        experiment.draw(renderer, frames.scene, frames.info.camera, frames.settings, film)
         report(backend)
 
 

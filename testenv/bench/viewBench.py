@@ -11,8 +11,9 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, "..", "view"))
 
+import benchRun  # noqa: E402
 import browser  # noqa: E402
-import experiment  # noqa: E402
+from patina import experiment  # noqa: E402
 from patina.cli import outputs  # noqa: E402
 
 SCENES = os.path.normpath(os.path.join(HERE, "..", "scenes"))
@@ -44,7 +45,7 @@ def _measure(chromium, name, arguments, folder):
 
 
 def main(arguments):
-    options = experiment.Parser("view", __doc__).parse(arguments)
+    options = benchRun.Parser("view", __doc__).parse(arguments)
     if browser.missing():
         print("patina bench view: " + browser.missing(), file=sys.stderr)
         return 1
@@ -56,9 +57,8 @@ def main(arguments):
     finally:
         chromium.close()
     rows = [row for row in rows if row]
-    print("| page | MB | made in | first picture after | 64 samples in |\n|---|---|---|---|---|")
-    for row in rows:
-        print(f"| {row['page']} | {row['megabytes']:.2f} | {row['secondsToMake']:.1f} s | {row['secondsToFirstPicture']:.1f} s "
-              f"| {row['secondsFor64Samples']:.1f} s |")
+    print("\n".join(experiment.table(("page", "MB", "made in", "first picture after", "64 samples in"), [
+        (row["page"], f"{row['megabytes']:.2f}", *(f"{row[name]:.1f} s" for name in (
+            "secondsToMake", "secondsToFirstPicture", "secondsFor64Samples"))) for row in rows])))
     outputs.write_json(options.json, rows)
     return 0

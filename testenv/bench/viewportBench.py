@@ -17,7 +17,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path += [HERE, os.path.join(HERE, "..", "hydra")]
 
-import experiment  # noqa: E402
+import benchRun  # noqa: E402
 import hydraBuild  # noqa: E402
 from patina.cli import outputs  # noqa: E402
 
@@ -71,7 +71,7 @@ def host(stage, camera, renderer, options, edit="", image=""):
         except subprocess.TimeoutExpired:
             print(f"{renderer} took more than {options.limit} s", file=sys.stderr)
             return None
-    return experiment.told(process, renderer)
+    return benchRun.told(process, renderer)
 
 
 def measure(name, stage, camera, edits, options):
@@ -113,7 +113,7 @@ def cycles(folder, options):
         process = subprocess.run([*command, folder], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
         lines = [line for line in process.stdout.splitlines() if line.startswith("path bench: ")]
         if not lines:
-            print(f"Cycles does not run here: {experiment.reason(process)}", file=sys.stderr)
+            print(f"Cycles does not run here: {benchRun.reason(process)}", file=sys.stderr)
             return {}
         found.append(json.loads(lines[0][len("path bench: "):]))
     return {f"Cycles {found[0]['version']}": {"first": statistics.median(told["first"] for told in found)}}
@@ -134,7 +134,7 @@ def show(name, found):
 
 
 def main(arguments):
-    parser = experiment.Parser("viewport", __doc__, "640x360", runs=(5, "processes of each, of which medians are shown"),
+    parser = benchRun.Parser("viewport", __doc__, "640x360", runs=(5, "processes of each, of which medians are shown"),
                                repeats=(5, "moves and edits in each process"))
     parser.add_argument("stages", nargs="*", help=f"of {', '.join(STAGES)} (default: all), or FILE:CAMERA")
     parser.add_argument("--limit", type=float, default=300, help="seconds of a process, after which it is left out (300)")

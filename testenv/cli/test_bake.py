@@ -8,7 +8,9 @@ import pytest
 _patina = pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
+import inProcess  # noqa: E402
 from patina.cli import bake, bakeOutput, main, materials  # noqa: E402
+import usda  # noqa: E402
 
 PATTERNS = """<?xml version="1.0"?>
 <materialx version="1.39">
@@ -139,50 +141,25 @@ def _direct_network(document, tmp_path):
 
 def _render(tmp_path, name, material):
     stage = tmp_path / f"scene_{name}.usda"
-    stage.write_text(f"""#usda 1.0
-def Camera "camera" {{
-    float focalLength = 50
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    double3 xformOp:translate = (0, 0, 5)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}}
-def DomeLight "sky"
-{{
-    float inputs:intensity = 0.3
-}}
-def Mesh "quad" (prepend apiSchemas = ["MaterialBindingAPI"]) {{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
-    texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </material>
-}}
-def "material" (prepend references = @{material}@) {{ }}
-""")
+    stage.write_text(usda.stage(
+        usda.camera(lens=(50, 20, 20), at=(0, 0, 5)),
+        usda.prim("DomeLight", "sky", intensity=0.3),
+        usda.mesh("quad", [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], bind="material", st=usda.ST),
+        usda.prim("", "material", meta=(f"prepend references = @{material}@",)),
+        up=""))
     image = tmp_path / f"{name}.exr"
     assert main.main(["record", str(stage), str(image), "--quiet", "--camera", "/camera", "--imageWidth", "48",
                       "--imageHeight", "48", "--samples", "16"]) == 0
-    found = _patina.read_image(str(image))
-    return np.array(found.pixels)[..., [found.channels.index(c) for c in "RGB"]]
+    return inProcess.pixels(image)
 
 
-RING = """#usda 1.0
-def Material "M" {
-    token outputs:mtlx:surface.connect = </M/S.outputs:out>
-    def Shader "S" {
-        uniform token info:id = "ND_standard_surface_surfaceshader"
-        token inputs:surfaceshader.connect = </M/%s.outputs:out>
-        token outputs:out
-    }
-    def Shader "T" {
-        uniform token info:id = "ND_standard_surface_surfaceshader"
-        token inputs:surfaceshader.connect = </M/S.outputs:out>
-        token outputs:out
-    }
-}
-"""
+RING = usda.stage(
+    usda.prim("Material", "M", "token outputs:mtlx:surface.connect = </M/S.outputs:out>",
+        usda.prim("Shader", "S", 'uniform token info:id = "ND_standard_surface_surfaceshader"',
+                  "token inputs:surfaceshader.connect = </M/%s.outputs:out>", "token outputs:out"),
+        usda.prim("Shader", "T", 'uniform token info:id = "ND_standard_surface_surfaceshader"',
+                  "token inputs:surfaceshader.connect = </M/S.outputs:out>", "token outputs:out")),
+    up="")
 
 
 @pytest.mark.parametrize("source", ["S", "T"])

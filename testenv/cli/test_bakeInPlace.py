@@ -11,54 +11,19 @@ pytest.importorskip("pxr.Usd")
 from pxr import Sdf, Usd, UsdShade  # noqa: E402
 
 from patina.cli import main, materials, tryStage  # noqa: E402
+import usda  # noqa: E402
 
-STAGE = """#usda 1.0
-(
-    defaultPrim = "world"
-    subLayers = [@./below.usda@]
-)
-def Xform "world" (
-    customData = { string note = "kept" }
-)
-{
-    def Sphere "ball"
-    {
-        rel material:binding = </world/looks/one>
-    }
-    def Scope "looks"
-    {
-        def Material "one"
-        {
-            token outputs:surface.connect = </world/looks/one/s.outputs:surface>
-            def Shader "s"
-            {
-                uniform token info:id = "UsdPreviewSurface"
-                color3f inputs:diffuseColor.connect = </world/looks/one/t.outputs:rgb>
-                float inputs:roughness = 0.25
-                token outputs:surface
-            }
-            def Shader "t"
-            {
-                uniform token info:id = "UsdUVTexture"
-                asset inputs:file = @./paint.png@
-                float2 inputs:st.connect = </world/looks/one/uv.outputs:result>
-                float3 outputs:rgb
-            }
-            def Shader "uv"
-            {
-                uniform token info:id = "UsdPrimvarReader_float2"
-                string inputs:varname = "st"
-                float2 outputs:result
-            }
-        }
-        def Material "two" (
-            references = </world/looks/one>
-        )
-        {
-        }
-    }
-}
-"""
+STAGE = usda.stage(
+    usda.prim("Xform", "world",
+        usda.prim("Sphere", "ball", "rel material:binding = </world/looks/one>"),
+        usda.prim("Scope", "looks",
+            usda.material("one", {
+                "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>", "roughness": 0.25}),
+                "t": ("UsdUVTexture", {"file": "./paint.png", "float2 st": "<uv>"}),
+                "uv": ("UsdPrimvarReader_float2", {"varname": "st"})}, inside="/world/looks", surface="s"),
+            usda.prim("Material", "two", meta=("references = </world/looks/one>",))),
+        meta=('customData = { string note = "kept" }',)),
+    up="", defaultPrim="world", subLayers="[@./below.usda@]")
 BELOW = '#usda 1.0\nover "world"\n{\n    over "looks"\n    {\n        over "one"\n        {\n        }\n    }\n}\n'
 
 

@@ -12,6 +12,7 @@ import pytest
 _patina = pytest.importorskip("_patina")
 
 from patina.cli import main, materials  # noqa: E402
+import usda  # noqa: E402
 
 DIFFUSE = """<?xml version="1.0"?>
 <materialx version="1.39">
@@ -26,23 +27,10 @@ DIFFUSE = """<?xml version="1.0"?>
   </surfacematerial>
 </materialx>
 """
-STAGE = """#usda 1.0
-def Material "a"
-{
-    token outputs:surface.connect = </a/s.outputs:surface>
-    def Shader "s"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor = (0.5, 0.5, 0.5)
-        token outputs:surface
-    }
-}
-def Material "b" (
-    inherits = </a>
-)
-{
-}
-"""
+STAGE = usda.stage(
+    usda.preview("a", diffuseColor=(0.5, 0.5, 0.5)),
+    usda.prim("Material", "b", meta=("inherits = </a>",)),
+    up="")
 
 
 @pytest.fixture

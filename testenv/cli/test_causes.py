@@ -8,6 +8,7 @@ import pytest
 from patina import messages
 from patina.cli import causes, main
 from patina.cli.causes import Causes
+import usda
 
 
 def warning(id_, *fields, prim="/p", name="", count=1):
@@ -99,33 +100,17 @@ def test_what_was_told_is_told_again_only_at_the_end_and_when_there_is_more():
     assert Causes(many).lines(reported) == []
 
 
-STAGE = """#usda 1.0
-def Camera "cam" {
-    double3 xformOp:translate = (0, 0, 5)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "sky" { }
-def Mesh "hull" {
-    point3f[] points = [(0, 0, 0)]
-}
-"""
-SPHERE = """def Sphere "s%d" ( prepend apiSchemas = ["MaterialBindingAPI"] ) {
-    rel material:binding = </m%d>
-}
-def Material "m%d" {
-    token outputs:surface.connect = </m%d/s.outputs:surface>
-    def Shader "s" {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor.connect = </m%d/t.outputs:rgb>
-        token outputs:surface
-    }
-    def Shader "t" {
-        uniform token info:id = "UsdUVTexture"
-        asset inputs:file = @missing.png@
-        float3 outputs:rgb
-    }
-}
-"""
+STAGE = usda.stage(
+    usda.camera(name="cam", at=(0, 0, 5)),
+    usda.prim("DomeLight", "sky"),
+    usda.prim("Mesh", "hull", points=[(0, 0, 0)]),
+    up="")
+SPHERE = (
+    usda.prim("Sphere", "s%d", bind="m%d")
+    + usda.material("m%d", {
+                    "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}),
+                    "t": ("UsdUVTexture", {"file": "missing.png"})},
+                    surface="s"))
 
 
 @pytest.fixture

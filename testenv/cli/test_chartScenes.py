@@ -17,35 +17,13 @@ from patina.chart import (front, lobes, png, sceneCharts, sceneCommand, sceneLad
 from patina.chart.axes import Axis
 from patina.chart.plot import Plot
 from patina.cli import chart, compiled, errors, main
+import usda
 
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    double3 xformOp:translate = (0, 1, 6)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Sphere "ball"
-{
-    double3 xformOp:translate = (0, 1, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Cube "ground"
-{
-    double size = 20
-    double3 xformOp:translate = (0, -10, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def SphereLight "light"
-{
-    float inputs:intensity = 30
-    float inputs:radius = 0.3
-    double3 xformOp:translate = (2, 4, 2)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+STAGE = usda.stage(
+    usda.camera(at=(0, 1, 6)),
+    usda.prim("Sphere", "ball", at=(0, 1, 0)),
+    usda.prim("Cube", "ground", size=20, at=(0, -10, 0)),
+    usda.prim("SphereLight", "light", intensity=30, radius=0.3, at=(2, 4, 2)))
 HOSTILE = 'a<b>"&\'\x01<script>alert(1)<_script>.usda'  # no / can be in a name
 
 

@@ -9,6 +9,7 @@ import _patina
 import inProcess
 from inProcess import record
 from patina.cli import denoiser, imageMetrics
+import usda
 
 WIDTH = 64
 
@@ -48,70 +49,13 @@ def test_threads_change_no_bit(library, tmp_path):
 
 
 # A camera that looks at a mirror, tilted by 45 degrees, with an orange wall above it: all that it sees is that wall.
-MIRROR = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-    float focalLength = 200
-}
-def DistantLight "sun"
-{
-    float3 xformOp:rotateXYZ = (60, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-def Mesh "mirror" (prepend apiSchemas = ["MaterialBindingAPI"])
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-3, -3, 3), (3, -3, 3), (3, 3, -3), (-3, 3, -3)]
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </polished>
-}
-def Mesh "wall" (prepend apiSchemas = ["MaterialBindingAPI"])
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-20, 8, -20), (20, 8, -20), (20, 8, 20), (-20, 8, 20)]
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </matte>
-}
-def Material "polished"
-{
-    token outputs:mtlx:surface.connect = </polished/surface.outputs:out>
-    def Shader "bsdf"
-    {
-        uniform token info:id = "ND_conductor_bsdf"
-        float2 inputs:roughness = (0, 0)
-        token outputs:out
-    }
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_surface"
-        token inputs:bsdf.connect = </polished/bsdf.outputs:out>
-        token outputs:out
-    }
-}
-def Material "matte"
-{
-    token outputs:mtlx:surface.connect = </matte/surface.outputs:out>
-    def Shader "bsdf"
-    {
-        uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
-        color3f inputs:color = (0.8, 0.4, 0.1)
-        token outputs:out
-    }
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_surface"
-        token inputs:bsdf.connect = </matte/bsdf.outputs:out>
-        token outputs:out
-    }
-}
-"""
+MIRROR = usda.stage(
+    usda.camera(focalLength=200, at=(0, 0, 10)),
+    usda.prim("DistantLight", "sun", turn=(60, 0, 0)),
+    usda.mesh("mirror", [(-3, -3, 3), (3, -3, 3), (3, 3, -3), (-3, 3, -3)], bind="polished"),
+    usda.mesh("wall", [(-20, 8, -20), (20, 8, -20), (20, 8, 20), (-20, 8, 20)], bind="matte"),
+    usda.lobe("polished", "conductor_bsdf", roughness=(0, 0)),
+    usda.lobe("matte", "oren_nayar_diffuse_bsdf", color=(0.8, 0.4, 0.1)))
 
 
 def guides(found):

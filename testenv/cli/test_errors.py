@@ -9,21 +9,15 @@ import zipfile
 
 import pytest
 
+from patina import experiment
 from patina.cli import bench, explain, frames, main, record
 from patina.cli.errors import UsageError
+import usda
 
-BALL = """#usda 1.0
-def Sphere "ball"
-{
-    int elementSize = 1
-    uchar small = 1
-    float size = 1
-}
-def RectLight "light"
-{
-    int inputs:count = 3
-}
-"""
+BALL = usda.stage(
+    usda.prim("Sphere", "ball", "int elementSize = 1", "uchar small = 1", "float size = 1"),
+    usda.prim("RectLight", "light", "int inputs:count = 3"),
+    up="")
 
 
 def run(capsys, *arguments):
@@ -88,9 +82,8 @@ def test_as_many_threads_as_are_let(stage, tmp_path):
     scene, film, renderer = _patina.Scene(), _patina.Film(), _patina.make_renderer()
     with scene.edit() as edit:
         edit.set_camera("/camera", transform=[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
-    renderer.start(scene, "/camera", {"width": 4, "height": 4, "samples": 1, "threads": 1000000000}, film)
-    renderer.wait()
-    assert renderer.progress()["converged"]
+    settings = {"width": 4, "height": 4, "samples": 1, "threads": 1000000000}
+    assert experiment.draw(renderer, scene, "/camera", settings, film)["converged"]
 
 
 @pytest.mark.parametrize("arguments", [["record", "a.usda", "b\udcff.png"], ["record", "a\udcff.usda", "b.png"],
@@ -178,16 +171,10 @@ def test_damaged_stages(damage, tmp_path, capsys):
     pytest.importorskip("_patina")
     Sdf = pytest.importorskip("pxr.Sdf")
     layer = Sdf.Layer.CreateNew(str(tmp_path / "good.usdc"))
-    layer.ImportFromString("""#usda 1.0
-def Sphere "ballBallBall"
-{
-    rel material:binding = </ballBallBall/look>
-    def Material "look"
-    {
-        asset inputs:fileFileFile = @pictureOfPaint.png@
-    }
-}
-""")
+    layer.ImportFromString(usda.stage(
+        usda.prim("Sphere", "ballBallBall", "rel material:binding = </ballBallBall/look>",
+            usda.prim("Material", "look", "asset inputs:fileFileFile = @pictureOfPaint.png@")),
+        up=""))
     layer.Save()
     good = (tmp_path / "good.usdc").read_bytes()
     name = "bad.usdz" if damage >= 4 else "bad.usdc"

@@ -11,6 +11,7 @@ pytest.importorskip("pxr.Usd")
 
 from patina import inputs  # noqa: E402
 from patina.cli import main, record  # noqa: E402
+from usda import camera, material, prim, stage  # noqa: E402
 
 DOCUMENT = """<?xml version="1.0"?>
 <materialx version="1.39">
@@ -19,38 +20,15 @@ DOCUMENT = """<?xml version="1.0"?>
   <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
 </materialx>
 """
-STAGE = """#usda 1.0
-(
-    subLayers = [@./looks.usda@]
-)
-def Sphere "ball"
-{
-    rel material:binding = </m>
-}
-def Camera "camera"
-{
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
-LOOKS = """#usda 1.0
-def Material "m"
-{
-    token outputs:surface.connect = </m/s.outputs:surface>
-    def Shader "s"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor.connect = </m/t.outputs:rgb>
-        token outputs:surface
-    }
-    def Shader "t"
-    {
-        uniform token info:id = "UsdUVTexture"
-        asset inputs:file = @./paint.png@
-        float3 outputs:rgb
-    }
-}
-"""
+STAGE = stage(
+    prim("Sphere", "ball", "rel material:binding = </m>"),
+    camera(at=(0, 0, 10)),
+    up="", subLayers="[@./looks.usda@]")
+LOOKS = stage(
+    material("m",
+             {"s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}), "t": ("UsdUVTexture", {"file": "./paint.png"})},
+             surface="s"),
+    up="")
 # Files that stand at {out} are written; the rest are read.
 COMMANDS = {
     "record": ["record", "stage.usda", "{out}.png", "-w", "4", "--samples", "1", "--quiet"],

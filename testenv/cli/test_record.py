@@ -13,28 +13,13 @@ import pytest
 _patina = pytest.importorskip("_patina")
 
 from patina.cli import main, recordFlags  # noqa: E402
+import usda  # noqa: E402
 
-STAGE = """#usda 1.0
-(
-    startTimeCode = 1
-    endTimeCode = 3
-)
-def Camera "camera"
-{
-    float horizontalAperture = 20
-    float verticalAperture = 10
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Sphere "ball"
-{
-    double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 3: (100, 0, 0) }
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "dome"
-{
-}
-"""
+STAGE = usda.stage(
+    usda.camera(horizontalAperture=20, verticalAperture=10, at=(0, 0, 10)),
+    usda.prim("Sphere", "ball", at={1: (0, 0, 0), 3: (100, 0, 0)}),
+    usda.prim("DomeLight", "dome"),
+    up="", startTimeCode=1, endTimeCode=3)
 
 
 @pytest.fixture

@@ -11,122 +11,40 @@ _patina = pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
 from patina.cli import denoiser, main, products  # noqa: E402
+import usda  # noqa: E402
 
-STAGE = """#usda 1.0
-(
-    startTimeCode = 1
-    endTimeCode = 3
-    renderSettingsPrimPath = "/Render/main"
-)
-def Camera "camera"
-{
-    float horizontalAperture = 20
-    float verticalAperture = 10
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Camera "side" (
-    inherits = </camera>
-)
-{
-    double3 xformOp:translate = (1, 0, 10)
-}
-def Sphere "ball"
-{
-    double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 3: (100, 0, 0) }
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Cube "stand"
-{
-    uniform token purpose = "proxy"
-    double size = 40
-}
-def DomeLight "dome"
-{
-}
-def Scope "Render"
-{
-    def RenderSettings "main"
-    {
-        uniform int2 resolution = (32, 16)
-        rel camera = </camera>
-        rel products = [</Render/beauty>, </Render/depth>, </Render/other>]
-        int patina:samples = 3
-        token patina:method:domeLight = "sampled"
-    }
-    def RenderSettings "alone"
-    {
-        uniform int2 resolution = (24, 6)
-        uniform float pixelAspectRatio = 2
-        rel camera = </side>
-        uniform float4 dataWindowNDC = (0.5, 0, 1, 0.5)
-        uniform token[] includedPurposes = ["default", "proxy"]
-        int patina:seed = 9
-        float patina:tolerance = 0.5
-        int patina:minSamples = 2
-    }
-    def RenderSettings "odd"
-    {
-        rel products = [</Render/deep>, </ball>, </Render/beauty>]
-        float patina:nonsense = 3
-        token patina:cullStyle = "sideways"
-        int patina:samples = 1
-    }
-    def RenderPass "empty" (
-        prepend apiSchemas = ["CollectionAPI:prune"]
-    )
-    {
-        rel renderSource = </Render/main>
-        rel collection:prune:includes = [</ball>, </dome>]
-    }
-    def RenderPass "twice"
-    {
-        rel renderSource = [</Render/main>, </Render/alone>]
-    }
-    def RenderProduct "beauty"
-    {
-        token productName = "beauty.<F4>.exr"
-        rel orderedVars = [</Render/color>, </Render/alpha>]
-    }
-    def RenderProduct "depth"
-    {
-        token productName = "depth.%03d.exr"
-        rel orderedVars = [</Render/z>, </Render/n>, </Render/nothing>]
-    }
-    def RenderProduct "other"
-    {
-        token productName = "other.##.exr"
-        rel camera = </side>
-        uniform int2 resolution = (20, 10)
-    }
-    def RenderProduct "deep"
-    {
-        token productName = "deep.exr"
-        token productType = "hologram"
-    }
-    def RenderVar "color"
-    {
-        string sourceName = "Ci"
-        uniform token dataType = "color3h"
-    }
-    def RenderVar "alpha"
-    {
-        string sourceName = "a"
-    }
-    def RenderVar "z"
-    {
-        string sourceName = "cameraDepth"
-    }
-    def RenderVar "n"
-    {
-        string sourceName = "normal"
-    }
-    def RenderVar "nothing"
-    {
-        string sourceName = "nothing"
-    }
-}
-"""
+STAGE = usda.stage(
+    usda.camera(horizontalAperture=20, verticalAperture=10, at=(0, 0, 10)),
+    usda.camera("double3 xformOp:translate = (1, 0, 10)", name="side", meta=("inherits = </camera>",)),
+    usda.prim("Sphere", "ball", at={1: (0, 0, 0), 3: (100, 0, 0)}),
+    usda.prim("Cube", "stand", purpose="proxy", size=40),
+    usda.prim("DomeLight", "dome"),
+    usda.prim("Scope", "Render",
+        usda.prim("RenderSettings", "main", "uniform int2 resolution = (32, 16)", "rel camera = </camera>",
+                  "rel products = [</Render/beauty>, </Render/depth>, </Render/other>]", "int patina:samples = 3",
+                  'token patina:method:domeLight = "sampled"'),
+        usda.prim("RenderSettings", "alone", "uniform int2 resolution = (24, 6)", "uniform float pixelAspectRatio = 2",
+                  "rel camera = </side>", "uniform float4 dataWindowNDC = (0.5, 0, 1, 0.5)",
+                  'uniform token[] includedPurposes = ["default", "proxy"]', "int patina:seed = 9",
+                  "float patina:tolerance = 0.5", "int patina:minSamples = 2"),
+        usda.prim("RenderSettings", "odd", "rel products = [</Render/deep>, </ball>, </Render/beauty>]",
+                  "float patina:nonsense = 3", 'token patina:cullStyle = "sideways"', "int patina:samples = 1"),
+        usda.prim("RenderPass", "empty", "rel renderSource = </Render/main>",
+                  "rel collection:prune:includes = [</ball>, </dome>]", apis=("CollectionAPI:prune",)),
+        usda.prim("RenderPass", "twice", "rel renderSource = [</Render/main>, </Render/alone>]"),
+        usda.prim("RenderProduct", "beauty", "rel orderedVars = [</Render/color>, </Render/alpha>]",
+                  productName="beauty.<F4>.exr"),
+        usda.prim("RenderProduct", "depth", "rel orderedVars = [</Render/z>, </Render/n>, </Render/nothing>]",
+                  productName="depth.%03d.exr"),
+        usda.prim("RenderProduct", "other", "rel camera = </side>", "uniform int2 resolution = (20, 10)",
+                  productName="other.##.exr"),
+        usda.prim("RenderProduct", "deep", 'token productType = "hologram"', productName="deep.exr"),
+        usda.prim("RenderVar", "color", 'uniform token dataType = "color3h"', sourceName="Ci"),
+        usda.prim("RenderVar", "alpha", sourceName="a"),
+        usda.prim("RenderVar", "z", sourceName="cameraDepth"),
+        usda.prim("RenderVar", "n", sourceName="normal"),
+        usda.prim("RenderVar", "nothing", sourceName="nothing")),
+    up="", startTimeCode=1, endTimeCode=3, renderSettingsPrimPath="/Render/main")
 
 
 @pytest.fixture

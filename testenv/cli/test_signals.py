@@ -12,15 +12,9 @@ _patina = pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
 from patina.cli import checkpoints, interrupts, main, record, snapshots  # noqa: E402
+from usda import prim, stage  # noqa: E402
 
-STAGE = """#usda 1.0
-def Sphere "ball"
-{
-}
-def DomeLight "dome"
-{
-}
-"""
+STAGE = stage(prim("Sphere", "ball"), prim("DomeLight", "dome"), up="")
 LONG = ("-w", "64", "--samples", "65536", "--maxDepth", "1", "--quiet")
 SHORT = ("-w", "16", "--samples", "4", "--maxDepth", "1", "--quiet")  # where a test that fails renders all of it
 

@@ -15,19 +15,9 @@ _patina = pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
 from patina.cli import errors, frames, goOn, main, openStage, snapshots  # noqa: E402
+from usda import prim, stage  # noqa: E402
 
-STAGE = """#usda 1.0
-(
-    startTimeCode = 1
-    endTimeCode = 4
-)
-def Sphere "ball"
-{
-}
-def DomeLight "dome"
-{
-}
-"""
+STAGE = stage(prim("Sphere", "ball"), prim("DomeLight", "dome"), up="", startTimeCode=1, endTimeCode=4)
 SHORT = ("-w", "32", "--samples", "64", "--maxDepth", "1")
 
 

@@ -11,17 +11,12 @@ _patina = pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
 from patina.cli import standardStreams  # noqa: E402
+from usda import prim  # noqa: E402
 
 # Enough warnings for a pipe that nobody reads.
-STAGE = "#usda 1.0\n" + "".join(f"""def Material "m{i}"
-{{
-    token outputs:surface.connect = </nothing{i}.outputs:surface>
-}}
-def Sphere "ball{i}"
-{{
-    rel material:binding = </m{i}>
-}}
-""" for i in range(30))
+STAGE = "#usda 1.0\n" + "".join((
+    prim("Material", f"m{i}", f"token outputs:surface.connect = </nothing{i}.outputs:surface>")
+    + prim("Sphere", f"ball{i}", f"rel material:binding = </m{i}>")) for i in range(30))
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import pytest
 _patina = pytest.importorskip("_patina")
 
 from patina.chart import measureSubdivision, probes  # noqa: E402
-from patina.chart.sceneMeasures import LUMINANCE  # noqa: E402
+from patina.experiment import LUMINANCE, draw, relative_error  # noqa: E402
 from patina.cli import main  # noqa: E402
 
 SCENES = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
@@ -24,11 +24,9 @@ def ball(kind):
     alpha = 0.04
     own = (probes.network("oren_nayar_diffuse_bsdf", color=(0.5, 0.5, 0.5)) if kind == "diffuse" else
            probes.network("conductor_bsdf", ior=(0.2, 0.2, 0.2), extinction=(3.9, 3.9, 3.9), roughness=(alpha, alpha)))
-    place = np.eye(4, dtype=np.float32)
-    place[3, 2] = 4.0
     with scene.edit() as edit:
-        edit.set_camera("/camera", transform=place, orthographic=True, horizontal_aperture=12.0, vertical_aperture=12.0,
-                        clip_near=0.1)
+        edit.set_camera("/camera", transform=probes.moved(0, 0, 4), orthographic=True, horizontal_aperture=12.0,
+                        vertical_aperture=12.0, clip_near=0.1)
         edit.set_material("/own", own)
         edit.set_material("/grey", probes.network("oren_nayar_diffuse_bsdf", color=(0.2, 0.2, 0.2)))
         edit.set_mesh("/ball", points=points, face_vertex_counts=counts, face_vertex_indices=indices, scheme="catmullClark",
@@ -36,7 +34,7 @@ def ball(kind):
         edit.set_mesh("/wall", points=np.array([[-3, -3, -1], [3, -3, -1], [3, 3, -1], [-3, 3, -1]], np.float32),
                       face_vertex_counts=[4], face_vertex_indices=[0, 1, 2, 3], scheme="none", material="/grey")
         edit.set_light("/dome", type="dome", intensity=0.4)
-        edit.set_light("/key", type="rect", transform=measureSubdivision._facing(np.array((-0.5, 0.7, 0.5)), 4.0), width=2.5,
+        edit.set_light("/key", type="rect", transform=probes.facing((-0.5, 0.7, 0.5), 4.0), width=2.5,
                        height=2.5, intensity=9.0)
     return scene
 
@@ -47,10 +45,7 @@ def render(scene, backend, tolerance=None, methods=None, samples=16, **more):
                 "methods": methods or {}, "checkpointSeconds": 0.0, **more}
     if tolerance is not None:
         settings["tolerance"] = tolerance
-    renderer.start(scene, "/camera", settings, film)
-    renderer.wait()
-    progress = renderer.progress()
-    assert not progress["failed"], progress["error"]
+    progress = draw(renderer, scene, "/camera", settings, film)
     if progress["backend"] != backend:
         pytest.skip(f"no {backend} here")
     choices = {choice["point"]: choice for choice in progress["sceneChoices"]}
@@ -68,7 +63,7 @@ def test_edges_follow_the_tolerance(kind):
         chosen = choices["subdivision"]
         image, none, forced = render(scene, "embree", methods={"subdivision": chosen["method"]}, samples=96)
         assert not none and forced["trianglesStored"] == statistics["trianglesStored"]
-        error = float((np.abs(image - finest) / (finest + 0.01)).mean())
+        error = relative_error(image, finest)
         assert chosen["error"] <= 0.1 * tolerance
         assert error <= chosen["error"] + 1e-4, (tolerance, chosen, error)
         lengths.append(float(chosen["method"][:-2]))
@@ -94,7 +89,7 @@ def test_the_predicted_error_holds_in_the_rasterizer():
     finest, _, _ = render(scene, "raster", methods={"subdivision": "0.5px"}, samples=192)
     image, choices, _ = render(scene, "raster", TOLERANCES[0], methods={"areaLight": "sampled", "domeLight": "sampled"},
                                samples=192)
-    error = float((np.abs(image - finest) / (finest + 0.01)).mean())
+    error = relative_error(image, finest)
     assert error <= choices["subdivision"]["error"] + 1e-3
 
 
@@ -105,7 +100,7 @@ def test_small_surfaces_are_expected_to_be_far_off():
     finest = render(scene, "embree", methods={"subdivision": "0.5px"}, **small)[0]
     coarse, _, _ = render(scene, "embree", methods={"subdivision": "2px"}, **small)
     predicted = render(scene, "embree", 0.5, methods={"subdivision": "2px"}, **small)[1]["subdivision"]["error"]
-    wrong = float((np.abs(coarse - finest) / (finest + 0.01)).mean())
+    wrong = relative_error(coarse, finest)
     assert 0.0 < wrong <= predicted
     assert render(scene, "embree", 0.01, width=6, height=6, samples=1)[1]["subdivision"]["method"] in ("1px", "0.5px")
 

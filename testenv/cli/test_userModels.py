@@ -6,6 +6,8 @@ import sys
 
 import pytest
 
+from usda import material, stage
+
 pytest.importorskip("_patina")
 
 MODEL = """<materialx version="1.39">
@@ -34,18 +36,7 @@ WALL = """<materialx version="1.39">
   <surfacematerial name="wall" type="material">
     <input name="surfaceshader" type="surfaceshader" nodename="p"/></surfacematerial>
 </materialx>"""
-STAGE = """#usda 1.0
-def Material "wall"
-{
-    token outputs:mtlx:surface.connect = </wall/p.outputs:out>
-    def Shader "p"
-    {
-        uniform token info:id = "ND_plaster"
-        float inputs:shade = 0.75
-        token outputs:out
-    }
-}
-"""
+STAGE = stage(material("wall", {"p": ("ND_plaster", {"shade": 0.75})}, surface="p"), up="")
 
 
 def patina(*arguments, models):

@@ -11,22 +11,13 @@ sys.path[:0] = [os.path.join(HERE, ".."), os.path.join(HERE, "..", "hydra")]
 
 import hydraBuild  # noqa: E402
 import stages  # noqa: E402
+from usda import prim  # noqa: E402
 
 # Light from the eye shows which way a surface looks; what is behind the camera must not hide it.
-LIGHT = """def DistantLight "conformanceEye" (prepend apiSchemas = ["ShadowAPI"])
-{
-    float inputs:angle = 2
-    bool inputs:normalize = 1
-    float inputs:intensity = 2.4
-    bool inputs:shadow:enable = 0
-    matrix4d xformOp:transform = ( @rows@ )
-    uniform token[] xformOpOrder = ["xformOp:transform"]
-}
-def DomeLight "conformanceDome"
-{
-    float inputs:intensity = 0.25
-}
-"""
+LIGHT = (
+    prim("DistantLight", "conformanceEye", "bool inputs:shadow:enable = 0", angle=2, normalize=True, intensity=2.4,
+         apis=("ShadowAPI",), matrix="( @rows@ )")
+    + prim("DomeLight", "conformanceDome", intensity=0.25))
 SHAPES = ("Mesh", "Curves", "Points", "Implicit", "Volume")
 
 

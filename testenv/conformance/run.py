@@ -36,6 +36,7 @@ import hydraBuild  # noqa: E402
 import page  # noqa: E402
 import stageRun  # noqa: E402
 import ways  # noqa: E402
+from patina import experiment  # noqa: E402
 
 BAD = ("crash", "timeout", "memory", "NaN")
 
@@ -73,18 +74,15 @@ def work(sets, options, arguments):
     left = [(label, stage, [*stageRun.missing(rows.get(label), options["ways"])]) for label, stage in asked]
     left = [each for each in left if each[2]]
     print(f"{len(asked)} stages, of which {len(asked) - len(left)} are finished", flush=True)
-    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool, open(file, "a", encoding="utf-8") as out:
-        waiting = [pool.submit(stageRun.run, label, stage, dict(options, ways=names), parts.get(stage), rows.get(label))
-                   for label, stage, names in left]
-        try:
-            for number, done in enumerate(concurrent.futures.as_completed(waiting), 1):
-                row = done.result()
-                rows[row["name"]] = row
-                out.write(json.dumps(row) + "\n")
-                out.flush()
-                print(f"{number}/{len(left)} {line_of(row)}", flush=True)
-        finally:
-            pool.shutdown(cancel_futures=True)
+    tasks = [(label, stage, dict(options, ways=names), parts.get(stage), rows.get(label)) for label, stage, names in left]
+    pool = concurrent.futures.ThreadPoolExecutor(arguments.jobs)
+    with open(file, "a", encoding="utf-8") as out:
+        for number, (_, done) in enumerate(experiment.as_done(pool, stageRun.run, tasks), 1):
+            row = done.result()
+            rows[row["name"]] = row
+            out.write(json.dumps(row) + "\n")
+            out.flush()
+            print(f"{number}/{len(left)} {line_of(row)}", flush=True)
     return [rows[label] for label, _ in asked]
 
 

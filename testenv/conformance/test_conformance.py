@@ -18,21 +18,12 @@ import peers
 import run
 import watched
 import ways
+from usda import mesh, prim, stage
 
-TRIANGLE = """#usda 1.0
-def Mesh "triangle" (prepend references = @paint.usda@</paint>)
-{
-    int[] faceVertexCounts = [3]
-    int[] faceVertexIndices = [0, 1, 2]
-    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
-}
-"""
-PAINT = """#usda 1.0
-def "paint"
-{
-    color3f[] primvars:displayColor = [(1, 0, 0)]
-}
-"""
+TRIANGLE = stage(
+    mesh("triangle", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], scheme="", meta=("prepend references = @paint.usda@</paint>",)),
+    up="")
+PAINT = stage(prim("", "paint", color=(1, 0, 0)), up="")
 
 
 def write(folder, **texts):

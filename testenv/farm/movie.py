@@ -4,40 +4,15 @@ import os
 import subprocess
 import sys
 
-STAGE = '''#usda 1.0
-(
-    startTimeCode = 1
-    endTimeCode = 240
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    double3 xformOp:translate = (0, 1, 9)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Sphere "ball"
-{
-    double3 xformOp:translate.timeSamples = { 1: (-2, 1, 0), 240: (2, 1, 0) }
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-    color3f[] primvars:displayColor = [(0.8, 0.3, 0.1)]
-}
-def Mesh "floor"
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)]
-}
-def DomeLight "sky"
-{
-    float inputs:intensity = 0.6
-}
-def SphereLight "lamp"
-{
-    float inputs:intensity = 30
-    double3 xformOp:translate = (3, 5, 3)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-'''
+import usda
+
+STAGE = usda.stage(
+    usda.camera(at=(0, 1, 9)),
+    usda.prim("Sphere", "ball", at={1: (-2, 1, 0), 240: (2, 1, 0)}, color=(0.8, 0.3, 0.1)),
+    usda.floor("floor", 9, scheme=""),
+    usda.prim("DomeLight", "sky", intensity=0.6),
+    usda.prim("SphereLight", "lamp", intensity=30, at=(3, 5, 3)),
+    startTimeCode=1, endTimeCode=240)
 
 
 def write_stage(folder):

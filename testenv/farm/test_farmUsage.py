@@ -8,16 +8,11 @@ import pytest
 import movie
 from inProcess import patina, scene
 from patina.farm import jobFiles
+from usda import prim
 
 _patina = pytest.importorskip("_patina", reason="the Python module is not built")
 
-SETTINGS = '''
-def RenderSettings "main"
-{
-    int patina:samples = %d
-    bool patina:denoise = 0
-}
-'''
+SETTINGS = prim("RenderSettings", "main", "int patina:samples = %d", "bool patina:denoise = 0")
 
 
 def told(folder, *arguments):
@@ -62,16 +57,8 @@ def textured(folder):
     texture = folder / "wall[a].png"
     shutil.copy(scene("texturedDiffuse").rpartition("/")[0] + "/textures/" + "checker.png", texture)
     stage = folder / "walls.usda"
-    stage.write_text(movie.STAGE + '''
-def Scope "looks"
-{
-    def Shader "image"
-    {
-        uniform token info:id = "UsdUVTexture"
-        asset inputs:file = @./wall[a].png@
-    }
-}
-''')
+    stage.write_text(movie.STAGE + prim("Scope", "looks",
+        prim("Shader", "image", 'uniform token info:id = "UsdUVTexture"', "asset inputs:file = @./wall[a].png@")))
     return stage, texture
 
 

@@ -9,68 +9,23 @@ import time
 
 import damaged
 import outcomes
+from usda import camera, material, prim, stage
 
 EXTENSION = ".json"
 LINES = False
 CPU_SECONDS = 100  # a driver in software compiles for half a minute before it draws
-STAGE = '''#usda 1.0
-(
-    subLayers = [@layer.usda@]
-)
-def Camera "camera"
-{
-    double3 xformOp:translate = (0, 0, 6)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "dome"
-{
-    asset inputs:texture:file = @sky.exr@
-}
-def SphereLight "lamp"
-{
-    asset inputs:shaping:ies:file = @lamp.ies@
-    double3 xformOp:translate = (3, 3, 3)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Volume "puff"
-{
-    rel field:density = </puff/density>
-    def OpenVDBAsset "density"
-    {
-        asset filePath = @puff.vdb@
-        token fieldName = "density"
-    }
-}
-def Sphere "ball"
-{
-    rel material:binding = </m>
-}
-def Cube "box"
-{
-    rel material:binding = </documents/Materials/M>
-}
-def "documents" (
-    prepend references = @look.mtlx@</MaterialX>
-)
-{
-}
-def Material "m"
-{
-    token outputs:surface.connect = </m/s.outputs:surface>
-    def Shader "s"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        token outputs:surface
-        color3f inputs:diffuseColor.connect = </m/t.outputs:rgb>
-    }
-    def Shader "t"
-    {
-        uniform token info:id = "UsdUVTexture"
-        asset inputs:file = @checker.png@
-        color3f outputs:rgb
-    }
-}
-'''
+STAGE = stage(
+    camera(at=(0, 0, 6)),
+    prim("DomeLight", "dome", "asset inputs:texture:file = @sky.exr@"),
+    prim("SphereLight", "lamp", "asset inputs:shaping:ies:file = @lamp.ies@", at=(3, 3, 3)),
+    prim("Volume", "puff", "rel field:density = </puff/density>",
+        prim("OpenVDBAsset", "density", filePath="puff.vdb", fieldName="density")),
+    prim("Sphere", "ball", "rel material:binding = </m>"),
+    prim("Cube", "box", "rel material:binding = </documents/Materials/M>"),
+    prim("", "documents", meta=("prepend references = @look.mtlx@</MaterialX>",)),
+    material("m", {"s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}),
+                   "t": ("UsdUVTexture", {"file": "checker.png"}, "color3f rgb")}, surface="s"),
+    up="", subLayers="[@layer.usda@]")
 LAYER = '#usda 1.0\ndef Xform "many"\n{\n%s}\n'
 LOOK = '<?xml version="1.0"?>\n<materialx version="1.39">\n<standard_surface name="s" type="surfaceshader"/>\n' \
        '<surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>' \

@@ -1,16 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs libFuzzer's programs, which follow coverage, until they reach nothing new."""
+import glob
 import os
 import re
 import signal
 import subprocess
+import tempfile
 import threading
 import time
+
+import keptFindings
+import seeds
 
 _COVERED = re.compile(r"\bcov: (\d+)")
 _UNITS = re.compile(r"stat::number_of_executed_units: (\d+)|^Done (\d+) runs|^#(\d+)\t", re.MULTILINE)  # of the last line
 IN_MEMORY = "/dev/shm" if os.path.isdir("/dev/shm") else None  # for files of inputs, and what a program leaves when it dies
 ENDING_SECONDS = 30  # of a program that was asked to end
+LONGEST_INPUT = 4096  # bytes
 TOLD = 1 << 20  # characters that are kept of what a program says, of its end
 
 
@@ -74,3 +80,47 @@ def run(command, plateau, most, **options):
     text = "".join(told)
     counts = [int("".join(found)) for found in _UNITS.findall(text)]
     return 0 if asked.is_set() else process.returncode, text, counts[-1] if counts else 0
+
+
+def search(name, command, corpus, seconds, plateau, seed, say, why, read, lines, options):
+    """Runs a program for a time; after a finding it goes on, with another seed.
+
+    :param command: the program and flags of its own
+    :param corpus: folder of inputs; new ones that reach new code are added to that of the name
+    :param plateau: seconds of processors without a new edge after which it ends
+    :param why: function of an input's file and of what was said -> (kind, reason)
+    :param read: function of an input's file, its kind and a folder -> the bytes that are kept
+    :param lines: function of the folder of inputs and another -> (lines that they reach, all)
+    :param options: function of a folder -> those of subprocess.Popen
+    :returns: as generated.run(), with lines, and how long no edge was new at the end
+    :raises RuntimeError: where it ends by itself without a finding"""
+    work = os.path.join(corpus, name)
+    os.makedirs(work, exist_ok=True)
+    seeds.write(name, work)
+    start, inputs, findings, part, libraries, edges = time.monotonic(), 0, {}, 0, 0, Plateau()
+    with tempfile.TemporaryDirectory(dir=IN_MEMORY) as scratch:
+        while (left := seconds - (time.monotonic() - start)) > 1 and edges.seconds() < plateau:
+            prefix = os.path.join(scratch, f"found{part}-")
+            status, said, tried = run(
+                [*command, work, keptFindings.folder(name), f"-max_total_time={int(left)}", f"-seed={seed + part + 1}",
+                 f"-max_len={LONGEST_INPUT}", "-print_final_stats=1", f"-artifact_prefix={prefix}"],
+                edges, plateau, **options(scratch))
+            inputs += tried
+            part += 1
+            found = [path for path in glob.glob(glob.escape(prefix) + "*") if "-slow-unit-" not in path]  # short of a hang
+            if not found:
+                if status:
+                    raise RuntimeError(f"{name} ended with {status}: {said[-500:]}")
+                break
+            kind, reason = why(found[0], said)
+            libraries += kind == "library"
+            if kind == "library" or reason not in findings:
+                say(f"{kind}: {reason}")
+            if kind != "library" and reason not in findings:
+                findings[reason] = (kind, reason, read(found[0], kind, scratch), said[-4000:])
+        reached = lines(work, scratch)
+    counts = {"fine": inputs - libraries, **({"library": libraries} if libraries else {})}
+    for kind, *_ in findings.values():
+        counts[kind] = counts.get(kind, 0) + 1
+    return {"inputs": inputs, "seconds": time.monotonic() - start, "counts": counts, "findings": list(findings.values()),
+            "lines": reached, "plateau": edges.seconds()}

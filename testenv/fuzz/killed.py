@@ -11,28 +11,13 @@ import sys
 import time
 
 import outcomes
+from usda import camera, prim, stage
 
 EXTENSION = ".json"
 LINES = False
 CPU_SECONDS = 100  # a driver in software compiles for half a minute before it draws
-STAGE = '''#usda 1.0
-def Camera "camera"
-{
-    double3 xformOp:translate = (0, 0, 6)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Sphere "ball"
-{
-}
-def Cube "box"
-{
-    double3 xformOp:translate = (1, 0, -1)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "dome"
-{
-}
-'''
+STAGE = stage(camera(at=(0, 0, 6)), prim("Sphere", "ball"), prim("Cube", "box", at=(1, 0, -1)), prim("DomeLight", "dome"),
+              up="")
 FEATURES = {"cryptomatte": ("--aov", "cryptoObject", "--cryptomatteLevels", "4"),
             "aovs": ("--aov", "depth", "--aov", "normal"), "denoise": ("--denoise",), "tolerance": ("--tolerance", "0.05")}
 PATIENCE = 30.0  # seconds after which a render counts as hanging, when one that nobody kills has taken a tenth

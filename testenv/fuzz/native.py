@@ -1,19 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """libFuzzer's programs: built in a folder of their own, run for a time, their corpora and findings kept small."""
-import glob
 import json
 import os
 import re
 import shutil
 import subprocess
-import tempfile
-import time
 
 import following
-import seeds
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
-LONGEST_INPUT = 4096  # bytes
 HANG_SECONDS = 120  # of the clock: an empty image took 20 where sixteen processes shared two cores
 MEGABYTES = 2048
 _REASONS = ((r"promise broken: (.*)", "promise"), (r"ERROR: AddressSanitizer: ([\w-]+)", "crash"),
@@ -67,49 +62,20 @@ def _why(text):
 
 
 def run(name, fuzzer, folder, corpus, seconds, plateau, seed, say):
-    """Runs a program for a time; after a finding it goes on.
-
-    :param plateau: seconds of processors without a new edge after which it ends
-    :param corpus: folder of inputs; new ones that reach new code are added, and it is minimised
-    :returns: as generated.run(), with lines as (covered, all), and how long no edge was new at the end"""
+    """As following.search(). The corpus is minimised at the end."""
     program = os.path.join(folder, "fuzzers", name)
-    work = os.path.join(corpus, name)
-    os.makedirs(work, exist_ok=True)
-    seeds.write(name, work)
-    start, inputs, findings, part, libraries, edges = time.monotonic(), 0, {}, 0, 0, following.Plateau()
-    with tempfile.TemporaryDirectory(dir=following.IN_MEMORY) as scratch:
-        while (left := seconds - (time.monotonic() - start)) > 1 and edges.seconds() < plateau:
-            artifacts = os.path.join(scratch, f"found{part}-")
-            status, said, tried = following.run(
-                [program, work, os.path.join(ROOT, "testenv", "fuzz", "corpus", name), f"-max_total_time={int(left)}",
-                 f"-seed={seed + part + 1}",
-                 f"-max_len={LONGEST_INPUT}", f"-timeout={HANG_SECONDS}", f"-rss_limit_mb={MEGABYTES}",
-                 f"-artifact_prefix={artifacts}", "-print_final_stats=1", "-use_value_profile=0",
-                 "-entropic=0"],  # weighing inputs by what is rare costs time, and reached no more edges in runs of 40 s
-                edges, plateau, cwd=scratch, env=_environment(fuzzer, scratch))
-            inputs += tried
-            part += 1
-            found = [name for name in glob.glob(glob.escape(artifacts) + "*")
-                     if "-slow-unit-" not in name]  # short of HANG_SECONDS
-            if status == 0 and not found:
-                break
-            if not found:
-                raise Missing(f"{name} ended with {status}: {said.strip().splitlines()[-1:]}")
-            kind, reason = _why(said)
-            if kind == "library":
-                libraries += 1
-                say(f"{kind}: {reason}")
-            if kind == "library" or reason in findings:
-                continue
-            say(f"{kind}: {reason}")
-            findings[reason] = (kind, reason, _minimise(program, found[0], kind, scratch, fuzzer), said[-4000:])
-        lines = _coverage(program, work, fuzzer, scratch)
+
+    def lines(work, scratch):
+        reached = _coverage(program, work, fuzzer, scratch)
         _keep_small(program, work, scratch, fuzzer)
-    counts = {"fine": inputs - libraries, **({"library": libraries} if libraries else {})}
-    for kind, *_ in findings.values():
-        counts[kind] = counts.get(kind, 0) + 1
-    return {"inputs": inputs, "seconds": time.monotonic() - start, "counts": counts, "findings": list(findings.values()),
-            "lines": lines, "plateau": edges.seconds()}
+        return reached
+
+    return following.search(
+        name, [program, f"-timeout={HANG_SECONDS}", f"-rss_limit_mb={MEGABYTES}", "-use_value_profile=0",
+               "-entropic=0"],  # weighing inputs by what is rare costs time, and reached no more edges in runs of 40 s
+        corpus, seconds, plateau, seed, say, lambda _, said: _why(said),
+        lambda file, kind, scratch: _minimise(program, file, kind, scratch, fuzzer), lines,
+        lambda scratch: {"cwd": scratch, "env": _environment(fuzzer, scratch)})
 
 
 def _minimise(program, file, kind, scratch, fuzzer):

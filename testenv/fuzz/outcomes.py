@@ -7,6 +7,8 @@ import re
 import sys
 import traceback
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))  # for what inputs are made of
+
 BROKEN = 99  # exit status of an input that breaks a promise; the last line of standard error says which
 LIBRARY = 98  # of one that another library dies of, as it would without Patina
 KINDS = ("crash", "hang", "memory", "traceback", "promise")  # findings

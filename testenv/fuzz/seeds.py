@@ -5,8 +5,8 @@ import shutil
 import struct
 
 import damaged
+import keptFindings
 
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 IES = """IESNA:LM-63-2002
 [TEST] none
 TILT=NONE
@@ -56,11 +56,6 @@ def parts():
     return b"\0\2\0\1" + b"".join(part(2, (tile,), first) for first in (0, 2) for tile in tiles)
 
 
-def _kept(folder, extension):
-    return [os.path.join(ROOT, folder, name) for name in sorted(os.listdir(os.path.join(ROOT, folder)))
-            if name.endswith(extension)]
-
-
 def write(name, folder):
     """Puts the first inputs of a fuzzer into a folder that is its corpus."""
     texts = {"ies": {"plain": IES.encode()}, "film": {"checkpoint": checkpoint(), "part": part()},
@@ -69,7 +64,5 @@ def write(name, folder):
     for key, data in texts.items():
         with open(os.path.join(folder, "seed-" + key), "wb") as file:
             file.write(data)
-    others = {"mtlx": ("testenv/stability/corpus", ".mtlx"), "image": ("testenv/fuzz/corpus/texture", "")}.get(name)
-    if others:
-        for path in _kept(*others):
-            shutil.copy(path, os.path.join(folder, "seed-" + os.path.basename(path)))
+    for path in keptFindings.corpus({"mtlx": "randomGraphs", "image": "texture"}.get(name, "none")):
+        shutil.copy(path, os.path.join(folder, "seed-" + os.path.basename(path)))

@@ -7,56 +7,23 @@ import sys
 
 import pytest
 
+from usda import camera, material, prim, stage
+
 pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-STAGE = """#usda 1.0
-(
-    subLayers = [@http://example.org/layer.usda@]
-)
-def Camera "camera"
-{
-    double3 xformOp:translate = (0, 0, 6)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "dome"
-{
-    asset inputs:texture:file = @https://example.org/sky.exr@
-}
-def SphereLight "lamp"
-{
-    asset inputs:shaping:ies:file = @//example.org/lamp.ies@
-}
-def "many" (
-    prepend references = @http://example.org/many.usd@</many>
-    prepend payload = @ftp://example.org/more.usdz@
-)
-{
-}
-def Sphere "ball" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    rel material:binding = </look>
-}
-def Material "look"
-{
-    token outputs:surface.connect = </look/s.outputs:surface>
-    def Shader "s"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        token outputs:surface
-        color3f inputs:diffuseColor.connect = </look/t.outputs:rgb>
-    }
-    def Shader "t"
-    {
-        uniform token info:id = "UsdUVTexture"
-        asset inputs:file = @https://example.org/color.<UDIM>.png@
-        color3f outputs:rgb
-    }
-}
-"""
+STAGE = stage(
+    camera(at=(0, 0, 6)),
+    prim("DomeLight", "dome", "asset inputs:texture:file = @https://example.org/sky.exr@"),
+    prim("SphereLight", "lamp", "asset inputs:shaping:ies:file = @//example.org/lamp.ies@"),
+    prim("", "many",
+         meta=("prepend references = @http://example.org/many.usd@</many>", "prepend payload = @ftp://example.org/more.usdz@")),
+    prim("Sphere", "ball", bind="look"),
+    material("look", {
+        "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}),
+        "t": ("UsdUVTexture", {"file": "https://example.org/color.<UDIM>.png"}, "color3f rgb")}, surface="s"),
+    up="", subLayers="[@http://example.org/layer.usda@]")
 DOCUMENT = """<?xml version="1.0"?>
 <materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">
   <xi:include href="http://example.org/more.mtlx"/>

@@ -13,20 +13,16 @@ import pytest
 pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
+import faults  # noqa: E402
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 STAGE = '#usda 1.0\ndef Sphere "ball"\n{\n}\n'
 SMALL = ("-w", "8", "--samples", "1", "--maxDepth", "1", "--threads", "1", "--quiet")
 
 
 @pytest.fixture(scope="module")
-def library(tmp_path_factory):
-    compiler = shutil.which("cc") or shutil.which("gcc")
-    if not compiler:
-        pytest.skip("no C compiler to build the library that makes calls fail")
-    path = str(tmp_path_factory.mktemp("preload") / "failNth.so")
-    subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", path, os.path.join(HERE, "failNth.c"), "-ldl", "-lstdc++"],
-                   check=True)
-    return path
+def library():
+    return faults.library() or pytest.skip("no C compiler to build the library that makes calls fail")
 
 
 CARELESS = """#include <stdlib.h>

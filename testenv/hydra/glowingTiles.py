@@ -5,34 +5,13 @@ import sys
 
 import hydraBuild
 from rendering import pixels
+from usda import card, preview
 
 WIDTH = 40
 COLORS = {"a": (1, 0, 0), "b": (0, 1, 0), "c": (0, 0, 1), "d": (1, 1, 0)}
-TILE = """def Mesh "tile" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)]
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </World/look%s>
-}
-"""
-LOOK = """def Material "look%s"
-{
-    token outputs:surface.connect = </World/look%s/surface.outputs:surface>
-    def Shader "surface"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor = (0, 0, 0)
-        color3f inputs:emissiveColor = (%g, %g, %g)
-        int inputs:useSpecularWorkflow = 1
-        color3f inputs:specularColor = (0, 0, 0)
-        token outputs:surface
-    }
-}
-"""
+TILE = card("tile", 2, bind="World/look%s")
+LOOK = preview("look%s", inside="/World", diffuseColor=(0, 0, 0), useSpecularWorkflow=1, specularColor=(0, 0, 0),
+               **{"color3f emissiveColor": "(%g, %g, %g)"})
 
 
 def looks():

@@ -2,6 +2,8 @@
 """The stages that the Hydra tests render, with a camera for each: hosts need one that is a prim."""
 import os
 
+import usda
+
 ROOT = os.path.normpath(os.path.join(os.path.dirname(__file__), "..", ".."))
 SCENES = os.path.join(ROOT, "testenv", "scenes")
 STAGES = (".usd", ".usda", ".usdc", ".usdz")
@@ -38,26 +40,11 @@ CAMERA = """def Camera "framingCamera"
 }}
 """
 # An orthographic look along -z, @width@ by @height@ units around the origin, under a white sky.
-FRONT = """#usda 1.0
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = @width@0
-    float verticalAperture = @height@0
-    float2 clippingRange = (1, 100)
-    double3 xformOp:translate = (0, 0, 20)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "dome"
-{
-}
-"""
-LIGHT = """def DomeLight "testDome"
-{
-    color3f inputs:color = (1, 0.9, 0.8)
-    float inputs:intensity = 0.8
-}
-"""
+FRONT = usda.stage(
+    usda.camera(flat=("@width@0", "@height@0"), clippingRange=(1, 100), at=(0, 0, 20)),
+    usda.prim("DomeLight", "dome"),
+    up="")
+LIGHT = usda.prim("DomeLight", "testDome", "color3f inputs:color = (1, 0.9, 0.8)", intensity=0.8)
 
 
 def front(width, height):

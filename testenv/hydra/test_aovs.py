@@ -8,118 +8,37 @@ import numpy as np
 import pytest
 
 import hydraBuild
-from rendering import pixels
+import inProcess
+import usda
 
 MODES = pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
 NEAR, FAR = 2.0, 50.0
 SIZE = 32
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float2 clippingRange = (2, 50)
-    float focalLength = 50
-    float horizontalAperture = 50
-    float verticalAperture = 50
-}
-def Mesh "wall"
-{
-    int[] faceVertexCounts = [4, 4]
-    int[] faceVertexIndices = [0, 1, 4, 3, 1, 2, 5, 4]
-    point3f[] points = [(-20, -20, -10), (0, -20, -10), (20, -20, -10), (-20, 20, -10), (0, 20, -10), (20, 20, -10)]
-    texCoord2f[] primvars:st = [(0, 0), (0.5, 0), (1, 0), (0, 1), (0.5, 1), (1, 1)] (
-        interpolation = "vertex"
-    )
-    uniform token subdivisionScheme = "none"
-}
-"""
-INSTANCES = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float2 clippingRange = (0.1, 100)
-    float focalLength = 50
-    float horizontalAperture = 50
-    float verticalAperture = 50
-    token projection = "orthographic"
-}
-def PointInstancer "outer"
-{
-    int[] protoIndices = [1, 0, 1]
-    point3f[] positions = [(-1.5, 1, -10), (0, 1, -10), (1.5, 1, -10)]
-    rel prototypes = [</outer/single>, </outer/inner>]
-    def Mesh "single"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-0.3, -0.3, 0), (0.3, -0.3, 0), (0.3, 0.3, 0), (-0.3, 0.3, 0)]
-        uniform token subdivisionScheme = "none"
-    }
-    def PointInstancer "inner"
-    {
-        int[] protoIndices = [0, 0]
-        point3f[] positions = [(0, 0, 0), (0.6, 0, 0)]
-        rel prototypes = </outer/inner/tile>
-        def Mesh "tile"
-        {
-            int[] faceVertexCounts = [4]
-            int[] faceVertexIndices = [0, 1, 2, 3]
-            point3f[] points = [(-0.2, -0.2, 0), (0.2, -0.2, 0), (0.2, 0.2, 0), (-0.2, 0.2, 0)]
-            uniform token subdivisionScheme = "none"
-        }
-    }
-}
-class "Library"
-{
-    def Mesh "card"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-0.3, -0.3, 0), (0.3, -0.3, 0), (0.3, 0.3, 0), (-0.3, 0.3, 0)]
-        uniform token subdivisionScheme = "none"
-    }
-}
-def Xform "first" (
-    instanceable = true
-    references = </Library>
-)
-{
-    double3 xformOp:translate = (-1.5, -1, -10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Xform "second" (
-    instanceable = true
-    references = </Library>
-)
-{
-    double3 xformOp:translate = (1.5, -1, -10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Mesh "plain"
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-0.3, -1.3, -10), (0.3, -1.3, -10), (0.3, -0.7, -10), (-0.3, -0.7, -10)]
-    uniform token subdivisionScheme = "none"
-}
-"""
+STAGE = usda.stage(
+    usda.camera(lens=(50, 50, 50), clippingRange=(2, 50)),
+    usda.mesh("wall", [(-20, -20, -10), (0, -20, -10), (20, -20, -10), (-20, 20, -10), (0, 20, -10), (20, 20, -10)],
+              faces=[(0, 1, 4, 3), (1, 2, 5, 4)], st=[(0, 0), (0.5, 0), (1, 0), (0, 1), (0.5, 1), (1, 1)]))
+INSTANCES = usda.stage(
+    usda.camera(flat=(50, 50), clippingRange=(0.1, 100), focalLength=50),
+    usda.prim("PointInstancer", "outer", "rel prototypes = [</outer/single>, </outer/inner>]",
+        usda.card("single", 0.3),
+        usda.prim("PointInstancer", "inner", "rel prototypes = </outer/inner/tile>",
+            usda.card("tile", 0.2),
+            protoIndices=[0, 0], positions=[(0, 0, 0), (0.6, 0, 0)]),
+        protoIndices=[1, 0, 1], positions=[(-1.5, 1, -10), (0, 1, -10), (1.5, 1, -10)]),
+    usda.prim("", "Library", usda.card("card", 0.3), specifier="class"),
+    usda.prim("Xform", "first", meta=("instanceable = true", "references = </Library>"), at=(-1.5, -1, -10)),
+    usda.prim("Xform", "second", meta=("instanceable = true", "references = </Library>"), at=(1.5, -1, -10)),
+    usda.mesh("plain", [(-0.3, -1.3, -10), (0.3, -1.3, -10), (0.3, -0.7, -10), (-0.3, -0.7, -10)]))
 
 
 def render(tmp_path, text, *arguments, scene_index, size=SIZE):
     """:returns: dict of channels, each (height, width), and the report of the host"""
-    import _patina
-
     stage, image, report = tmp_path / "stage.usda", tmp_path / "image.exr", tmp_path / "report.json"
     stage.write_text(text)
     hydraBuild.run_host(stage, image, "--camera", "/camera", "--size", f"{size}x{size}", "--set", "samples=4",
                         "--json", report, *arguments, scene_index=scene_index)
-    found = _patina.read_image(str(image))
-    with open(report, encoding="utf-8") as file:
-        return dict(zip(found.channels, np.moveaxis(pixels(image), -1, 0))), json.load(file)
+    return inProcess.channels(image), json.loads(report.read_text())
 
 
 def outputs(*names):
@@ -206,14 +125,8 @@ def test_ids_are_those_of_prims_and_instances(tmp_path, scene_index):
 @MODES
 def test_light_paths_and_groups(tmp_path, scene_index):
     """Two suns, each of a light group, on a wall: each has its part of the colour."""
-    suns = "".join(f'''def DistantLight "{name}"
-{{
-    float inputs:intensity = {intensity}
-    float inputs:angle = 0
-    {label}
-}}
-''' for name, intensity, label in (("key", 1.0, 'custom string inputs:ri:light:lightGroup = "key"'),
-                                   ("fill", 2.0, 'custom string primvars:lightGroup = "fill"')))
+    suns = (usda.prim("DistantLight", "key", 'custom string inputs:ri:light:lightGroup = "key"', intensity=1.0, angle=0)
+            + usda.prim("DistantLight", "fill", 'custom string primvars:lightGroup = "fill"', intensity=2.0, angle=0))
     names = ("color", "diffuse", "specular", "lpe:C.*<L.'key'>", "lpe:C.*<L.'fill'>")
     channels, _ = render(tmp_path, STAGE + suns, *outputs(*names), "--set", "samples=64", scene_index=scene_index)
     diffuse, specular, key, other = (channels[f"{name}.x"].mean() for name in names[1:])

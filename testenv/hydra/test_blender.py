@@ -11,6 +11,7 @@ import pytest
 import hydraBuild
 import inProcess
 from patina.cli import blenderAddOn
+import usda
 
 SIZE, FRAME, DEPTH, SAMPLES = (160, 120), 2, 1, 64
 EVEN = 0.1  # of a value's size: neighbours that differ by no more lie on one surface
@@ -68,23 +69,10 @@ def test_the_viewport_shows_what_the_exported_stage_is(tmp_path):
         pytest.skip("this Blender draws nothing without a window")
     found = np.load(tmp_path / "viewport.npz")
     own, place, window = found["pixels"][::-1, :, :3], np.linalg.inv(found["view"].astype(np.float64)).T, found["window"]
-    rows = ", ".join(f"({', '.join(map(repr, map(float, row)))})" for row in place)
-    (tmp_path / "view.usda").write_text(f"""#usda 1.0
-(
-    subLayers = [@scene.usda@]
-    upAxis = "Z"
-    metersPerUnit = 1
-)
-def Camera "view"
-{{
-    float focalLength = 50
-    float horizontalAperture = {100 / window[0, 0]}
-    float verticalAperture = {100 / window[1, 1]}
-    float2 clippingRange = (0.01, 10000)
-    matrix4d xformOp:transform = ({rows})
-    uniform token[] xformOpOrder = ["xformOp:transform"]
-}}
-""", encoding="utf-8")
+    (tmp_path / "view.usda").write_text(usda.stage(
+        usda.camera(lens=(50, 100 / window[0, 0], 100 / window[1, 1]), name="view", clippingRange=(0.01, 10000),
+                    matrix=tuple(tuple(map(float, row)) for row in place)),
+        up="Z", subLayers="[@scene.usda@]", metersPerUnit=1), encoding="utf-8")
     height, width = own.shape[:2]
     stage = inProcess.Stage(str(tmp_path / "view.usda"), "--camera", "/view", "--frames", str(FRAME), "-w", str(width),
                             "--samples", "2", "--maxDepth", str(DEPTH), image_height=height)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import hydraBuild
+import inProcess
 import stages
 
 # 3: smoothed; 20: past the first image and the smoothing. Light that is taken away; a lens; fibres, which have a box of their
@@ -18,16 +19,13 @@ SIZE = "48x32"
 
 def drawn(tmp_path, scene, samples, aovs):
     """:returns: the channels of all AOVs by name, of the device and of the film"""
-    import _patina
-
     found = []
     for name, more in (("device", ()), ("film", ("sampleCount=float32",))):
         image = tmp_path / f"{name}.exr"
         hydraBuild.run_host(os.path.join(stages.SCENES, f"{scene}.usda"), image, "--camera", "/World/camera", "--size", SIZE,
                             "--set", "backend=raster", "--set", f"samples={samples}", "--set", "interactive=true",
                             *(word for aov in (*aovs, *more) for word in ("--aov", aov)))
-        read = _patina.read_image(str(image))
-        found.append(dict(zip(read.channels, np.moveaxis(np.array(read.pixels, np.float64), 2, 0))))
+        found.append({name: values.astype(np.float64) for name, values in inProcess.channels(image).items()})
     device, film = found
     assert (film.pop("sampleCount") == samples).all() and device.keys() == film.keys()
     return device, film

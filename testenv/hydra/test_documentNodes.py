@@ -7,6 +7,7 @@ import hydraBuild
 import stages
 from rendering import color
 from test_oneTruth import MODES, render_with_reader
+from usda import mesh, prim
 
 # Two documents give one name to nodes that differ: one tints, the other takes a fifth.
 DOCUMENT = """<?xml version="1.0"?>
@@ -66,17 +67,10 @@ EXPECTED = {"left": (0.8, 0.2, 0.0), "right": (0.1, 0.1, 0.2)}
 
 
 def stage_of():
-    squares = "".join(f"""
-def Mesh "{name}Square" (prepend apiSchemas = ["MaterialBindingAPI"])
-{{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [({x}, -1, 0), ({x + 2}, -1, 0), ({x + 2}, 1, 0), ({x}, 1, 0)]
-    rel material:binding = </{name}/Materials/{name}>
-}}
-def Scope "{name}" (references = @./{name}.mtlx@</MaterialX>)
-{{
-}}""" for name, x in (("left", -2), ("right", 0)))
+    squares = "".join((
+        mesh(f"{name}Square", [(x, -1, 0), (x + 2, -1, 0), (x + 2, 1, 0), (x, 1, 0)], scheme="",
+             bind=f"{name}/Materials/{name}")
+        + prim("Scope", name, meta=(f"references = @./{name}.mtlx@</MaterialX>",))) for name, x in (("left", -2), ("right", 0)))
     return stages.front(4, 2) + squares
 
 

@@ -9,6 +9,7 @@ import hydraBuild
 import stages
 from rendering import color
 from test_oneTruth import MODES, render_with_reader
+from usda import camera, prim, stage
 
 AROUND = 10
 # prim -> (faces, points, those of the lower half, first face of the side that looks at the camera)
@@ -32,20 +33,10 @@ def stage_of(colors, interpolation):
     uniform token[] xformOpOrder = ["xformOp:translate"]
 }}""")
     span = len(colors) * PITCH
-    return f"""#usda 1.0
-def Camera "camera"
-{{
-    token projection = "orthographic"
-    float horizontalAperture = {10 * span}
-    float verticalAperture = {10 * PITCH}
-    float2 clippingRange = (1, 100)
-    double3 xformOp:translate = ({(span - PITCH) / 2}, 0, 20)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}}
-def DomeLight "dome"
-{{
-}}
-""" + "\n".join(prims)
+    return stage(
+        camera(flat=(10 * span, 10 * PITCH), clippingRange=(1, 100), at=((span - PITCH) / 2, 0, 20)),
+        prim("DomeLight", "dome"),
+        up="") + "\n".join(prims)
 
 
 def check(colors, interpolation, expected, tmp_path, scene_index):

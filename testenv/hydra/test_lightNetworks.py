@@ -8,22 +8,14 @@ import stages
 from test_lightTextures import STAGE
 from test_marks import block
 from test_oneTruth import MODES, compare, render_with_hydra
+from usda import prim
 
 TEXTURE = os.path.join(stages.SCENES, "textures", "checker.png")
-NODES = f"""def Scope "rig" {{
-    def Shader "double" {{
-        uniform token info:id = "ND_multiply_float"
-        float inputs:in1 = 1.5
-        float inputs:in2 = 2
-        float outputs:out
-    }}
-    def Shader "image" {{
-        uniform token info:id = "ND_image_color3"
-        asset inputs:file = @{TEXTURE}@
-        color3f outputs:out
-    }}
-}}
-"""
+NODES = prim("Scope", "rig",
+    prim("Shader", "double", 'uniform token info:id = "ND_multiply_float"', "float inputs:in1 = 1.5", "float inputs:in2 = 2",
+         "float outputs:out"),
+    prim("Shader", "image", 'uniform token info:id = "ND_image_color3"', f"asset inputs:file = @{TEXTURE}@",
+         "color3f outputs:out"))
 
 
 @MODES

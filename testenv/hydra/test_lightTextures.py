@@ -7,29 +7,16 @@ import pytest
 import stages
 from test_marks import block
 from test_oneTruth import MODES, compare, render_with_hydra
+import usda
 
-STAGE = f"""#usda 1.0
-def Camera "camera"
-{{
-    double3 xformOp:translate = (0, 0, 6)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}}
-def Mesh "wall"
-{{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
-    uniform token subdivisionScheme = "none"
-}}
-def LIGHT "light"
-{{
-    float inputs:height = 4
-    float inputs:width = 4
-    asset inputs:texture:file = @{os.path.join(stages.SCENES, 'textures', 'checker.png')}@ (colorSpace = "SPACE")
-    double3 xformOp:translate = (0, 0, 3)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}}
-"""
+STAGE = usda.stage(
+    usda.camera(at=(0, 0, 6)),
+    usda.mesh("wall", [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]),
+    usda.prim("LIGHT", "light", "float inputs:height = 4", "float inputs:width = 4",
+              f"asset inputs:texture:file = @{os.path.join(stages.SCENES, 'textures', 'checker.png')}@ (colorSpace = "
+              f"\"SPACE\")",
+              at=(0, 0, 3)),
+    up="")
 
 
 @MODES

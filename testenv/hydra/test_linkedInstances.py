@@ -5,29 +5,18 @@ import pytest
 import hydraBuild
 import stages
 from test_oneTruth import MODES, compare, render_with_hydra
+from usda import card, prim
 
 LINK = """def DomeLight "dome"
 {
     rel collection:lightLink:includes = <@path@>
     uniform bool collection:lightLink:includeRoot = 0
 """
-INSTANCER = """def PointInstancer "tiles"
-{
-    rel prototypes = [</tiles/tile>]
-    int[] protoIndices = [0, 0]
-    point3f[] positions = [(-2, 0, 0), (2, 0, 0)]
-    def Mesh "tile"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
-        uniform token subdivisionScheme = "none"
-    }
-}
-def Xform "other"
-{
-}
-"""
+INSTANCER = (
+    prim("PointInstancer", "tiles", "rel prototypes = [</tiles/tile>]",
+        card("tile", 1),
+        protoIndices=[0, 0], positions=[(-2, 0, 0), (2, 0, 0)])
+    + prim("Xform", "other"))
 
 
 @MODES

@@ -6,34 +6,17 @@ import hydraBuild
 import stages
 from rendering import color
 from test_oneTruth import MODES, compare, render_with_hydra
+import usda
 
-STAGE = """#usda 1.0
-def Camera "camera"
-{
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Sphere "arnold"
-{
-    bool primvars:arnold:visibility:camera = 0
-}
-def Sphere "karma"
-{
-    string primvars:karma:object:rendervisibility = "-shadow"
-}
-def Sphere "renderMan"
-{
-    int primvars:ri:attributes:Ri:Matte = 1
-}
-def Xform "set"
-{
-    bool primvars:patina:shadowCatcher = 1
-    string primvars:patina:cryptoObject = "ground"
-    def Cube "floor"
-    {
-    }
-}
-"""
+STAGE = usda.stage(
+    usda.camera(at=(0, 0, 10)),
+    usda.prim("Sphere", "arnold", "bool primvars:arnold:visibility:camera = 0"),
+    usda.prim("Sphere", "karma", 'string primvars:karma:object:rendervisibility = "-shadow"'),
+    usda.prim("Sphere", "renderMan", "int primvars:ri:attributes:Ri:Matte = 1"),
+    usda.prim(
+        "Xform", "set", "bool primvars:patina:shadowCatcher = 1", 'string primvars:patina:cryptoObject = "ground"',
+        usda.prim("Cube", "floor")),
+    up="")
 
 
 def block(text, path):
@@ -61,29 +44,8 @@ def test_marks_are_read(tmp_path, scene_index, path, said):
             assert line in block(dump, path), dump
 
 
-NATIVE = stages.front(8, 4) + """
-class Xform "asset"
-{
-    def Mesh "tile"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)]
-        uniform token subdivisionScheme = "none"
-        color3f[] primvars:displayColor = [(0.4, 0.3, 0.2)]
-    }
-}
-"""
-INSTANCE = """def Xform "i@n@" (
-    inherits = </asset>
-    instanceable = true
-)
-{
-    @mark@
-    double3 xformOp:translate = (@x@, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+NATIVE = stages.front(8, 4) + usda.prim("Xform", "asset", usda.card("tile", 0.5, color=(0.4, 0.3, 0.2)), specifier="class")
+INSTANCE = usda.prim("Xform", "i@n@", "@mark@", meta=("inherits = </asset>", "instanceable = true"), at="(@x@, 0, 0)")
 MARKS = ("", "bool primvars:arnold:visibility:camera = 0", "bool primvars:arnold:matte = 1",
          'string primvars:karma:object:rendervisibility = "-primary"')
 

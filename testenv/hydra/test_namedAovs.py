@@ -8,39 +8,18 @@ import pytest
 
 import hydraBuild
 from rendering import pixels, record
+import usda
 
 MODES = pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
 SIZE, DISTANCE = 32, 8.0
 PIXELS = SIZE / DISTANCE  # a unit across at that distance; the aperture is as wide as the focal length
 ROUNDING = 16 * 64 * SIZE * 2.0 ** -24  # as in testenv/render/test_namedAovs.py
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float focalLength = 50
-    float horizontalAperture = 50
-    float verticalAperture = 50
-    float2 clippingRange = (0.1, 1000)
-    double shutter:open = %(open)g
-    double shutter:close = %(close)g
-    %(camera)s
-}
-%(prims)s
-"""
-QUAD = """def Mesh "%(name)s"
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points%(points)s
-    texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (
-        interpolation = "vertex"
-    )
-    uniform token subdivisionScheme = "none"
-    %(body)s
-}
-"""
+STAGE = usda.stage(
+    usda.camera("double shutter:open = %(open)g", "double shutter:close = %(close)g", "%(camera)s", lens=(50, 50, 50),
+                clippingRange=(0.1, 1000)),
+    "%(prims)s")
+QUAD = usda.prim("Mesh", "%(name)s", "point3f[] points%(points)s", "%(body)s", faceVertexCounts=[4],
+                 faceVertexIndices=[0, 1, 2, 3], subdivisionScheme="none", st=usda.ST)
 CORNERS = "[(-20, -20, -8), (20, -20, -8), (20, 20, -8), (-20, 20, -8)]"
 
 

@@ -11,7 +11,9 @@ import pytest
 import hydraBuild
 import sceneText
 import stages
+from patina import experiment
 from rendering import color
+import usda
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -54,10 +56,7 @@ def render_with_reader(shot):
     film, renderer = _patina.Film(), _patina.make_renderer("embree")
     settings = {"width": shot.size[0], "height": shot.size[1], "samples": SAMPLES, "seed": SEED,
                 "interactive": True}
-    renderer.start(shot.scene, shot.camera, settings, film)
-    while not renderer.wait(1.0):
-        pass
-    renderer.stop()
+    experiment.draw(renderer, shot.scene, shot.camera, settings, film)
     return np.array(film.resolve("color"))[..., :3]
 
 
@@ -181,41 +180,14 @@ def test_package(tmp_path, scene_index):
     compare(plain, image, scene_index)
 
 
-TILED = """
-def Mesh "@name@" (prepend apiSchemas = ["MaterialBindingAPI"])
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-2, @low@, 0), (2, @low@, 0), (2, @high@, 0), (-2, @high@, 0)]
-    texCoord2f[] primvars:st = [(0, 0), (2, 0), (2, 1), (0, 1)] (interpolation = "vertex")
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </@name@Look>
-}
-def Material "@name@Look"
-{
-    token outputs:surface.connect = </@name@Look/surface.outputs:surface>
-    def Shader "surface"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor = (0, 0, 0)
-        color3f inputs:emissiveColor.connect = </@name@Look/tiles.outputs:rgb>
-        token outputs:surface
-    }
-    def Shader "tiles"
-    {
-        uniform token info:id = "UsdUVTexture"
-        asset inputs:file = @@file@@
-        float2 inputs:st.connect = </@name@Look/st.outputs:result>
-        float3 outputs:rgb
-    }
-    def Shader "st"
-    {
-        uniform token info:id = "UsdPrimvarReader_float2"
-        string inputs:varname = "st"
-        float2 outputs:result
-    }
-}
-"""
+TILED = (
+    usda.prim("Mesh", "@name@", bind="@name@Look", faceVertexCounts=[4], faceVertexIndices=[0, 1, 2, 3],
+              points="[(-2, @low@, 0), (2, @low@, 0), (2, @high@, 0), (-2, @high@, 0)]", subdivisionScheme="none",
+              st=[(0, 0), (2, 0), (2, 1), (0, 1)])
+    + usda.material("@name@Look", {
+                    "surface": ("UsdPreviewSurface", {"diffuseColor": (0, 0, 0), "color3f emissiveColor": "<tiles>"}),
+                    "tiles": ("UsdUVTexture", {"file": "@file@", "float2 st": "<st>"}),
+                    "st": ("UsdPrimvarReader_float2", {"varname": "st"})}))
 
 
 @MODES
@@ -284,21 +256,13 @@ def test_mixed_shaders_and_back_shaders(tmp_path, scene_index):
     assert (np.abs(image - (0.0, 1.0, 0.0)) < 0.01).all(axis=2).sum() > 20
 
 
-MODEL = """#usda 1.0
-def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"])
-{
-    uniform token model:drawMode = "%s"
-    float3 model:drawModeColor = (1, 0.5, 0.1)
-    float3[] extentsHint = [(0, 0, 0), (4, 3, 1)]
-    def Mesh "triangle"
-    {
-        float3[] extent = [(0, 0, 0), (4, 3, 1)]
-        int[] faceVertexCounts = [3]
-        int[] faceVertexIndices = [0, 1, 2]
-        point3f[] points = [(0, 0, 0), (4, 0, 1), (0, 3, 0)]
-    }
-}
-"""
+MODEL = usda.stage(
+    usda.prim(
+        "Xform", "model", 'uniform token model:drawMode = "%s"', "float3 model:drawModeColor = (1, 0.5, 0.1)",
+        "float3[] extentsHint = [(0, 0, 0), (4, 3, 1)]",
+        usda.mesh("triangle", [(0, 0, 0), (4, 0, 1), (0, 3, 0)], "float3[] extent = [(0, 0, 0), (4, 3, 1)]", scheme=""),
+        meta=('kind = "component"; prepend apiSchemas = ["GeomModelAPI"]',)),
+    up="")
 
 
 @MODES
@@ -313,32 +277,16 @@ def test_models_drawn_as_lines(tmp_path, draw_mode, scene_index):
     assert 0 < (np.abs(image - image[0, 0]) > 1e-3).any(axis=2).sum() < 0.3 * image[..., 0].size
 
 
-MATERIAL_PRIMVAR = """#usda 1.0
-def Mesh "triangle" (prepend apiSchemas = ["MaterialBindingAPI"])
-{
-    int[] faceVertexCounts = [3]
-    int[] faceVertexIndices = [0, 1, 2]
-    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
-    rel material:binding = </material>
-}
-def Material "material"
-{
-    color3f primvars:own = (1, 0.2, 0)
-    token outputs:surface.connect = </material/surface.outputs:surface>
-    def Shader "surface"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor.connect = </material/own.outputs:result>
-        token outputs:surface
-    }
-    def Shader "own"
-    {
-        uniform token info:id = "UsdPrimvarReader_float3"
-        string inputs:varname = "own"
-        float3 outputs:result
-    }
-}
-"""
+MATERIAL_PRIMVAR = usda.stage(
+    usda.mesh("triangle", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], scheme="", bind="material"),
+    usda.prim(
+        "Material", "material", "color3f primvars:own = (1, 0.2, 0)",
+        "token outputs:surface.connect = </material/surface.outputs:surface>",
+        usda.prim("Shader", "surface", 'uniform token info:id = "UsdPreviewSurface"',
+                  "color3f inputs:diffuseColor.connect = </material/own.outputs:result>", "token outputs:surface"),
+        usda.prim("Shader", "own", 'uniform token info:id = "UsdPrimvarReader_float3"', 'string inputs:varname = "own"',
+                  "float3 outputs:result")),
+    up="")
 
 
 def test_primvars_of_a_material_are_those_of_its_prims(tmp_path):

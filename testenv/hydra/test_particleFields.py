@@ -5,36 +5,25 @@ import pytest
 
 import hydraBuild
 import stages
+from patina import experiment
 from rendering import color
 from test_oneTruth import MODES, compare, render_with_hydra
+from usda import prim
 
 _patina = pytest.importorskip("_patina")
-SPLATS = """def Xform "Prototype"
-{
-    double3 xformOp:translate = (1, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-    def ParticleField3DGaussianSplat "splats"
-    {
-        %(point)s positions%(h)s = [(0, 0, 0), (0.5, 0.25, 1), (-0.5, -0.5, 0.5)]
-        %(quat)s orientations%(h)s = [(1, 0, 0, 0), (0.5, 0.5, 0.5, 0.5), (0, 1, 0, 0)]
-        %(vector)s scales%(h)s = [(0.5, 0.25, 0.125), (0.5, 0.5, 0.125), (0.25, 1, 1)]
-        %(scalar)s opacities%(h)s = [1, 0.75, 0.5]
-        uniform int radiance:sphericalHarmonicsDegree = 1
-        %(vector)s radiance:sphericalHarmonicsCoefficients%(h)s = [(1, 0, 0), (0.5, 0, 0), (0, 0.5, 0), (0, 0, 0.5),
-            (0, 1, 0), (0, 0.5, 0), (0, 0, 0.5), (0.5, 0, 0), (0, 0, 1), (0, 0, 0.5), (0.5, 0, 0), (0, 0.5, 0)]
-    }
-}
-"""
+SPLATS = prim("Xform", "Prototype",
+    prim("ParticleField3DGaussianSplat", "splats",
+         "%(point)s positions%(h)s = [(0, 0, 0), (0.5, 0.25, 1), (-0.5, -0.5, 0.5)]",
+         "%(quat)s orientations%(h)s = [(1, 0, 0, 0), (0.5, 0.5, 0.5, 0.5), (0, 1, 0, 0)]",
+         "%(vector)s scales%(h)s = [(0.5, 0.25, 0.125), (0.5, 0.5, 0.125), (0.25, 1, 1)]",
+         "%(scalar)s opacities%(h)s = [1, 0.75, 0.5]", "uniform int radiance:sphericalHarmonicsDegree = 1",
+         "%(vector)s radiance:sphericalHarmonicsCoefficients%(h)s = [(1, 0, 0), (0.5, 0, 0), (0, 0.5, 0), (0, 0, 0.5), (0, "
+         "1, 0), (0, 0.5, 0), (0, 0, 0.5), (0.5, 0, 0), (0, 0, 1), (0, 0, 0.5), (0.5, 0, 0), (0, 0.5, 0)]"),
+    at=(1, 0, 0))
 FLOATS = {"point": "point3f[]", "quat": "quatf[]", "vector": "float3[]", "scalar": "float[]", "h": ""}
 HALVES = {"point": "point3h[]", "quat": "quath[]", "vector": "half3[]", "scalar": "half[]", "h": "h"}
-COPY = """def Xform "copy" ( instanceable = true
-    prepend references = </Prototype> )
-{
-    double3 xformOp:translate = (-1, 0.5, -1)
-    float3 xformOp:rotateXYZ = (10, 20, 30)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-"""
+COPY = prim("Xform", "copy", meta=("instanceable = true", "prepend references = </Prototype>"), at=(-1, 0.5, -1),
+            turn=(10, 20, 30))
 
 
 @MODES
@@ -61,8 +50,8 @@ def test_hosts_agree_on_the_rasterizer(opengl, tmp_path, scene_index):
                                   "backend=raster", scene_index=scene_index)
     assert not [line for line in hydraBuild.warnings_of(process) if "splats" in line]
     film, renderer = _patina.Film(), _patina.make_renderer("raster")
-    renderer.start(shot.scene, shot.camera, {"width": shot.size[0], "height": shot.size[1], "samples": 4, "seed": 0}, film)
-    renderer.wait()
+    settings = {"width": shot.size[0], "height": shot.size[1], "samples": 4, "seed": 0}
+    experiment.draw(renderer, shot.scene, shot.camera, settings, film)
     wanted = np.array(film.resolve("color"))[..., :3]
     assert color(image) == pytest.approx(wanted, abs=1e-5)  # rounding of transforms
     assert wanted.std() > 0.01

@@ -4,42 +4,18 @@ import hydraBuild
 import sceneText
 import stages
 from test_oneTruth import compare, render_with_hydra
+from usda import mesh, prim, stage
 
-STAGE = """#usda 1.0
-def Xform "library"
-{
-    color3f[] primvars:displayColor = [(0, 1, 0)]
-    def Xform "ball"
-    {
-        double3 xformOp:translate = (0, 1, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-        def Mesh "card"
-        {
-            int[] faceVertexCounts = [4]
-            int[] faceVertexIndices = [0, 1, 2, 3]
-            point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
-            uniform token subdivisionScheme = "none"
-        }
-    }
-}
-class Xform "asset"
-{
-    def PointInstancer "pi"
-    {
-        rel prototypes = [</library/ball>]
-        point3f[] positions = [(0, 0, 0), (2, 0, 0)]
-        int[] protoIndices = [0, 0]
-    }
-}
-def Xform "a" (
-    inherits = </asset>
-    instanceable = true
-)
-{
-    double3 xformOp:translate = (0, 3, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+STAGE = stage(
+    prim("Xform", "library",
+        prim("Xform", "ball", mesh("card", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]), at=(0, 1, 0)),
+        color=(0, 1, 0)),
+    prim("Xform", "asset",
+        prim("PointInstancer", "pi", "rel prototypes = [</library/ball>]", positions=[(0, 0, 0), (2, 0, 0)],
+             protoIndices=[0, 0]),
+        specifier="class"),
+    prim("Xform", "a", meta=("inherits = </asset>", "instanceable = true"), at=(0, 3, 0)),
+    up="")
 
 
 def shot_of(tmp_path):

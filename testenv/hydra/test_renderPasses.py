@@ -6,69 +6,26 @@ import pytest
 
 import hydraBuild
 from glowingTiles import COLORS, TILE, WIDTH, looks, pictures
+import usda
 
 pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_usdrecord(),
                                 reason="this OpenUSD has no usdrecord")
 # The four squares, from left to right: two plain ones, one of a native and one of a point instance.
-STAGE = """#usda 1.0
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = 200
-    float verticalAperture = 50
-    float2 clippingRange = (1, 100)
-    double3 xformOp:translate = (0, 0, 20)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Xform "World"
-{
-    def Xform "a"
-    {
-        double3 xformOp:translate = (-7.5, 0, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-        @tileA@
-    }
-    def Xform "b"
-    {
-        double3 xformOp:translate = (-2.5, 0, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-        @tileB@
-    }
-    def "c" (
-        inherits = </asset>
-        instanceable = true
-    )
-    {
-        double3 xformOp:translate = (2.5, 0, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-    }
-    def PointInstancer "d"
-    {
-        rel prototypes = </World/d/tile>
-        int[] protoIndices = [0]
-        point3f[] positions = [(7.5, 0, 0)]
-        @tileD@
-    }
-    @looks@
-}
-class Xform "asset"
-{
-    @tileC@
-}
-def Scope "Render"
-{
-    def RenderSettings "main"
-    {
-        uniform int2 resolution = (40, 10)
-        int patina:samples = 4
-    }
-    def RenderPass "pass" (prepend apiSchemas = ["CollectionAPI:prune", "CollectionAPI:matte"])
-    {
-        rel renderSource = </Render/main>
-        @pass@
-    }
-}
-"""
+STAGE = usda.stage(
+    usda.camera(flat=(200, 50), clippingRange=(1, 100), at=(0, 0, 20)),
+    usda.prim("Xform", "World",
+        usda.prim("Xform", "a", "@tileA@", at=(-7.5, 0, 0)),
+        usda.prim("Xform", "b", "@tileB@", at=(-2.5, 0, 0)),
+        usda.prim("", "c", meta=("inherits = </asset>", "instanceable = true"), at=(2.5, 0, 0)),
+        usda.prim("PointInstancer", "d", "rel prototypes = </World/d/tile>", "@tileD@", protoIndices=[0],
+                  positions=[(7.5, 0, 0)]),
+        "@looks@"),
+    usda.prim("Xform", "asset", "@tileC@", specifier="class"),
+    usda.prim("Scope", "Render",
+        usda.prim("RenderSettings", "main", "uniform int2 resolution = (40, 10)", "int patina:samples = 4"),
+        usda.prim("RenderPass", "pass", "rel renderSource = </Render/main>", "@pass@",
+                  apis=("CollectionAPI:prune", "CollectionAPI:matte"))),
+    up="")
 def write(path, lines):
     text = STAGE.replace("@pass@", lines)
     for name, rgb in COLORS.items():

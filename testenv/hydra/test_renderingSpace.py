@@ -5,92 +5,29 @@ import pytest
 
 import hydraBuild
 from rendering import color, patina
+import usda
 
 pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_usdrecord(),
                                 reason="this OpenUSD has no usdrecord")
 # A floor whose colour is a primvar, a card with a colour and a glow of a temperature, a coloured and a warm light.
-STAGE = """#usda 1.0
-( renderSettingsPrimPath = "/Render/settings" )
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = 60
-    float verticalAperture = 60
-    float2 clippingRange = (1, 100)
-    double3 xformOp:translate = (0, 0, 20)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Mesh "floor"
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-9, -9, -2), (9, -9, -2), (9, 9, -2), (-9, 9, -2)]
-    uniform token subdivisionScheme = "none"
-    color3f[] primvars:displayColor = [(0.7, 0.2, 0.1)]
-}
-def Mesh "card" ( prepend apiSchemas = ["MaterialBindingAPI"] )
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-2, -2, 0), (2, -2, 0), (2, 1, 0), (-2, 2, 0)]
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </paint>
-}
-def Material "paint"
-{
-    token outputs:mtlx:surface.connect = </paint/surface.outputs:out>
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_standard_surface_surfaceshader"
-        color3f inputs:base_color = (0.1, 0.7, 0.3)
-        float inputs:specular = 0.2
-        float inputs:emission = 0.1
-        color3f inputs:emission_color.connect = </paint/glow.outputs:out>
-        token outputs:out
-    }
-    def Shader "glow"
-    {
-        uniform token info:id = "ND_blackbody"
-        float inputs:temperature = 2500
-        color3f outputs:out
-    }
-}
-def DistantLight "sun"
-{
-    float inputs:intensity = 1
-    color3f inputs:color = (0.3, 0.9, 0.6)
-    float xformOp:rotateX = -30
-    uniform token[] xformOpOrder = ["xformOp:rotateX"]
-}
-def DomeLight "sky"
-{
-    float inputs:intensity = 0.5
-    bool inputs:enableColorTemperature = 1
-    float inputs:colorTemperature = 3500
-}
-def Scope "Render"
-{
-    def RenderSettings "settings"
-    {
-        uniform token renderingColorSpace = "@space@"
-        rel camera = </camera>
-        rel products = </Render/product>
-        custom int patina:samples = 16
-    }
-    def RenderProduct "product"
-    {
-        rel camera = </camera>
-        uniform int2 resolution = (32, 32)
-        token productName = "@product@"
-        rel orderedVars = </Render/color>
-    }
-    def RenderVar "color"
-    {
-        uniform token dataType = "color3f"
-        uniform string sourceName = "color"
-    }
-}
-"""
+STAGE = usda.stage(
+    usda.camera(flat=(60, 60), clippingRange=(1, 100), at=(0, 0, 20)),
+    usda.card("floor", 9, z=-2, color=(0.7, 0.2, 0.1)),
+    usda.mesh("card", [(-2, -2, 0), (2, -2, 0), (2, 1, 0), (-2, 2, 0)], bind="paint"),
+    usda.material("paint", {
+        "surface": ("ND_standard_surface_surfaceshader",
+                    {"base_color": (0.1, 0.7, 0.3), "specular": 0.2, "emission": 0.1,
+                     "color3f emission_color": "<glow>"}),
+        "glow": ("ND_blackbody", {"temperature": 2500}, "color3f out")}),
+    usda.prim("DistantLight", "sun", "color3f inputs:color = (0.3, 0.9, 0.6)", intensity=1, rotateX=-30),
+    usda.prim("DomeLight", "sky", intensity=0.5, enableColorTemperature=True, colorTemperature=3500),
+    usda.prim("Scope", "Render",
+        usda.prim("RenderSettings", "settings", 'uniform token renderingColorSpace = "@space@"', "rel camera = </camera>",
+                  "rel products = </Render/product>", "custom int patina:samples = 16"),
+        usda.prim("RenderProduct", "product", "rel camera = </camera>", "uniform int2 resolution = (32, 32)",
+                  "rel orderedVars = </Render/color>", productName="@product@"),
+        usda.prim("RenderVar", "color", 'uniform token dataType = "color3f"', 'uniform string sourceName = "color"')),
+    up="", renderSettingsPrimPath="/Render/settings")
 
 
 def written(folder, space, host):

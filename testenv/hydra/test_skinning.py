@@ -9,58 +9,28 @@ import hydraBuild
 import stages
 from test_marks import block
 from test_oneTruth import MODES, render_with_hydra
+import usda
 
-STAGE = """#usda 1.0
-(
-    timeCodesPerSecond = 24
-    startTimeCode = 1
-    endTimeCode = 2
-)
-def Camera "camera"
-{
-    double shutter:open = SHUTTER_OPEN
-    double shutter:close = SHUTTER_CLOSE
-    double3 xformOp:translate = (0, 1, 6)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def SkelRoot "root" (prepend apiSchemas = ["SkelBindingAPI"])
-{
-    rel skel:skeleton = </root/skeleton>
-    def Skeleton "skeleton" (prepend apiSchemas = ["SkelBindingAPI"])
-    {
-        uniform token[] joints = ["foot", "foot/knee"]
-        uniform matrix4d[] bindTransforms = [
-            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)),
-            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 1, 0, 1))]
-        uniform matrix4d[] restTransforms = [
-            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)),
-            ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 1, 0, 1))]
-        rel skel:animationSource = </root/skeleton/bend>
-        def SkelAnimation "bend"
-        {
-            uniform token[] joints = ["foot", "foot/knee"]
-            float3[] translations = [(0, 0, 0), (0, 1, 0)]
-            quatf[] rotations = [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]
-            half3[] scales = [(1, 1, 1), (1, 1, 1)]
-        }
-    }
-    def Mesh "leg" (prepend apiSchemas = ["SkelBindingAPI"])
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 3, 2]
-        point3f[] points = [(-0.5, 0, 0), (0.5, 0, 0), (-0.5, 2, 0), (0.5, 2, 0)]
-        uniform token subdivisionScheme = "none"
-        int[] primvars:skel:jointIndices = [0, 0, 1, 1] (
-            elementSize = 1
-            interpolation = "vertex"
-        )
-        float[] primvars:skel:jointWeights = [1, 1, 1, 1] (
-            elementSize = 1
-            interpolation = "vertex"
-        )
-    }
-}
-"""
+STAGE = usda.stage(
+    usda.camera("double shutter:open = SHUTTER_OPEN", "double shutter:close = SHUTTER_CLOSE", at=(0, 1, 6)),
+    usda.prim("SkelRoot", "root", "rel skel:skeleton = </root/skeleton>",
+        usda.prim(
+            "Skeleton", "skeleton", 'uniform token[] joints = ["foot", "foot/knee"]',
+            "uniform matrix4d[] bindTransforms = [ ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)), ((1, 0, 0, 0), "
+            "(0, 1, 0, 0), (0, 0, 1, 0), (0, 1, 0, 1))]",
+            "uniform matrix4d[] restTransforms = [ ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)), ((1, 0, 0, 0), "
+            "(0, 1, 0, 0), (0, 0, 1, 0), (0, 1, 0, 1))]",
+            "rel skel:animationSource = </root/skeleton/bend>",
+            usda.prim("SkelAnimation", "bend", 'uniform token[] joints = ["foot", "foot/knee"]',
+                      "float3[] translations = [(0, 0, 0), (0, 1, 0)]",
+                      "quatf[] rotations = [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]", "half3[] scales = [(1, 1, 1), (1, 1, 1)]"),
+            apis=("SkelBindingAPI",)),
+        usda.mesh("leg", [(-0.5, 0, 0), (0.5, 0, 0), (-0.5, 2, 0), (0.5, 2, 0)],
+                  'int[] primvars:skel:jointIndices = [0, 0, 1, 1] ( elementSize = 1; interpolation = "vertex" )',
+                  'float[] primvars:skel:jointWeights = [1, 1, 1, 1] ( elementSize = 1; interpolation = "vertex" )',
+                  faces=[(0, 1, 3, 2)], apis=("SkelBindingAPI",)),
+        apis=("SkelBindingAPI",)),
+    up="", timeCodesPerSecond=24, startTimeCode=1, endTimeCode=2)
 BEND = "quatf[] rotations = [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]"
 BENDING = "quatf[] rotations.timeSamples = {1: [(1, 0, 0, 0), (1, 0, 0, 0)], 2: [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]}"
 

@@ -14,6 +14,7 @@ import pytest
 import hydraBuild
 import stages
 from rendering import color
+import usda
 
 pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_usdrecord(),
                                 reason="this OpenUSD has no usdrecord")
@@ -88,22 +89,13 @@ def test_asset(tmp_path, stage):
 
 # What others read: scene -> how it changes from frame 1 to frame 2.
 CHANGES = {
-    "lightFilters.usda": """over "gobo"
-    {
-        float inputs:ri:lightFilter:width.timeSamples = { 1: 0.5, 2: 1.5 }
-    }""",
-    "volume.usda": """over "puff"
-    {
-        over "density"
-        {
-            token fieldName.timeSamples = { 1: "density", 2: "heat" }
-        }
-    }""",
-    "motionBlur.usda": """over "camera"
-    {
-        double shutter:open.timeSamples = { 1: 0, 2: -1 }
-        double shutter:close.timeSamples = { 1: 0, 2: 1 }
-    }""",
+    "lightFilters.usda": usda.prim("", "gobo", "float inputs:ri:lightFilter:width.timeSamples = { 1: 0.5, 2: 1.5 }",
+                                   specifier="over"),
+    "volume.usda": usda.prim("", "puff",
+        usda.prim("", "density", 'token fieldName.timeSamples = { 1: "density", 2: "heat" }', specifier="over"),
+        specifier="over"),
+    "motionBlur.usda": usda.prim("", "camera", "double shutter:open.timeSamples = { 1: 0, 2: -1 }",
+                                 "double shutter:close.timeSamples = { 1: 0, 2: 1 }", specifier="over"),
 }
 
 
@@ -111,13 +103,9 @@ CHANGES = {
 @pytest.mark.parametrize("scene", CHANGES)
 def test_next_frame_is_as_a_first_one(tmp_path, scene, scene_index):
     stage = tmp_path / "changes.usda"
-    stage.write_text(f"""#usda 1.0
-( subLayers = [@{os.path.join(stages.SCENES, scene)}@] )
-over "World"
-{{
-    {CHANGES[scene]}
-}}
-""", encoding="utf-8")
+    stage.write_text(usda.stage(f"( subLayers = [@{os.path.join(stages.SCENES, scene)}@] )",
+        usda.prim("", "World", f"{CHANGES[scene]}", specifier="over"),
+        up=""), encoding="utf-8")
     for name, frames in (("both", "1:2"), ("alone", "2:2")):
         process = hydraBuild.run_usdrecord(stage, tmp_path / f"{name}.#.exr", "--imageWidth", WIDTH, "--frames", frames,
                                            "--camera", "/World/camera", scene_index=scene_index)
@@ -132,42 +120,18 @@ def test_camera_that_is_not_there(tmp_path):
     assert process.returncode >= 0  # a message or the framing camera, but no crash
 
 
-PRODUCTS = """#usda 1.0
-( subLayers = [@{stage}@]
-  renderSettingsPrimPath = "/Render/settings" )
-def Scope "Render"
-{{
-    def RenderSettings "settings"
-    {{
-        rel camera = </World/camera>
-        rel products = </Render/product>
-        custom int patina:samples = 3
-    }}
-    def RenderProduct "product"
-    {{
-        rel camera = </World/camera>
-        uniform int2 resolution = (40, 30)
-        token productName = "{product}"
-        rel orderedVars = [</Render/color>, </Render/depth>]
-    }}
-    def RenderVar "color"
-    {{
-        uniform token dataType = "color3f"
-        uniform string sourceName = "color"
-    }}
-    def RenderVar "depth"
-    {{
-        uniform token dataType = "float"
-        uniform string sourceName = "cameraDepth"
-    }}
-}}
-"""
-
-
 @pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
 def test_products_are_written(tmp_path, scene_index):
     stage, product = tmp_path / "stage.usda", tmp_path / "product.exr"
-    stage.write_text(PRODUCTS.format(stage=os.path.join(stages.SCENES, "diffuseBox.usda"), product=product))
+    stage.write_text(usda.stage(
+        usda.prim("Scope", "Render",
+            usda.prim("RenderSettings", "settings", "rel camera = </World/camera>", "rel products = </Render/product>",
+                      "custom int patina:samples = 3"),
+            usda.prim("RenderProduct", "product", "rel camera = </World/camera>", "uniform int2 resolution = (40, 30)",
+                      "rel orderedVars = [</Render/color>, </Render/depth>]", productName=str(product)),
+            *(usda.prim("RenderVar", name, f'uniform token dataType = "{kind}"', f'uniform string sourceName = "{source}"')
+              for name, kind, source in (("color", "color3f", "color"), ("depth", "float", "cameraDepth")))),
+        up="", subLayers=f"[@{os.path.join(stages.SCENES, 'diffuseBox.usda')}@]", renderSettingsPrimPath="/Render/settings"))
     process = hydraBuild.run_usdrecord(stage, tmp_path / "view.png", "--imageWidth", WIDTH,
                                        "--renderSettingsPrimPath", "/Render/settings", scene_index=scene_index)
     assert product.exists(), process.stderr

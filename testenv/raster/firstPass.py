@@ -18,6 +18,7 @@ import time
 import numpy as np
 
 import _patina
+from patina import experiment
 from patina import stage as reader
 from patina.chart import png
 from patina.cli import imageMetrics, openStage
@@ -90,13 +91,7 @@ class Stage:
         renderer = self.renderers.setdefault(backend, _patina.make_renderer(backend))
         film = _patina.Film()
         settings = {**self.size, "samples": samples, "seed": seed, "checkpointSeconds": 0.0, **more}
-        renderer.start(self.scene, self.camera, settings, film)
-        renderer.wait()
-        self.progress = renderer.progress()
-        if self.progress["failed"]:
-            raise RuntimeError(self.progress["error"])
-        if self.progress["backend"] != backend:
-            raise RuntimeError(self.scene.warnings()[0]["message"])
+        self.progress = experiment.draw(renderer, self.scene, self.camera, settings, film, backend)
         return np.array(film.resolve("color"), dtype=np.float32).reshape(self.size["height"], self.size["width"], -1)[..., :3]
 
     def truth(self, samples, cache):

@@ -4,43 +4,20 @@ import os
 
 import numpy as np
 
-# A world that a camera looks down on; prims of one's own follow.
-WORLD = """#usda 1.0
-(
-    defaultPrim = "World"
-    upAxis = "Y"
-    metersPerUnit = 1
-)
-def Xform "World"
-{
-    def Camera "camera"
-    {
-        float2 clippingRange = (0.01, 1000)
-        float focalLength = 24
-        float horizontalAperture = 20.955
-        float verticalAperture = 20.955
-        matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0.6, -0.8, 0), (0, 0.8, 0.6, 0), (0, 5.6, 4.2, 1))
-        uniform token[] xformOpOrder = ["xformOp:transform"]
-    }
-%s
-}
-"""
-STAGE = WORLD % """    def Mesh "floor"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-3, 0, 3), (3, 0, 3), (3, 0, -3), (-3, 0, -3)]
-        uniform token subdivisionScheme = "none"
-        color3f[] primvars:displayColor = [(0.6, 0.6, 0.6)]
-    }
-    def Cube "block"
-    {
-        double size = 0.8
-        double3 xformOp:translate = (0.5, 0.4, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-        color3f[] primvars:displayColor = [(0.6, 0.3, 0.2)]
-    }
-%s"""
+import usda
+
+FLOOR = usda.floor("floor", 3, color=(0.6, 0.6, 0.6))
+BLOCK = usda.prim("Cube", "block", size=0.8, at=(0.5, 0.4, 0), color=(0.6, 0.3, 0.2))
+
+
+def world(*prims):
+    """A world that a camera looks down on. :returns: the text of the stage"""
+    camera = usda.camera(lens=(24, 20.955, 20.955), clippingRange=(0.01, 1000),
+                         matrix=((1, 0, 0, 0), (0, 0.6, -0.8, 0), (0, 0.8, 0.6, 0), (0, 5.6, 4.2, 1)))
+    return usda.stage(usda.prim("Xform", "World", camera, *prims), defaultPrim="World", metersPerUnit=1)
+
+
+STAGE = world(FLOOR, BLOCK, "%s")
 
 PROFILE = """IESNA:LM-63-1995
 TILT=NONE
@@ -55,15 +32,11 @@ TILT=NONE
 1000 900 500 100 0
 """
 
-ASIDE = """        double3 xformOp:translate = (-2.2, 3.5, 2.5)
-        float3 xformOp:rotateXYZ = (-50, -40, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-"""
+ASIDE = {"at": (-2.2, 3.5, 2.5), "turn": (-50, -40, 0)}
 
 
-def light(kind, text, name="light", api="", place=ASIDE):
-    prepend = f'(\n        prepend apiSchemas = ["{api}"]\n    )\n' if api else ""
-    return f'    def {kind} "{name}" {prepend}\n    {{\n{text}\n{place}    }}\n'
+def light(kind, *lines, name="light", place=ASIDE, **inputs):
+    return usda.prim(kind, name, *lines, **inputs, **place)
 
 
 def write(folder, stage):

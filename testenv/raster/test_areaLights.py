@@ -8,60 +8,41 @@ import pytest
 
 import floorLights
 import inProcess
-from floorLights import STAGE, light
+from floorLights import light
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
 OUTLINES = {"areaLight": "linearlyTransformedCosines"}
 
 
-def behind(kind, text, color, name, x):
+def behind(kind, name, x, color, **inputs):
     """A light that the floor mirrors."""
-    return light(kind, f"        color3f inputs:color = {color}\n        float inputs:intensity = 8\n" + text, name, place=f"""\
-        double3 xformOp:translate = ({x}, 2.5, -3)
-        float3 xformOp:rotateXYZ = (-140, 0, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-""")
+    return light(kind, name=name, color=color, intensity=8, **inputs, place={"at": (x, 2.5, -3), "turn": (-140, 0, 0)})
 
 
 # A channel each, but for the disk.
-LIGHTS = (behind("RectLight", "        float inputs:width = 1.6\n        float inputs:height = 0.8", (1, 0, 0), "rect", 0)
-          + behind("SphereLight", "        float inputs:radius = 0.5", (0, 1, 0), "sphere", 0)
-          + behind("CylinderLight", "        float inputs:length = 2\n        float inputs:radius = 0.3", (0, 0, 1), "tube", -1)
-          + behind("DiskLight", "        float inputs:radius = 0.4", (0, 0, 0.7), "disk", 1.6))
-
-MATERIAL = """    def Material "%s"
-    {
-        token outputs:surface.connect = </World/%s/surface.outputs:surface>
-        def Shader "surface"
-        {
-            uniform token info:id = "%s"
-%s
-            token outputs:surface
-        }
-    }
-"""
+LIGHTS = (behind("RectLight", "rect", 0, (1, 0, 0), width=1.6, height=0.8)
+          + behind("SphereLight", "sphere", 0, (0, 1, 0), radius=0.5)
+          + behind("CylinderLight", "tube", -1, (0, 0, 1), length=2, radius=0.3)
+          + behind("DiskLight", "disk", 1.6, (0, 0, 0.7), radius=0.4))
 
 
 def preview(roughness, metallic):
-    return "UsdPreviewSurface", f"""            color3f inputs:diffuseColor = (0.4, 0.3, 0.2)
-            float inputs:roughness = {roughness}
-            float inputs:metallic = {metallic}"""
+    return "UsdPreviewSurface", {"diffuseColor": (0.4, 0.3, 0.2), "roughness": roughness, "metallic": metallic}
 
 
 FLOOR, BLOCK = preview(0.5, 1), preview(0.35, 0)
-BRUSHED = ("ND_open_pbr_surface_surfaceshader", """            color3f inputs:base_color = (0.6, 0.5, 0.4)
-            float inputs:base_metalness = 1
-            float inputs:specular_roughness = 0.4
-            float inputs:specular_roughness_anisotropy = 0.8""")
+BRUSHED = ("ND_open_pbr_surface_surfaceshader", {
+    "base_color": (0.6, 0.5, 0.4), "base_metalness": 1, "specular_roughness": 0.4, "specular_roughness_anisotropy": 0.8})
 
 
 def stage_of(folder, *arguments, lights=LIGHTS, floor=FLOOR, block=BLOCK):
-    text = STAGE % (lights + "".join(MATERIAL % (prim, prim, *shader)
-                                     for prim, shader in (("ofFloor", floor), ("ofBlock", block))))
-    for prim, bound in (('    def Mesh "floor"', "ofFloor"), ('    def Cube "block"', "ofBlock")):
-        text = text.replace(prim + "\n    {", prim + ' (prepend apiSchemas = ["MaterialBindingAPI"])\n    {\n'
-                            f"        rel material:binding = </World/{bound}>")
+    text = floorLights.world(
+        usda.floor("floor", 3, color=(0.6, 0.6, 0.6), bind="World/ofFloor"),
+        usda.prim("Cube", "block", size=0.8, at=(0.5, 0.4, 0), color=(0.6, 0.3, 0.2), bind="World/ofBlock"),
+        lights,
+        *(usda.material(name, {"surface": shader}, "/World") for name, shader in (("ofFloor", floor), ("ofBlock", block))))
     return inProcess.Stage(floorLights.write(folder, text), "-w", 48, "--disableCameraLight", *arguments)
 
 
@@ -70,7 +51,7 @@ def test_outlines_keep_the_tolerance_that_they_would_be_taken_for_and_have_no_no
     truth = stage_of(tmp_path, "--samples", 256, "--maxDepth", 1).image(7)
     drawn = stage_of(tmp_path, "--backend", "raster")
     outlines = drawn.image(0, samples=16, tolerance=1.0, methods=OUTLINES)
-    error = max(c["error"] for plan in drawn.renderer.progress()["plans"].values()
+    error = max(c["error"] for plan in drawn.state["plans"].values()
                 for c in plan["choices"] if c["point"] == "areaLight")
     for channel in range(3):
         assert truth[..., channel].mean() > 0.01, "a light is off"
@@ -83,12 +64,11 @@ def test_outlines_keep_the_tolerance_that_they_would_be_taken_for_and_have_no_no
 
 def test_what_has_no_outline_is_sampled(tmp_path):
     """To the last bit: a profile, a cone, an image on a light, and then lobes that no transform stands for."""
-    shaped = (light("SphereLight", '        float inputs:intensity = 0.05\n        float inputs:radius = 0.2\n'
-                    '        asset inputs:shaping:ies:file = @./lamp.ies@', "profile", api="ShapingAPI")
-              + light("DiskLight", '        float inputs:intensity = 30\n        float inputs:radius = 0.3\n'
-                      '        float inputs:shaping:cone:angle = 20', "cone", api="ShapingAPI")
-              + light("RectLight", '        float inputs:intensity = 3\n        asset inputs:texture:file = @./image.exr@',
-                      "picture"))
+    shaped = (light("SphereLight", "asset inputs:shaping:ies:file = @./lamp.ies@", name="profile", apis=("ShapingAPI",),
+                    intensity=0.05, radius=0.2)
+              + light("DiskLight", "float inputs:shaping:cone:angle = 20", name="cone", apis=("ShapingAPI",), intensity=30,
+                      radius=0.3)
+              + light("RectLight", "asset inputs:texture:file = @./image.exr@", name="picture", intensity=3))
     for name, changes in (("lights", {"lights": shaped}), ("lobes", {"floor": BRUSHED, "block": BRUSHED})):
         (tmp_path / name).mkdir()
         stage = stage_of(tmp_path / name, "--backend", "raster", "--samples", 2, **changes)

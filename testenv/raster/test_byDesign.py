@@ -16,42 +16,23 @@ import floorLights  # noqa: E402
 import inProcess  # noqa: E402
 import outOfView  # noqa: E402
 import sameImage  # noqa: E402
-from materialText import material  # noqa: E402
+from usda import material  # noqa: E402
+import usda  # noqa: E402
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
 WIDTH = 32
-LAMP = outOfView.EMITTERS["rect"]
-SKY = """    def DomeLight "sky"
-    {
-        color3f inputs:color = (0.6, 0.8, 1.0)
-    }
-"""
-WALL = """    def Mesh "wall"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-3, 0, -0.6), (3, 0, -0.6), (3, 3, -0.6), (-3, 3, -0.6)]
-        uniform token subdivisionScheme = "none"
-        rel material:binding = </World/matte>
-    }
-"""
+LAMP = outOfView.EMITTERS["rect"](outOfView.PLACE)
+SKY = usda.prim("DomeLight", "sky", "color3f inputs:color = (0.6, 0.8, 1.0)")
+WALL = usda.mesh("wall", [(-3, 0, -0.6), (3, 0, -0.6), (3, 3, -0.6), (-3, 3, -0.6)], "rel material:binding = </World/matte>")
 
 
 def ball(name, height=0.4):
-    return f"""    def Sphere "ball"
-    {{
-        double radius = 0.4
-        double3 xformOp:translate = (0.2, {height}, 0.5)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-        rel material:binding = </{name}>
-    }}
-"""
+    return usda.prim("Sphere", "ball", f"rel material:binding = </{name}>", radius=0.4, at=(0.2, height, 0.5))
 
 
 def surface(name, node, inputs):
-    return material(name, {"mtlx:surface": "surface"}, {
-        "lobe": (node, inputs), "surface": ("ND_surface", {"token bsdf": "<lobe>"})})
+    return material(name, {"lobe": (node, inputs), "surface": ("ND_surface", {"bsdf": "<lobe>"})})
 
 
 def write(folder, name, contents, materials="", lights=LAMP):
@@ -86,7 +67,7 @@ def test_light_between_surfaces_is_left_out(tmp_path):
 
 def test_mirrors_show_the_environment(tmp_path):
     """A mirroring ball over a floor: of the floor it shows nothing."""
-    steel = surface("steel", "ND_conductor_bsdf", {"float2 roughness": "(0, 0)"})
+    steel = surface("steel", "ND_conductor_bsdf", {"roughness": (0, 0)})
     stage = write(tmp_path, "mirror", ball("steel"), steel, SKY)
     same(stage, stage, 1)
     found = differences(stage, stage, 16)
@@ -96,17 +77,10 @@ def test_mirrors_show_the_environment(tmp_path):
 def test_what_hides_the_sky_from_mirrors_is_blurred(tmp_path):
     """A mirroring floor, in whose middle a far board's upper edge shows: dark beyond it, the sky before it. The rasterizer
     knows what hides the sky by cells 17 degrees wide, so that the board takes light before its edge."""
-    steel = surface("steel", "ND_conductor_bsdf", {"float2 roughness": "(0.02, 0.02)"})
-    board = """    def Mesh "board"
-    {
-        int[] faceVertexCounts = [4, 4]
-        int[] faceVertexIndices = [0, 1, 2, 3, 4, 5, 6, 7]
-        point3f[] points = [(-12, 0, -9), (12, 0, -9), (12, 3.6, -9), (-12, 3.6, -9),
-                            (-12, 0.01, -8.9), (-12, 0.01, 8), (12, 0.01, 8), (12, 0.01, -8.9)]
-        uniform token subdivisionScheme = "none"
-        rel material:binding = </steel>
-    }
-"""
+    steel = surface("steel", "ND_conductor_bsdf", {"roughness": (0.02, 0.02)})
+    board = usda.mesh("board", [(-12, 0, -9), (12, 0, -9), (12, 3.6, -9), (-12, 3.6, -9), (-12, 0.01, -8.9), (-12, 0.01, 8),
+                       (12, 0.01, 8), (12, 0.01, -8.9)],
+                      "rel material:binding = </steel>", faces=[(0, 1, 2, 3), (4, 5, 6, 7)])
     power = equivalence.Power(widest=1.0, samples=16, traced=64, looks=(12,))
     before = [images[:, 9:].mean(axis=(1, 2, 3))[:, None]  # one number: all pixels of a pass are off alike
               for images in sameImage.decide(write(tmp_path, "board", board, steel, SKY), width=WIDTH, power=power)[1:]]
@@ -116,24 +90,17 @@ def test_what_hides_the_sky_from_mirrors_is_blurred(tmp_path):
 
 def test_glass_shows_what_is_behind(tmp_path):
     """A pane over the whole floor of the view: direct light alone ends there, the rasterizer goes on behind it."""
-    pane = surface("pane", "ND_dielectric_bsdf", {"float ior": "1.0001", "float2 roughness": "(0, 0)",
-                                                  "string scatter_mode": '"RT"'})
-    glass = """    def Cube "pane"
-    {
-        double3 xformOp:translate = (0, 0.8, 2.2)
-        float3 xformOp:scale = (2, 2, 0.01)
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
-        rel material:binding = </pane>
-    }
-"""
+    pane = surface("pane", "ND_dielectric_bsdf", {"ior": 1.0001, "roughness": (0, 0),
+                                                  "scatter_mode": "RT"})
+    glass = usda.prim("Cube", "pane", "rel material:binding = </pane>", at=(0, 0.8, 2.2), scale=(2, 2, 0.01))
     without, with_pane = write(tmp_path, "without", ""), write(tmp_path, "pane", glass, pane)
     same(with_pane, without, 1)
     assert differences(with_pane, with_pane, 1).max() > 0.5
 
 
 def test_subsurface_shows_as_diffuse(tmp_path):
-    wax = surface("thing", "ND_subsurface_bsdf", {"color3f color": "(0.8, 0.5, 0.3)", "color3f radius": "(0.3, 0.2, 0.1)"})
-    matte = surface("thing", "ND_oren_nayar_diffuse_bsdf", {"color3f color": "(0.8, 0.5, 0.3)"})
+    wax = surface("thing", "ND_subsurface_bsdf", {"color": (0.8, 0.5, 0.3), "radius": (0.3, 0.2, 0.1)})
+    matte = surface("thing", "ND_oren_nayar_diffuse_bsdf", {"color": (0.8, 0.5, 0.3)})
     scattering = write(tmp_path, "wax", ball("thing"), wax)
     same(scattering, write(tmp_path, "matte", ball("thing"), matte), 1)
     assert np.abs(differences(scattering, scattering, 16)).max() > 0.1
@@ -155,9 +122,8 @@ def test_volumes_cast_no_shadow(tmp_path):
 
 def test_lights_do_not_move_while_the_shutter_is_open(tmp_path):
     """They are where they are in the middle of it."""
-    moving = LAMP.replace("double3 xformOp:translate = (-0.4, 2.2, 0.2)", "double3 xformOp:translate.timeSamples = "
-                          "{ 0: (-0.4, 2.2, 0.2), 1: (1.6, 2.2, 0.2) }")
-    assert moving != LAMP
+    moving, still = (outOfView.EMITTERS["rect"]({**outOfView.PLACE, "at": at})
+                     for at in ({0: (-0.4, 2.2, 0.2), 1: (1.6, 2.2, 0.2)}, (0.6, 2.2, 0.2)))
     shutter = 'double shutter:open = 0\n        double shutter:close = 1\n        float focalLength = 35'
 
     def stage(name, light):
@@ -169,45 +135,34 @@ def test_lights_do_not_move_while_the_shutter_is_open(tmp_path):
         return path
 
     moves = stage("moving", moving)
-    same(moves, stage("still", LAMP.replace("(-0.4, 2.2, 0.2)", "(0.6, 2.2, 0.2)")), 1, "--frames", "0")
+    same(moves, stage("still", still), 1, "--frames", "0")
     assert np.abs(differences(moves, moves, 1, "--frames", "0")).max() > 0.1
 
 
-OPEN_BLOCK = """    def Mesh "block"
-    {
-        int[] faceVertexCounts = [4, 4, 4]
-        int[] faceVertexIndices = [0, 1, 2, 3, 4, 5, 1, 0, 4, 0, 3, 6]
-        point3f[] points = [(0.1, 0.8, 0.4), (0.9, 0.8, 0.4), (0.9, 0.8, -0.4), (0.1, 0.8, -0.4), (0.1, 0, 0.4), (0.9, 0, 0.4),
-                            (0.1, 0, -0.4)]
-        uniform token subdivisionScheme = "none"
-        color3f[] primvars:displayColor = [(0.6, 0.3, 0.2)]
-    }
-"""
+OPEN_BLOCK = usda.mesh("block",
+                       [(0.1, 0.8, 0.4), (0.9, 0.8, 0.4), (0.9, 0.8, -0.4), (0.1, 0.8, -0.4), (0.1, 0, 0.4), (0.9, 0, 0.4),
+                        (0.1, 0, -0.4)],
+                       faces=[(0, 1, 2, 3), (4, 5, 1, 0), (4, 0, 3, 6)], color=(0.6, 0.3, 0.2))
 
 
 def test_shadows_of_limited_distance_know_the_near_side(tmp_path):
     """As if a block had only its three sides that face the light; its other sides are near enough to the floor to hide it."""
-    lamp = floorLights.light("SphereLight", "        float inputs:intensity = 40\n        float inputs:radius = 0.05\n"
-                             "        float inputs:shadow:distance = 0.7", api="ShadowAPI")
-    text = floorLights.STAGE % lamp
-    block = text[text.index('    def Cube "block"'):text.index("    def SphereLight")]
-    for name in ("closed", "open"):
+    lamp = floorLights.light("SphereLight", "float inputs:shadow:distance = 0.7", apis=("ShadowAPI",), intensity=40,
+                             radius=0.05)
+    blocks = {"closed": floorLights.BLOCK, "open": OPEN_BLOCK}
+    paths = []
+    for name, block in blocks.items():
         (tmp_path / name).mkdir()
-    whole = floorLights.write(tmp_path / "closed", text)
-    same(whole, floorLights.write(tmp_path / "open", text.replace(block, OPEN_BLOCK)), 1, "--disableCameraLight")
+        paths.append(floorLights.write(tmp_path / name, floorLights.world(floorLights.FLOOR, block, lamp)))
+    whole = paths[0]
+    same(*paths, 1, "--disableCameraLight")
     assert differences(whole, whole, 1, "--disableCameraLight").max() > 0.05
 
 
 CORNERS = [(x, y, z) for x in (-2, 2) for y in (0, 3) for z in (-2, 2)]
 SIDES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-ROOM = """    def Mesh "walls"
-    {
-        int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
-        int[] faceVertexIndices = %s
-        point3f[] points = %s
-        uniform token subdivisionScheme = "none"
-    }
-""" % (list(range(24)), [CORNERS[i] for side in SIDES for i in side])
+ROOM = usda.prim("Mesh", "walls", faceVertexCounts=[4, 4, 4, 4, 4, 4], faceVertexIndices="%s", points="%s",
+                 subdivisionScheme="none") % (list(range(24)), [CORNERS[i] for side in SIDES for i in side])
 
 
 def test_a_closed_room_of_thin_walls_is_dark_but_for_its_seams(tmp_path):
@@ -237,13 +192,10 @@ def Xform "World"
 
 @pytest.mark.parametrize("method, filtered", [("filtered", True), ("harmonics", False)])
 def test_harmonics_know_no_light_filters(method, filtered, tmp_path):
-    text = "        rel light:filters = </World/filter>\n        asset inputs:texture:file = @./image.exr@"
-    prims = floorLights.light("DomeLight", text, place="") + '''    def LightFilter "filter"
-    {
-        uniform token lightFilter:shaderId = "PxrIntMultLightFilter"
-        float inputs:intensity = 0.25
-    }
-'''
+    prims = (floorLights.light("DomeLight", "rel light:filters = </World/filter>", "asset inputs:texture:file = @./image.exr@",
+                               place={})
+             + usda.prim("LightFilter", "filter", 'uniform token lightFilter:shaderId = "PxrIntMultLightFilter"',
+                         "float inputs:intensity = 0.25"))
     images = []
     bare = prims.replace("rel light:filters", "custom rel no")
     for name, contents in (("filtered", floorLights.STAGE % prims), ("bare", floorLights.STAGE % bare)):

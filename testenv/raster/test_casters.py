@@ -9,75 +9,25 @@ pytest.importorskip("scipy.stats", reason="SciPy is not installed")
 
 import floorLights  # noqa: E402
 import sameImage  # noqa: E402
+from usda import ST, floor, material, mesh, prim  # noqa: E402
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
-STAGE = floorLights.WORLD
+STAGE = floorLights.world("%s")
 # The panel shows its back to the camera, which looks through it.
-PANEL = """    def DomeLight "sky"
-    {
-    }
-    def Mesh "floor"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)]
-        uniform token subdivisionScheme = "none"
-        color3f[] primvars:displayColor = [(0.6, 0.6, 0.6)]
-    }
-    def Mesh "panel" (
-        prepend apiSchemas = ["MaterialBindingAPI"]
-    )
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-1.5, 0.5, -1.5), (1.5, 0.5, -1.5), (1.5, 0.5, 1.5), (-1.5, 0.5, 1.5)]
-        texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (
-            interpolation = "vertex"
-        )
-        uniform token subdivisionScheme = "none"
-        rel material:binding = </World/cut>
-    }
-    def Material "cut"
-    {
-        token outputs:surface.connect = </World/cut/surface.outputs:surface>
-        def Shader "surface"
-        {
-            uniform token info:id = "UsdPreviewSurface"
-            float inputs:opacityThreshold = 0.5
-            float inputs:opacity.connect = </World/cut/image.outputs:r>
-            token outputs:surface
-        }
-        def Shader "image"
-        {
-            uniform token info:id = "UsdUVTexture"
-            asset inputs:file = @holes.exr@
-            token inputs:sourceColorSpace = "raw"
-            float2 inputs:st.connect = </World/cut/st.outputs:result>
-            float outputs:r
-        }
-        def Shader "st"
-        {
-            uniform token info:id = "UsdPrimvarReader_float2"
-            string inputs:varname = "st"
-            float2 outputs:result
-        }
-    }"""
-STAIRS = """    def DistantLight "sun"
-    {
-        float inputs:angle = 2
-        float inputs:intensity = 300
-        float3 xformOp:rotateXYZ = (%s, 0, 0)
-        uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-    }
-    def Mesh "stairs"
-    {
-        int[] faceVertexCounts = %s
-        int[] faceVertexIndices = %s
-        point3f[] points = %s
-        uniform token subdivisionScheme = "%s"
-        color3f[] primvars:displayColor = [(0.6, 0.6, 0.6)]
-    }"""
+PANEL = (
+    prim("DomeLight", "sky")
+    + floor("floor", 9, color=(0.6, 0.6, 0.6))
+    + mesh("panel", [(-1.5, 0.5, -1.5), (1.5, 0.5, -1.5), (1.5, 0.5, 1.5), (-1.5, 0.5, 1.5)], bind="World/cut", st=ST)
+    + material("cut", {
+        "surface": ("UsdPreviewSurface", {"opacityThreshold": 0.5, "float opacity": "<image>"}),
+        "image": ("UsdUVTexture", {"file": "holes.exr", "token sourceColorSpace": "raw", "float2 st": "<st>"},
+                  "float r"),
+        "st": ("UsdPrimvarReader_float2", {"varname": "st"})}, inside="/World"))
+STAIRS = (
+    prim("DistantLight", "sun", angle=2, intensity=300, turn="(%s, 0, 0)")
+    + prim("Mesh", "stairs", faceVertexCounts="%s", faceVertexIndices="%s", points="%s", subdivisionScheme="%s",
+           color=(0.6, 0.6, 0.6)))
 
 
 def _write(folder, contents):

@@ -7,52 +7,19 @@ import pytest
 
 import inProcess
 import pairs
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    token projection = "%(projection)s"
-    float focalLength = 20
-    float horizontalAperture = %(aperture)s
-    float verticalAperture = %(aperture)s
-    float2 clippingRange = (%(near)s, %(far)s)
-    float4[] clippingPlanes = [%(planes)s]
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "sky"
-{
-    float inputs:intensity = 0.3
-    bool inputs:shadow:enable = 0
-}
-"""
-LIGHT = """def SphereLight "light%(i)d"
-{
-    float inputs:radius = 0.4
-    float inputs:intensity = 2
-    bool inputs:shadow:enable = 0
-    double3 xformOp:translate = (%(x)s, %(y)s, %(z)s)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
-SURFACES = """def Sphere "ball"
-{
-    double radius = 1.5
-    color3f[] primvars:displayColor = [(0.2, 0.5, 0.8)]
-}
-def Cube "box"
-{
-    double size = 2
-    color3f[] primvars:displayColor = [(0.8, 0.3, 0.2)]
-    double3 xformOp:translate = (-2, -1.5, -0.5)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+STAGE = usda.stage(
+    usda.camera("float4[] clippingPlanes = [%(planes)s]", lens=(20, "%(aperture)s", "%(aperture)s"),
+                projection="%(projection)s", clippingRange="(%(near)s, %(far)s)", at=(0, 0, 10)),
+    usda.prim("DomeLight", "sky", "bool inputs:shadow:enable = 0", intensity=0.3))
+LIGHT = usda.prim("SphereLight", "light%(i)d", "bool inputs:shadow:enable = 0", radius=0.4, intensity=2,
+                  at="(%(x)s, %(y)s, %(z)s)")
+SURFACES = (
+    usda.prim("Sphere", "ball", radius=1.5, color=(0.2, 0.5, 0.8))
+    + usda.prim("Cube", "box", size=2, at=(-2, -1.5, -0.5), color=(0.8, 0.3, 0.2)))
 
 
 def images(tmp_path, surfaces, lights, projection, near=0.1, far=100, planes="", backends=("raster", "embree")):

@@ -4,49 +4,20 @@ import numpy as np
 import pytest
 
 import bothBackEnds
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-    startTimeCode = 0
-    endTimeCode = 0
-)
-def Camera "camera"
-{
-    float horizontalAperture = 40
-    float verticalAperture = 10
-    float2 clippingRange = (0.1, 100)
-    token projection = "orthographic"
-    double shutter:open = 0
-    double shutter:close = 1
-    double3 xformOp:translate = (0.5, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Mesh "bar" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points.timeSamples = {
-        0: [(-0.5, -2, 0), (0.5, -2, 0), (0.5, 2, 0), (-0.5, 2, 0)],
-        1: [(0.5, -2, 0), (1.5, -2, 0), (1.5, 2, 0), (0.5, 2, 0)],
-    }
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </white>
-}
-def Material "white"
-{
-    token outputs:surface.connect = </white/surface.outputs:out>
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_surface_unlit"
-        token outputs:out
-    }
-}
-"""
+STAGE = usda.stage(
+    usda.camera("double shutter:open = 0", "double shutter:close = 1", flat=(40, 10), clippingRange=(0.1, 100),
+                at=(0.5, 0, 10)),
+    usda.prim("Mesh", "bar",
+              "point3f[] points.timeSamples = { 0: [(-0.5, -2, 0), (0.5, -2, 0), (0.5, 2, 0), (-0.5, 2, 0)], 1: [(0.5, -2, "
+              "0), (1.5, -2, 0), (1.5, 2, 0), (0.5, 2, 0)], }",
+              bind="white", faceVertexCounts=[4], faceVertexIndices=[0, 1, 2, 3], subdivisionScheme="none"),
+    usda.prim("Material", "white", "token outputs:surface.connect = </white/surface.outputs:out>",
+        usda.prim("Shader", "surface", 'uniform token info:id = "ND_surface_unlit"', "token outputs:out")),
+    startTimeCode=0, endTimeCode=0)
 
 
 def test_points_move_while_the_shutter_is_open(tmp_path):

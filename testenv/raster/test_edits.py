@@ -6,11 +6,15 @@ import sys
 import numpy as np
 import pytest
 
-import bothBackEnds
+_patina = pytest.importorskip("_patina")
+
+import bothBackEnds  # noqa: E402
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "bench"))
 
 import rasterTimes  # noqa: E402
+from patina import experiment  # noqa: E402
+from patina.chart import probes  # noqa: E402
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
@@ -26,6 +30,14 @@ def draw(frames):
     frames.draw(0.0)
     counts = frames.renderer.progress()["statistics"]
     return frames.film.resolve("color"), {k: counts[k] for k in ("surfacesBuilt", "instancesWritten", "programsBuilt")}
+
+
+def shown(scene, renderer, samples=2, aovs=(), film=None):
+    """:returns: the image and its AOVs, and the renderer's statistics"""
+    film = film or _patina.Film()
+    settings = {"width": 48, "height": 32, "samples": samples, "aovs": list(aovs)}
+    state = experiment.draw(renderer, scene, "/camera", settings, film, renderer.progress()["backend"])
+    return [film.resolve(name) for name in ("color", *aovs)], state["statistics"]
 
 
 EDITS = {  # what an edit may build: shapes, buffers of instances, programs
@@ -54,20 +66,14 @@ def test_edits_build_only_what_they_touch(name):
 
 def test_a_moved_camera_tessellates_by_powers_of_two():
     """A sphere is built anew where its level changes, which a move by a seventh mostly does not."""
-    import _patina
-
     scene, renderer, film = _patina.Scene(), _patina.make_renderer("raster"), _patina.Film()
     found = []
     for step in range(12):
         with scene.edit() as edit:
             if step == 0:
                 edit.set_implicit("/ball", shape="sphere", radius=1.0)
-            matrix = np.eye(4, dtype=np.float32)
-            matrix[3, 2] = 4.0 * 1.15 ** step
-            edit.set_camera("/camera", transform=matrix)
-        renderer.start(scene, "/camera", {"width": 48, "height": 32, "samples": 1}, film)
-        renderer.wait()
-        counts = renderer.progress()["statistics"]
+            edit.set_camera("/camera", transform=probes.moved(0, 0, 4.0 * 1.15 ** step))
+        counts = shown(scene, renderer, 1, film=film)[1]
         found.append((counts["surfacesBuilt"], counts["trianglesStored"]))
     assert found[0][0] == 1
     changes = [(built - before, now < finer) for (before, finer), (built, now) in zip(found, found[1:])]
@@ -77,8 +83,6 @@ def test_a_moved_camera_tessellates_by_powers_of_two():
 
 def test_a_prim_that_changes_is_built_anew():
     """Alone; the others keep their buffers."""
-    import _patina
-
     points = np.array([[-1, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]], dtype=np.float32)
 
     def mesh(edit, path, y, lift=0.0, transform=None):
@@ -92,9 +96,7 @@ def test_a_prim_that_changes_is_built_anew():
             mesh(edit, "/a", 0.0)
             mesh(edit, "/b", 0.5)
             edit.set_light("/sun", type="distant", intensity=3.0, angle=1.0)
-            matrix = np.eye(4, dtype=np.float32)
-            matrix[3, :3] = 0.0, 0.3, 6.0
-            edit.set_camera("/camera", transform=matrix)
+            edit.set_camera("/camera", transform=probes.moved(0, 0.3, 6))
         drawn = run(scene)
         for change in changes:
             with scene.edit() as edit:
@@ -104,15 +106,10 @@ def test_a_prim_that_changes_is_built_anew():
     renderer = _patina.make_renderer("raster")
 
     def run(scene, by=None):
-        by, film = by or renderer, _patina.Film()
-        by.start(scene, "/camera", {"width": 48, "height": 32, "samples": 2}, film)
-        by.wait()
-        found = by.progress()
-        assert not found["failed"], found["error"]
-        return film.resolve("color"), found["statistics"]["surfacesBuilt"]
+        (image,), found = shown(scene, by or renderer)
+        return image, found["surfacesBuilt"]
 
-    shift = np.eye(4, dtype=np.float32)
-    shift[3, 0] = 0.5
+    shift = probes.moved(0.5, 0, 0)
     for change, built in ((lambda e: mesh(e, "/b", 0.5, lift=0.2), 1), (lambda e: mesh(e, "/b", 0.5), 0),
                           (lambda e: mesh(e, "/b", 0.5, transform=shift), 0), (lambda e: mesh(e, "/c", 0.2), 1)):
         scene, (before, first) = scene_with([change])
@@ -124,8 +121,6 @@ def test_a_prim_that_changes_is_built_anew():
 @pytest.mark.parametrize("name", ["lightRect", "lightDome", "motionBlur"])
 def test_resuming_equals_one_render(tmp_path, name):
     """Also where passes leave something to later ones, as the maps of the sky are."""
-    import _patina
-
     frames = frames_of(name)
 
     def render(samples, film, **settings):
@@ -147,8 +142,6 @@ def test_resuming_equals_one_render(tmp_path, name):
 
 
 def test_tolerance_ends_a_render():
-    import _patina
-
     frames = frames_of("lightRect")
 
     def render(film=None, **settings):
@@ -183,23 +176,17 @@ def test_tolerance_ends_a_render():
 
 def test_equal_implicit_prims_share_their_buffers():
     """And look as prims do that differ in something that nobody sees."""
-    import _patina
-
     def draw(tell_apart):
-        scene, renderer, film = _patina.Scene(), _patina.make_renderer("raster"), _patina.Film()
+        scene = _patina.Scene()
         with scene.edit() as edit:
             for i in range(12):
-                matrix = np.eye(4)
-                matrix[3, :3] = 0.5 * (i % 4) - 0.75, 0.5 * (i // 4) - 0.5, -4.0
                 more = {"primvars": [("mark", "constant", np.float32([i]), None)]} if tell_apart else {}
-                edit.set_implicit(f"/ball{i}", shape="sphere", radius=0.2, transform=matrix, **more)
+                edit.set_implicit(f"/ball{i}", shape="sphere", radius=0.2,
+                                  transform=probes.moved(0.5 * (i % 4) - 0.75, 0.5 * (i // 4) - 0.5, -4), **more)
             edit.set_light("/sun", type="distant", intensity=3.0)
             edit.set_camera("/camera")
-        renderer.start(scene, "/camera", {"width": 48, "height": 32, "samples": 1}, film)
-        renderer.wait()
-        found = renderer.progress()
-        assert not found["failed"], found["error"]
-        return film.resolve("color"), found["statistics"]["surfacesBuilt"]
+        (image,), found = shown(scene, _patina.make_renderer("raster"), 1)
+        return image, found["surfacesBuilt"]
 
     (together, few), (apart, many) = draw(False), draw(True)
     assert (few, many) == (1, 12)
@@ -208,8 +195,6 @@ def test_equal_implicit_prims_share_their_buffers():
 
 def test_shapes_that_were_replaced_are_forgotten():
     """However often a prim takes another shape: up to 64 that nobody shows are left to be looked for."""
-    import _patina
-
     scene, renderer, film = _patina.Scene(), _patina.make_renderer("raster"), _patina.Film()
     with scene.edit() as edit:
         edit.set_light("/sun", type="distant", intensity=3.0)
@@ -217,15 +202,10 @@ def test_shapes_that_were_replaced_are_forgotten():
 
     def draw(radius):
         """:returns: bytes in buffers"""
-        matrix = np.eye(4)
-        matrix[3, 2] = -4.0
         with scene.edit() as edit:
-            edit.set_implicit("/ball", shape="sphere", radius=radius, transform=matrix)
-        renderer.start(scene, "/camera", {"width": 8, "height": 8, "samples": 1}, film)
-        renderer.wait()
-        found = renderer.progress()
-        assert not found["failed"], found["error"]
-        return found["statistics"]["bytes"]
+            edit.set_implicit("/ball", shape="sphere", radius=radius, transform=probes.moved(0, 0, -4))
+        settings = {"width": 8, "height": 8, "samples": 1}
+        return experiment.draw(renderer, scene, "/camera", settings, film)["statistics"]["bytes"]
 
     draw(0.5)
     one = draw(0.6)
@@ -237,15 +217,10 @@ def test_shapes_that_were_replaced_are_forgotten():
 @pytest.mark.parametrize("backend", ["embree", "raster"])
 def test_edits_look_at_what_they_touch_however_many_prims_there_are(backend):
     """And the image is that of a renderer which has looked at everything."""
-    import _patina
-
-    from patina.chart import probes
-
     points = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], dtype=np.float32) * np.float32(0.045)
 
     def mesh(edit, i, nearer=0.0, material="/others", **more):
-        matrix = np.eye(4, dtype=np.float32)
-        matrix[3, :3] = 0.1 * (i % 20) - 0.95, 0.1 * (i // 20), nearer - 1.2
+        matrix = probes.moved(0.1 * (i % 20) - 0.95, 0.1 * (i // 20), nearer - 1.2)
         edit.set_mesh(f"/mesh{i:04}", points=points, face_vertex_counts=[4], face_vertex_indices=[0, 1, 2, 3],
                       transform=matrix, material=material, **more)
 
@@ -253,12 +228,8 @@ def test_edits_look_at_what_they_touch_however_many_prims_there_are(backend):
         edit.set_material(path, probes.network("oren_nayar_diffuse_bsdf", color=(red, 0.4, 0.2)))
 
     def render(scene, renderer):
-        film = _patina.Film()
-        renderer.start(scene, "/camera", {"width": 48, "height": 32, "samples": 2, "aovs": ["primId", "normal"]}, film)
-        renderer.wait()
-        found = renderer.progress()
-        assert not found["failed"], found["error"]
-        return [film.resolve(name) for name in ("color", "primId", "normal")], found["statistics"]["primsLookedAt"]
+        images, found = shown(scene, renderer, aovs=("primId", "normal"))
+        return images, found["primsLookedAt"]
 
     edits = {
         "color of one": (lambda e: color(e, "/one", 0.9), 1),
@@ -277,9 +248,7 @@ def test_edits_look_at_what_they_touch_however_many_prims_there_are(backend):
             for i in range(count):
                 mesh(edit, i, material="/one" if i == 30 else "/three" if i < 3 else "/others")
             edit.set_light("/sun", type="distant", intensity=3.0, angle=1.0)
-            matrix = np.eye(4, dtype=np.float32)
-            matrix[3, :3] = 0.0, 0.5, 4.0
-            edit.set_camera("/camera", transform=matrix)
+            edit.set_camera("/camera", transform=probes.moved(0, 0.5, 4))
         before, looked = render(scene, renderer)
         assert looked >= count
         for name, (change, touched) in edits.items():
@@ -296,10 +265,6 @@ def test_edits_look_at_what_they_touch_however_many_prims_there_are(backend):
 
 def test_what_shows_values_of_instances_is_drawn_anew():
     """Where a material reads what instances have, an edit looks at all prims; the image is that of a fresh renderer."""
-    import _patina
-
-    from patina.chart import probes
-
     def reader(edit, name):
         network = _patina.Network("/painted")
         network.add_node("/painted/tint", "ND_geompropvalue_color3")
@@ -317,18 +282,9 @@ def test_what_shows_values_of_instances_is_drawn_anew():
     def ball(edit, **more):
         edit.set_implicit("/ball", shape="sphere", radius=0.25, group="A", **dict({"material": "/painted"}, **more))
 
-    def place(x, y, z):
-        matrix = np.eye(4, dtype=np.float32)
-        matrix[3, :3] = x, y, z
-        return matrix
-
     def render(scene, renderer):
-        film = _patina.Film()
-        renderer.start(scene, "/camera", {"width": 48, "height": 32, "samples": 2}, film)
-        renderer.wait()
-        found = renderer.progress()
-        assert not found["failed"], found["error"]
-        return film.resolve("color"), found["statistics"]["primsLookedAt"]
+        (image,), found = shown(scene, renderer)
+        return image, found["primsLookedAt"]
 
     scene, renderer = _patina.Scene(), _patina.make_renderer("raster")
     others = 20
@@ -338,13 +294,13 @@ def test_what_shows_values_of_instances_is_drawn_anew():
         ball(edit)
         colours = np.float32([[0.9, 0.1, 0.1], [0.1, 0.9, 0.1], [0.1, 0.1, 0.9]])
         edit.set_instancer("/balls", prototypes=["A"], prototype_indices=np.zeros(3, np.int32),
-                           transforms=np.stack([place(x, 0, 0) for x in (-0.55, 0, 0.55)]),
+                           transforms=np.stack([probes.moved(x, 0, 0) for x in (-0.55, 0, 0.55)]),
                            primvars=[("tint", "vertex", colours), ("shade", "vertex", colours[::-1].copy())])
         for i in range(others):
             edit.set_implicit(f"/other{i:02}", shape="cube", size=0.1, material="/plain",
-                              transform=place(0.08 * i - 0.8, -0.5, 0))
+                              transform=probes.moved(0.08 * i - 0.8, -0.5, 0))
         edit.set_light("/sun", type="distant", intensity=3.0)
-        edit.set_camera("/camera", transform=place(0, 0, 4))
+        edit.set_camera("/camera", transform=probes.moved(0, 0, 4))
     before, looked = render(scene, renderer)
     edits = [("what nobody reads of instances", lambda e: plain(e, 0.9), False),
              ("another value", lambda e: reader(e, "shade"), True),

@@ -12,61 +12,25 @@ from pxr import Sdf, Usd
 _patina = pytest.importorskip("_patina")
 
 import bothBackEnds  # noqa: E402
+from floorLights import PROFILE  # noqa: E402
+from patina import experiment  # noqa: E402
 from patina import stage as reader  # noqa: E402
+import usda  # noqa: E402
 
 SEEDS, WIDTH, TILE = 8, 32, 8
 MARGIN = 0.01
 # Student's t with 7 degrees of freedom at 1 - (1 - 0.999 ** (1 / 51)) / 2: 16 tiles and the whole image in three channels.
 T = 9.9
 
-STAGE = """#usda 1.0
-(
-    defaultPrim = "World"
-    upAxis = "Y"
-    metersPerUnit = %(meters)s
-)
-def Xform "World"
-{
-    matrix4d xformOp:transform = ((%(scale)s, 0, 0, 0), (0, %(scale)s, 0, 0), (0, 0, %(scale)s, 0), (%(at)s, 1))
-    uniform token[] xformOpOrder = ["xformOp:transform"]
-    def Camera "camera"
-    {
-        float2 clippingRange = (0.01, 1000)
-        float focalLength = 24
-        float horizontalAperture = 20.955
-        float verticalAperture = 20.955
-        matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0.6, -0.8, 0), (0, 0.8, 0.6, 0), (0, 5.6, 4.2, 1))
-        uniform token[] xformOpOrder = ["xformOp:transform"]
-    }
-    def Mesh "floor"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-3, 0, 3), (3, 0, 3), (3, 0, -3), (-3, 0, -3)]
-        uniform token subdivisionScheme = "none"
-        color3f[] primvars:displayColor = [(0.6, 0.6, 0.6)]
-    }
-    def Cube "block"
-    {
-        double size = 0.8
-        double3 xformOp:translate = (0.5, 0.4, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-        color3f[] primvars:displayColor = [(0.6, 0.3, 0.2)]
-    }
-    def Material "glow"
-    {
-        token outputs:surface.connect = </World/glow/surface.outputs:surface>
-        def Shader "surface"
-        {
-            uniform token info:id = "UsdPreviewSurface"
-            color3f inputs:diffuseColor = (0, 0, 0)
-            color3f inputs:emissiveColor = (%(glow)s)
-            token outputs:surface
-        }
-    }
-%(more)s
-}
-"""
+STAGE = usda.stage(
+    usda.prim("Xform", "World",
+        usda.camera(lens=(24, 20.955, 20.955), clippingRange=(0.01, 1000),
+                    matrix=((1, 0, 0, 0), (0, 0.6, -0.8, 0), (0, 0.8, 0.6, 0), (0, 5.6, 4.2, 1))),
+        usda.floor("floor", 3, color=(0.6, 0.6, 0.6)),
+        usda.prim("Cube", "block", size=0.8, at=(0.5, 0.4, 0), color=(0.6, 0.3, 0.2)),
+        usda.preview("glow", inside="/World", diffuseColor=(0, 0, 0), **{"color3f emissiveColor": "(%(glow)s)"}),
+        "%(more)s", matrix="((%(scale)s, 0, 0, 0), (0, %(scale)s, 0, 0), (0, 0, %(scale)s, 0), (%(at)s, 1))"),
+    defaultPrim="World", metersPerUnit="%(meters)s")
 
 ABOVE = ((0, 7, 0), (-90, 0, 0))
 BEHIND = ((0.5, 4.5, 9), (-30, 3, 0))  # the camera
@@ -75,46 +39,30 @@ HIGH = ((1, 60, 5), (-90, 0, 0))
 IN_VIEW = ((-1, 1.2, -1), (-60, 0, 0))
 
 
-def place(where):
-    position, turn = where
-    return f"""        double3 xformOp:translate = {position}
-        float3 xformOp:rotateXYZ = {turn}
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-"""
+def prim(kind, where, *lines, **values):
+    return usda.prim(kind, "emitter", *lines, at=where[0], turn=where[1], **values)
 
 
-def prim(kind, text, where, apis="", name="emitter"):
-    prepend = f"(prepend apiSchemas = [{apis}])" if apis else ""
-    return f'    def {kind} "{name}" {prepend}\n    {{\n{text}\n{place(where)}    }}\n'
+GLOWS = {"bind": "World/glow"}
+MESH_LIGHT = ("float inputs:intensity = 4",)
 
 
-GLOWS = '"MaterialBindingAPI"'
-BOUND = "        rel material:binding = </World/glow>\n"
-LIGHT = "        float inputs:intensity = 4\n"
-
-
-def quad(where, text=BOUND, apis=GLOWS, size=1.5, front="[3, 2, 1, 0]"):
+def quad(where, *lines, size=1.5, front=(3, 2, 1, 0), bind="World/glow", name="emitter", **more):
     """Shines along -z, as lights do."""
     h = 0.5 * size
-    return prim("Mesh", f"""        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = {front}
-        point3f[] points = [({-h}, {-h}, 0), ({h}, {-h}, 0), ({h}, {h}, 0), ({-h}, {h}, 0)]
-        texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
-        uniform token subdivisionScheme = "none"
-{text}""", where, apis)
+    return usda.mesh(name, [(-h, -h, 0), (h, -h, 0), (h, h, 0), (-h, h, 0)], *lines, faces=[front], st=usda.ST, bind=bind,
+                     at=where[0], turn=where[1], **more)
 
 
 KINDS = {
     "glowingQuad": quad,
-    "meshLight": lambda where: quad(where, LIGHT, '"MeshLightAPI"'),
-    "glowingSphere": lambda where: prim("Sphere", "        double radius = 0.5\n" + BOUND, where, GLOWS),
-    "glowingCube": lambda where: prim("Cube", "        double size = 1\n" + BOUND, where, GLOWS),
-    "rect": lambda where: prim("RectLight", LIGHT
-                               + "        float inputs:width = 1.5\n        float inputs:height = 1.5", where),
-    "disk": lambda where: prim("DiskLight", LIGHT + "        float inputs:radius = 0.7", where),
-    "sphere": lambda where: prim("SphereLight", LIGHT + "        float inputs:radius = 0.5", where),
-    "cylinder": lambda where: prim("CylinderLight", LIGHT
-                                   + "        float inputs:radius = 0.2\n        float inputs:length = 2", where),
+    "meshLight": lambda where: quad(where, *MESH_LIGHT, apis=("MeshLightAPI",), bind=""),
+    "glowingSphere": lambda where: prim("Sphere", where, radius=0.5, **GLOWS),
+    "glowingCube": lambda where: prim("Cube", where, size=1, **GLOWS),
+    "rect": lambda where: prim("RectLight", where, intensity=4, width=1.5, height=1.5),
+    "disk": lambda where: prim("DiskLight", where, intensity=4, radius=0.7),
+    "sphere": lambda where: prim("SphereLight", where, intensity=4, radius=0.5),
+    "cylinder": lambda where: prim("CylinderLight", where, intensity=4, radius=0.2, length=2),
 }
 CASES = [(kind, where) for kind in ("glowingQuad", "meshLight") for where in (ABOVE, BEHIND, BESIDE)]
 CASES += [("glowingSphere", BEHIND), ("glowingCube", ABOVE), ("glowingQuad", HIGH), ("rect", ABOVE), ("disk", BEHIND),
@@ -139,10 +87,8 @@ def load(more, glow="4, 3, 2", scale=1.0, at="0, 0, 0"):
 
 def render(renderer, stage, samples, seed):
     film = _patina.Film()
-    renderer.start(*stage, {"width": WIDTH, "height": WIDTH, "samples": samples, "seed": seed, "maxDepth": 1}, film)
-    renderer.wait()
-    state = renderer.progress()
-    assert not state["failed"], state["error"]
+    settings = {"width": WIDTH, "height": WIDTH, "samples": samples, "seed": seed, "maxDepth": 1}
+    experiment.draw(renderer, *stage, settings, film)
     return np.array(film.resolve("color"))[..., :3].astype(np.float64)
 
 
@@ -197,96 +143,43 @@ def test_emitters_far_from_the_origin(renderers):
 
 def test_a_small_lamp_in_view_hides_its_own_far_side(renderers):
     """1/1250 of what is seen: nearer to its places than shadow maps begin."""
-    lamp = prim("Sphere", "        double radius = 0.004\n" + BOUND, IN_VIEW, GLOWS)
+    lamp = prim("Sphere", IN_VIEW, radius=0.004, **GLOWS)
     hold(renderers, load(lamp, "40000, 30000, 20000"), passes=32)
 
 
 @pytest.mark.parametrize("kind", ["rect", "glowingQuad"])
 def test_a_panel_in_the_plane_of_an_emitter_hides_nothing(kind, renderers):
     """As wide as a room's ceiling around a lamp that is set into it."""
-    h = 3.0
-    panel = prim("Mesh", f"""        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [({-h}, {-h}, 0), ({h}, {-h}, 0), ({h}, {h}, 0), ({-h}, {h}, 0)]
-        uniform token subdivisionScheme = "none"
-        color3f[] primvars:displayColor = [(0, 0, 0)]""", ABOVE, name="panel")
+    panel = usda.card("panel", 3.0, color=(0, 0, 0), at=ABOVE[0], turn=ABOVE[1])
     hold(renderers, load(KINDS[kind](ABOVE) + panel))
 
 
-def edf(name, kind, inputs):
-    """A material with that EDF, for quad()."""
-    texts = "".join(f"            {text}\n" for text in inputs)
-    return f"""    def Material "{name}"
-    {{
-        token outputs:mtlx:surface.connect = </World/{name}/surface.outputs:out>
-        def Shader "surface"
-        {{
-            uniform token info:id = "ND_surface"
-            token inputs:edf.connect = </World/{name}/edf.outputs:out>
-            token outputs:out
-        }}
-        def Shader "edf"
-        {{
-            uniform token info:id = "{kind}"
-{texts}            token outputs:out
-        }}
-        def Shader "even"
-        {{
-            uniform token info:id = "ND_uniform_edf"
-            color3f inputs:color = (4, 3, 2)
-            token outputs:out
-        }}
-    }}
-"""
+def shaped(kind, inputs, **more):
+    """A material with that EDF, for quad(). :param more: nodes that it is connected to"""
+    return usda.material("shaped", {"surface": ("ND_surface", {"edf": "<edf>"}), "edf": (kind, inputs), **more,
+                                    "even": ("ND_uniform_edf", {"color": (4, 3, 2)})}, "/World")
 
 
-PROFILE = """IESNA:LM-63-1995
-TILT=NONE
-1 1000 1 5 5 1 1 0 0 0
-1.0 1.0 100
-0 20 40 60 90
-0 90 180 270 360
-1000 900 500 100 0
-1000 600 200 50 0
-1000 300 100 20 0
-1000 600 400 50 0
-1000 900 500 100 0
-"""
+WARM = {"color": (4, 3, 2)}
 EDFS = {
-    "conical": ("ND_conical_edf", ["color3f inputs:color = (4, 3, 2)", "float inputs:inner_angle = 20",
-                                   "float inputs:outer_angle = 70"]),
-    "inclined": ("ND_conical_edf", ["color3f inputs:color = (4, 3, 2)", "float inputs:inner_angle = 30",
-                                    "float inputs:outer_angle = 70", "float3 inputs:normal = (0.5, -0.8, 0.2)"]),
-    "inclinedNarrow": ("ND_conical_edf", ["color3f inputs:color = (80, 60, 40)", "float inputs:inner_angle = 10",
-                                          "float inputs:outer_angle = 20", "float3 inputs:normal = (0.2, -0.9, -0.2)"]),
-    "hard": ("ND_conical_edf", ["color3f inputs:color = (4, 3, 2)", "float inputs:inner_angle = 40",
-                                "float inputs:outer_angle = 40"]),
-    "schlick": ("ND_generalized_schlick_edf", ["color3f inputs:color0 = (0, 0.1, 0.2)", "color3f inputs:color90 = (1, 1, 1)",
-                                               "float inputs:exponent = 3",
-                                               "token inputs:base.connect = </World/shaped/even.outputs:out>"]),
-    "measured": ("ND_measured_edf", ["color3f inputs:color = (4, 3, 2)", "asset inputs:file = @%s@"]),
+    "conical": ("ND_conical_edf", {**WARM, "inner_angle": 20, "outer_angle": 70}),
+    "inclined": ("ND_conical_edf", {**WARM, "inner_angle": 30, "outer_angle": 70, "float3 normal": (0.5, -0.8, 0.2)}),
+    "inclinedNarrow": ("ND_conical_edf", {"color": (80, 60, 40), "inner_angle": 10, "outer_angle": 20,
+                                          "float3 normal": (0.2, -0.9, -0.2)}),
+    "hard": ("ND_conical_edf", {**WARM, "inner_angle": 40, "outer_angle": 40}),
+    "schlick": ("ND_generalized_schlick_edf", {"color0": (0, 0.1, 0.2), "color90": (1, 1, 1), "exponent": 3, "base": "<even>"}),
+    "measured": ("ND_measured_edf", {**WARM, "file": "lamp.ies"}),
 }
 
 
-def cones(first, second):
+def cones(**cones_of):
     """An emitter's EDF of two hard cones, each `(half angle, color, normal)`, as ND_add_edf has it."""
-    texts = ""
-    for name, (angle, color, normal) in (("first", first), ("second", second)):
-        texts += f"""        def Shader "{name}"
-        {{
-            uniform token info:id = "ND_conical_edf"
-            color3f inputs:color = {color}
-            float inputs:inner_angle = {2 * angle}
-            float inputs:outer_angle = {2 * angle}
-            float3 inputs:normal = {normal}
-            token outputs:out
-        }}
-"""
-    inputs = [f"token inputs:in{i}.connect = </World/shaped/{name}.outputs:out>" for i, name in ((1, "first"), (2, "second"))]
-    text = edf("shaped", "ND_add_edf", inputs)
-    return text.replace('        def Shader "even"', texts + '        def Shader "even"')
+    nodes = {name: ("ND_conical_edf", {"color": color, "inner_angle": 2 * angle, "outer_angle": 2 * angle,
+                                       "float3 normal": normal}) for name, (angle, color, normal) in cones_of.items()}
+    return shaped("ND_add_edf", {"in1": "<first>", "in2": "<second>"}, **nodes)
 
 
+NEAR = ((-1, 6, 0.5), (-80, 20, 0))
 CONES = {
     "wide": (((30, (6, 3, 1), (0.3, -0.9, 0.2)), (20, (1, 4, 6), (-0.1, -0.9, -0.3))), 8, 64),
     "narrow": (((8, (60, 30, 10), (0.3, -0.9, 0.2)), (6, (10, 60, 90), (-0.1, -0.9, -0.3))), 64, 512),
@@ -296,7 +189,7 @@ CONES = {
 @pytest.mark.parametrize("name", CONES)
 def test_light_follows_cones_of_several_axes(name, renderers):
     given, passes, samples = CONES[name]
-    stage = load(quad(((-1, 6, 0.5), (-80, 20, 0)), BOUND.replace("glow", "shaped")) + cones(*given))
+    stage = load(quad(NEAR, bind="World/shaped") + cones(first=given[0], second=given[1]))
     if name == "wide":
         hold(renderers, stage, passes, samples)
         return
@@ -309,16 +202,14 @@ def test_light_follows_cones_of_several_axes(name, renderers):
 def test_light_follows_the_direction_that_an_edf_has(name, renderers, tmp_path):
     kind, inputs = EDFS[name]
     (tmp_path / "lamp.ies").write_text(PROFILE)
-    inputs = [text % (tmp_path / "lamp.ies") if "%s" in text else text for text in inputs]
-    near = ((-1, 6, 0.5), (-80, 20, 0))
-    stage = load(quad(near, BOUND.replace("glow", "shaped")) + edf("shaped", kind, inputs))
+    inputs = {**inputs, "file": str(tmp_path / "lamp.ies")} if "file" in inputs else inputs
+    stage = load(quad(NEAR, bind="World/shaped") + shaped(kind, inputs))
     # Few samples lie where a narrow cone reaches.
     hold(renderers, stage, *((64, 512) if name == "inclinedNarrow" else (4, 32)))
     # A light without direction would be seen as such: the floor is not lit as by an even one.
-    even = load(quad(near, BOUND.replace("glow", "shaped")) + edf("shaped", "ND_uniform_edf",
-                                                                  ["color3f inputs:color = (4, 3, 2)"]))
-    shaped, plain = (means(render(renderers["raster"], s, 8, 0))[:-1, 0] for s in (stage, even))
-    ratio = shaped / plain
+    even = load(quad(NEAR, bind="World/shaped") + shaped("ND_uniform_edf", WARM))
+    found, plain = (means(render(renderers["raster"], s, 8, 0))[:-1, 0] for s in (stage, even))
+    ratio = found / plain
     assert ratio.max() > 1.5 * ratio.min(), ratio
 
 
@@ -347,31 +238,15 @@ def test_the_camera_sees_the_profile_of_a_measured_edf(tmp_path, renderers):
 
 def test_light_follows_the_places_on_an_emitter(renderers):
     """Its corners glow in four colours, by a primvar; it is as wide as the floor."""
-    material = """    def Material "places"
-    {
-        token outputs:surface.connect = </World/places/surface.outputs:surface>
-        def Shader "surface"
-        {
-            uniform token info:id = "UsdPreviewSurface"
-            color3f inputs:diffuseColor = (0, 0, 0)
-            color3f inputs:emissiveColor.connect = </World/places/color.outputs:result>
-            token outputs:surface
-        }
-        def Shader "color"
-        {
-            uniform token info:id = "UsdPrimvarReader_float3"
-            string inputs:varname = "glow"
-            float3 outputs:result
-        }
-    }
-"""
-    text = (BOUND.replace("</World/glow>", "</World/places>")
-            + '        color3f[] primvars:glow = [(8, 0, 1), (0, 0, 1), (0, 0, 9), (0, 4, 0)] (interpolation = "vertex")\n')
-    hold(renderers, load(quad(((-1, 6, 1.2), (-80, 0, 0)), text, size=5.0) + material), passes=16)
+    material = usda.material("places", {
+        "surface": ("UsdPreviewSurface", {"diffuseColor": (0, 0, 0), "color3f emissiveColor": "<color>"}),
+        "color": ("UsdPrimvarReader_float3", {"varname": "glow"})}, "/World")
+    glow = 'color3f[] primvars:glow = [(8, 0, 1), (0, 0, 1), (0, 0, 9), (0, 4, 0)] (interpolation = "vertex")'
+    hold(renderers, load(quad(((-1, 6, 1.2), (-80, 0, 0)), glow, bind="World/places", size=5.0) + material), passes=16)
 
 
 def test_the_back_of_a_mesh_light_shines_by_its_material_alone(renderers):
     """materialSyncMode independent: the light is added to the front."""
-    text = LIGHT + BOUND + '        uniform token light:materialSyncMode = "independent"\n'
-    quads = (quad(((-1.2, 6, 0), (-90, 0, 0)), text, '"MaterialBindingAPI", "MeshLightAPI"', front="[0, 1, 2, 3]"))
+    quads = quad(((-1.2, 6, 0), (-90, 0, 0)), *MESH_LIGHT, 'uniform token light:materialSyncMode = "independent"',
+                 apis=("MeshLightAPI",), front=(0, 1, 2, 3))
     hold(renderers, load(quads, "0.4, 0.3, 0.2"))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import firstPass
+from patina import experiment
 from patina.cli import imageMetrics
 
 pytestmark = pytest.mark.usefixtures("opengl")
@@ -64,7 +65,6 @@ def test_first_looks_continue_as_they_would_have(name):
         settings = {**stage.size, "seed": 3, "checkpointSeconds": 0.0}
         film.resume_token = "first looks"
         for samples in (taken, 12):
-            renderer.start(stage.scene, stage.camera, {**settings, "samples": samples}, film)
-            renderer.wait()
+            experiment.draw(renderer, stage.scene, stage.camera, {**settings, "samples": samples}, film)
         again = np.array(film.resolve("color"), dtype=np.float32).reshape(*whole.shape[:2], -1)[..., :3]
         np.testing.assert_array_equal(again, whole)

@@ -4,62 +4,27 @@ import numpy as np
 import pytest
 
 import bothBackEnds
-from materialText import material
+from usda import material
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
 # The camera sees the floor below the slab, and not the slab.
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float focalLength = 50
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    float2 clippingRange = (0.1, 4)
-    token projection = "orthographic"
-    double3 xformOp:translate = (0, 2, 0)
-    float3 xformOp:rotateXYZ = (-90, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-def DistantLight "sun"
-{
-    float inputs:angle = 0
-    float3 xformOp:rotateXYZ = (%(turn)s, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-def Mesh "floor"
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)]
-    uniform token subdivisionScheme = "none"
-    color3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]
-}
-%(object)s
-%(materials)s
-"""
+STAGE = usda.stage(
+    usda.camera(flat=(20, 20), focalLength=50, clippingRange=(0.1, 4), at=(0, 2, 0), turn=(-90, 0, 0)),
+    usda.prim("DistantLight", "sun", angle=0, turn="(%(turn)s, 0, 0)"),
+    usda.floor("floor", 9, color=(0.5, 0.5, 0.5)),
+    "%(object)s", "%(materials)s")
 
-SLAB = """def Cube "slab" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    rel material:binding = </material>
-    double3 xformOp:translate = (0, 5, 0)
-    float3 xformOp:scale = (20, 0.1, 20)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
-}
-"""
+SLAB = usda.prim("Cube", "slab", bind="material", at=(0, 5, 0), scale=(20, 0.1, 20))
 
 
 def floor(folder, thing, turn=-90, **inputs):
     """:returns: what the floor reflects, shape (3,), of the rasterizer"""
-    nodes = {"ior": ("float", "1.5"), "roughness": ("float2", "(0, 0)"), "scatter_mode": ("string", '"RT"'), **inputs}
-    glass = material("material", {"mtlx:surface": "surface"}, {
+    nodes = {"ior": ("float", "1.5"), "roughness": ("float2", "(0, 0)"), "scatter_mode": ("string", "RT"), **inputs}
+    glass = material("material", {
         "glass": ("ND_dielectric_bsdf", {f"{kind} {name}": value for name, (kind, value) in nodes.items()}),
-        "surface": ("ND_surface", {"token bsdf": "<glass>"}),
+        "surface": ("ND_surface", {"bsdf": "<glass>"}),
     })
     (folder / "stage.usda").write_text(STAGE % {"object": thing, "materials": glass, "turn": turn})
     image = str(folder / "image.exr")
@@ -97,4 +62,4 @@ def test_a_slab_of_glass_lets_light_through(tmp_path, name):
 
 
 def test_what_only_reflects_casts_a_whole_shadow(tmp_path):
-    assert floor(tmp_path, SLAB, scatter_mode=("string", '"R"')).max() == 0.0
+    assert floor(tmp_path, SLAB, scatter_mode=("string", "R")).max() == 0.0

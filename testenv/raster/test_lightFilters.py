@@ -8,76 +8,59 @@ import pytest
 pytest.importorskip("scipy.stats", reason="SciPy is not installed")
 
 import equivalence  # noqa: E402
+import floorLights  # noqa: E402
 import inProcess  # noqa: E402
 import sameImage  # noqa: E402
 from floorLights import STAGE, light, write  # noqa: E402
+from usda import mesh, prim  # noqa: E402
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
 NO_HEADLIGHT = "--disableCameraLight"
-WIDE = """        float inputs:intensity = 10
-        float inputs:width = 1
-        float inputs:height = 1
-        rel light:filters = [{filters}]"""
-BALL = """        float inputs:intensity = 60
-        float inputs:radius = 0.15
-        rel light:filters = [{filters}]"""
-SUN = """        float inputs:intensity = 3000
-        float inputs:angle = 3
-        rel light:filters = [{filters}]"""
-DOME = """        color3f inputs:color = (0.3, 0.4, 0.6)
-        rel light:filters = [{filters}]"""
-OVERHEAD = """        double3 xformOp:translate = (%g, 1.6, 0)
-        float3 xformOp:rotateXYZ = (-90, 0, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-"""
+WIDE = {"intensity": 10, "width": 1, "height": 1}
+BALL = {"intensity": 60, "radius": 0.15}
 
 
-def filter_prim(kind, text, name="filter", place=OVERHEAD % -0.5):
-    lines = "".join(f"        {line.strip()}\n" for line in text.split(";") if line.strip())
-    shader = f'        uniform token lightFilter:shaderId = "{kind}"\n'
-    return f'    def LightFilter "{name}"\n    {{\n{shader}{lines}{place}    }}\n'
+def overhead(x, y=1.6):
+    return {"at": (x, y, 0), "turn": (-90, 0, 0)}
 
 
-def lamp(kind, text, *filters, **more):
-    return light(kind, text.format(filters=", ".join(f"</World/{name}>" for name in filters or ["filter"])), **more)
+def filter_prim(kind, text, name="filter", place=overhead(-0.5)):
+    lines = [f'uniform token lightFilter:shaderId = "{kind}"', *text.split("; ")]
+    return prim("LightFilter", name, *lines, **place)
+
+
+def lamp(kind, *filters, **inputs):
+    paths = ", ".join(f"</World/{name}>" for name in filters or ["filter"])
+    return light(kind, f"rel light:filters = [{paths}]", **inputs)
 
 
 SOFT = "float inputs:width = 1.2; float inputs:height = 1; float inputs:radius = 0.1; float inputs:edge = 0.4"
 IMAGE = "asset inputs:map = @./image.exr@; float inputs:width = 3; float inputs:height = 3"
-GLOWING = """    def Mesh "lamp" (
-        prepend apiSchemas = ["MeshLightAPI"]
-    )
-    {
-        float inputs:intensity = 12
-        rel light:filters = </World/filter>
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-0.8, 2.5, -0.8), (0.2, 2.5, -0.8), (0.2, 2.5, 0.2), (-0.8, 2.5, 0.2)]
-        uniform token subdivisionScheme = "none"
-    }
-"""
+GLOWING = mesh("lamp", [(-0.8, 2.5, -0.8), (0.2, 2.5, -0.8), (0.2, 2.5, 0.2), (-0.8, 2.5, 0.2)],
+               "float inputs:intensity = 12", "rel light:filters = </World/filter>", apis=("MeshLightAPI",))
 CASES = {
-    "barn": lamp("RectLight", WIDE) + filter_prim("PxrBarnLightFilter", SOFT),
-    "barnAnalytic": lamp("SphereLight", BALL) + filter_prim(
+    "barn": lamp("RectLight", **WIDE) + filter_prim("PxrBarnLightFilter", SOFT),
+    "barnAnalytic": lamp("SphereLight", **BALL) + filter_prim(
         "PxrBarnLightFilter", SOFT + "; int inputs:barnMode = 1; float inputs:apex = 2; bool inputs:invert = 1"),
-    "barnShear": lamp("SphereLight", BALL) + filter_prim(
+    "barnShear": lamp("SphereLight", **BALL) + filter_prim(
         "PxrBarnLightFilter", SOFT + "; int inputs:barnMode = 1; bool inputs:directional = 1; float inputs:shearX = 0.4"),
-    "cookie": lamp("SphereLight", BALL) + filter_prim("PxrCookieLightFilter", IMAGE + "; int inputs:tileMode = 2"),
-    "gobo": lamp("RectLight", WIDE) + filter_prim(
+    "cookie": lamp("SphereLight", **BALL) + filter_prim("PxrCookieLightFilter", IMAGE + "; int inputs:tileMode = 2"),
+    "gobo": lamp("RectLight", **WIDE) + filter_prim(
         "PxrGoboLightFilter", IMAGE + "; float inputs:scaleU = 0.7; float inputs:offsetV = 0.1; float inputs:density = 0.7"),
-    "rod": lamp("SphereLight", BALL) + filter_prim(
-        "PxrRodLightFilter", "float inputs:edge = 0.5; float inputs:intensity = 0.2", place=OVERHEAD.replace("1.6", "0.3") % 0),
-    "ramp": lamp("SphereLight", BALL) + filter_prim(
+    "rod": lamp("SphereLight", **BALL) + filter_prim(
+        "PxrRodLightFilter", "float inputs:edge = 0.5; float inputs:intensity = 0.2", place=overhead(0, 0.3)),
+    "ramp": lamp("SphereLight", **BALL) + filter_prim(
         "PxrRampLightFilter", "float inputs:beginDist = 2; float inputs:endDist = 6; "
         'float[] inputs:ramp_Knots = [0, 0.4, 0.7, 1]; float[] inputs:ramp_Floats = [1, 0.2, 1.5, 0.5]; '
         'string inputs:ramp_Interpolation = "bspline"; float[] inputs:colorRamp_Knots = [0.2, 0.8]; '
         "color3f[] inputs:colorRamp_Colors = [(1, 0.5, 0.2), (0.2, 0.5, 1)]"),
-    "several": lamp("SphereLight", BALL, "filter", "other") + filter_prim("PxrBarnLightFilter", SOFT) + filter_prim(
+    "several": lamp("SphereLight", "filter", "other", **BALL) + filter_prim("PxrBarnLightFilter", SOFT) + filter_prim(
         "PxrIntMultLightFilter", "float inputs:exposure = 1; float inputs:density = 0.5", "other"),
-    "sun": lamp("DistantLight", SUN, place="        float3 xformOp:rotateXYZ = (-70, 20, 0)\n"
-                '        uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]\n') + filter_prim("PxrBarnLightFilter", SOFT),
-    "dome": lamp("DomeLight", DOME, place="") + filter_prim("PxrBarnLightFilter", SOFT + "; bool inputs:invert = 1"),
+    "sun": (lamp("DistantLight", intensity=3000, angle=3, place={"turn": (-70, 20, 0)})
+            + filter_prim("PxrBarnLightFilter", SOFT)),
+    "dome": (lamp("DomeLight", color=(0.3, 0.4, 0.6), place={})
+             + filter_prim("PxrBarnLightFilter", SOFT + "; bool inputs:invert = 1")),
     "meshLight": GLOWING + filter_prim("PxrBarnLightFilter", SOFT),
 }
 # Half of the light of few pixels hangs on few of the light's places.
@@ -92,10 +75,10 @@ def test_filtered_light_is_the_path_tracers(name, tmp_path):
 @pytest.mark.parametrize("name", ["barn", "meshLight"])
 def test_the_camera_sees_the_filtered_light(name, tmp_path):
     """A camera below looks through the opening; pixels without a light are black in both."""
-    stage = STAGE[:STAGE.index('    def Mesh "floor"')].replace(
+    stage = floorLights.world("%s").replace(
         "matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0.6, -0.8, 0), (0, 0.8, 0.6, 0), (0, 5.6, 4.2, 1))",
-        "matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (-0.5, 0, 0, 1))") + "%s\n}\n"
-    lamps = {"barn": lamp("RectLight", WIDE, place=OVERHEAD.replace("1.6", "2.5") % -0.3), "meshLight": GLOWING}
+        "matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (-0.5, 0, 0, 1))")
+    lamps = {"barn": lamp("RectLight", **WIDE, place=overhead(-0.3, 2.5)), "meshLight": GLOWING}
     opening = filter_prim("PxrBarnLightFilter", "float inputs:width = 0.5; float inputs:height = 0.3; float inputs:radius = 0")
     path = write(tmp_path, stage % (lamps[name] + opening))
     images = [inProcess.Stage(path, "--backend", backend, "--samples", 64, "-w", 48, NO_HEADLIGHT).image(0)

@@ -8,7 +8,7 @@ import pytest
 _patina = pytest.importorskip("_patina")
 
 from patina.chart import measureSubdivision, probes  # noqa: E402
-from patina.chart.sceneMeasures import LUMINANCE  # noqa: E402
+from patina.experiment import LUMINANCE, draw, relative_error  # noqa: E402
 
 SKY = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes", "textures", "sky.exr")
 MATERIALS = {"diffuse": None, "smooth": 0.003, "rough": 0.4}  # alpha of metals
@@ -23,19 +23,15 @@ class Balls:
     def __init__(self):
         self.scene, self.renderer = _patina.Scene(), _patina.make_renderer("raster")
         points, counts, indices, _ = measureSubdivision.cage(False)
-        place = np.eye(4, dtype=np.float32)
-        place[3, 2] = 4.0
         with self.scene.edit() as edit:
-            edit.set_camera("/camera", transform=place, orthographic=True, horizontal_aperture=33.0, vertical_aperture=11.0,
-                            clip_near=0.1)
+            edit.set_camera("/camera", transform=probes.moved(0, 0, 4), orthographic=True, horizontal_aperture=33.0,
+                            vertical_aperture=11.0, clip_near=0.1)
             for i, (name, alpha) in enumerate(MATERIALS.items()):
                 edit.set_material(f"/{name}", probes.network("oren_nayar_diffuse_bsdf", color=(0.5, 0.5, 0.5)) if alpha is None
                                   else probes.network("conductor_bsdf", ior=(0.2,) * 3, extinction=(3.9,) * 3,
                                                       roughness=(alpha, alpha)))
-                at = np.eye(4, dtype=np.float32)
-                at[3, 0] = 1.1 * (i - 1)
                 edit.set_mesh(f"/ball{i}", points=points, face_vertex_counts=counts, face_vertex_indices=indices,
-                              scheme="catmullClark", material=f"/{name}", transform=at)
+                              scheme="catmullClark", material=f"/{name}", transform=probes.moved(1.1 * (i - 1), 0, 0))
 
     def light(self, kind):
         with self.scene.edit() as edit:
@@ -45,7 +41,7 @@ class Balls:
             elif kind == "even":
                 edit.set_light("/light", type="dome", camera_visible=False)
             else:
-                edit.set_light("/light", type="rect", transform=measureSubdivision._facing(np.array((-0.5, 0.7, 0.5)), 2.0),
+                edit.set_light("/light", type="rect", transform=probes.facing((-0.5, 0.7, 0.5), 2.0),
                                width=1.5, height=1.5, intensity=9.0)
 
     def render(self, tolerance=None, samples=192, **more):
@@ -53,10 +49,7 @@ class Balls:
         settings = {**SIZE, "samples": samples, "seed": 5, "checkpointSeconds": 0.0, "edgeLength": 4.0, **more}
         if tolerance is not None:
             settings["tolerance"] = tolerance
-        self.renderer.start(self.scene, "/camera", settings, film)
-        self.renderer.wait()
-        progress = self.renderer.progress()
-        assert not progress["failed"], progress["error"]
+        progress = draw(self.renderer, self.scene, "/camera", settings, film)
         if progress["backend"] != "raster":
             pytest.skip("no OpenGL here")
         chosen = {path: {c["point"]: c for c in plan["choices"]} for path, plan in progress["plans"].items()}
@@ -66,10 +59,6 @@ class Balls:
 @pytest.fixture(scope="module")
 def balls():
     return Balls()
-
-
-def relative(image, truth):
-    return float((np.abs(image - truth) / (truth + 0.01)).mean())
 
 
 @pytest.mark.parametrize("light, point", [("sky", "domeLight"), ("rect", "areaLight")])
@@ -88,7 +77,7 @@ def test_the_cheapest_that_fits_is_taken(balls, light, point):
             ways[name, tolerance] = choice["method"]
             assert choice["error"] <= 0.4 * tolerance and choice["ns"] <= choice["nsDefault"]
             assert (choice["error"] == 0.0) == (choice["method"] == "sampled")
-        assert samples == 1 or relative(image, truth) <= tolerance, (tolerance, ways)
+        assert samples == 1 or relative_error(image, truth) <= tolerance, (tolerance, ways)
     # A method that fits a large tolerance is cheap, and no error is small enough at last. Which of a dome's two tables is the
     # cheaper one is the timing table's to say.
     assert ways["diffuse", 0.3] in (("harmonics", "prefiltered") if point == "domeLight" else ("linearlyTransformedCosines",))

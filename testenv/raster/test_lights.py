@@ -11,11 +11,13 @@ import pytest
 pytest.importorskip("scipy.stats", reason="SciPy is not installed")
 
 import equivalence  # noqa: E402
+import floorLights  # noqa: E402
 import inProcess  # noqa: E402
 import sameImage  # noqa: E402
 from floorLights import STAGE, light, write  # noqa: E402
 from patina.chart import sweepsSky  # noqa: E402
-from patina.chart.sceneMeasures import LUMINANCE  # noqa: E402
+from patina.experiment import LUMINANCE, relative_error  # noqa: E402
+from usda import floor, mesh, preview, prim  # noqa: E402
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
@@ -23,62 +25,45 @@ NO_HEADLIGHT = "--disableCameraLight"
 
 
 def linked(only, which):
-    return f"""        uniform bool collection:{which}:includeRoot = 0
-        rel collection:{which}:includes = [{only}]"""
+    return f"uniform bool collection:{which}:includeRoot = 0", f"rel collection:{which}:includes = [{only}]"
 
 
 def many_links():
     """More links than a machine word has bits; each light has its own, the last ones light the block alone."""
-    return "".join(light("SphereLight", "        float inputs:intensity = 4\n        float inputs:radius = 0.1\n"
-                         + linked("</World/block>" if i > 64 else "</World/floor>", "lightLink"), f"light{i}",
-                         place=f"""        double3 xformOp:translate = ({-2 + 0.06 * i}, 2.5, 0.4)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-        float inputs:specular = {0.5 + 0.001 * i}
-""") for i in range(68))
+    return "".join(light("SphereLight", *linked("</World/block>" if i > 64 else "</World/floor>", "lightLink"),
+                         name=f"light{i}", intensity=4, radius=0.1, specular=0.5 + 0.001 * i,
+                         place={"at": (-2 + 0.06 * i, 2.5, 0.4)}) for i in range(68))
 
 
 def many_domes():
     """More domes than a pass takes, each of its own colour."""
-    return "".join(light("DomeLight", f"        color3f inputs:color = ({0.01 * (i % 7)}, 0.02, {0.002 * (40 - i)})", f"sky{i}",
-                         place="") for i in range(40))
+    return "".join(light("DomeLight", name=f"sky{i}", color=(0.01 * (i % 7), 0.02, 0.002 * (40 - i)), place={})
+                   for i in range(40))
 
 
+PROFILED = "asset inputs:shaping:ies:file = @./lamp.ies@"
+IMAGE = "asset inputs:texture:file = @./image.exr@"
+BALL = {"intensity": 40, "radius": 0.2}
 CASES = {
-    "profile": light("SphereLight", '        float inputs:intensity = 0.05\n        float inputs:radius = 0.2\n'
-                      '        asset inputs:shaping:ies:file = @./lamp.ies@', api="ShapingAPI"),
-    "profileNormalized": light("DiskLight", '        float inputs:intensity = 100\n        float inputs:radius = 0.3\n'
-                                '        asset inputs:shaping:ies:file = @./lamp.ies@\n'
-                                '        float inputs:shaping:ies:angleScale = 0.3\n'
-                                '        bool inputs:shaping:ies:normalize = 1', api="ShapingAPI"),
-    "rectImage": light("RectLight", '        float inputs:intensity = 3\n        float inputs:width = 2\n'
-                        '        float inputs:height = 1\n        asset inputs:texture:file = @./image.exr@'),
-    "shadowLink": light("SphereLight", "        float inputs:intensity = 40\n        float inputs:radius = 0.2\n"
-                         + linked("</World/floor>", "shadowLink")),
-    "lightLink": light("SphereLight", "        float inputs:intensity = 40\n        float inputs:radius = 0.2\n"
-                        + linked("</World/floor>", "lightLink")),
+    "profile": light("SphereLight", PROFILED, intensity=0.05, radius=0.2, apis=("ShapingAPI",)),
+    "profileNormalized": light("DiskLight", PROFILED, "float inputs:shaping:ies:angleScale = 0.3",
+                               "bool inputs:shaping:ies:normalize = 1", intensity=100, radius=0.3, apis=("ShapingAPI",)),
+    "rectImage": light("RectLight", IMAGE, intensity=3, width=2, height=1),
+    "shadowLink": light("SphereLight", *linked("</World/floor>", "shadowLink"), **BALL),
+    "lightLink": light("SphereLight", *linked("</World/floor>", "lightLink"), **BALL),
     "manyLinks": many_links(),
-    "shadowDistance": light("SphereLight", "        float inputs:intensity = 40\n        float inputs:radius = 0.2\n"
-                             "        float inputs:shadow:distance = 0.7\n        float inputs:shadow:falloff = 0.5",
-                             api="ShadowAPI"),
-    "shadowColor": light("SphereLight", "        float inputs:intensity = 40\n        float inputs:radius = 0.2\n"
-                          "        color3f inputs:shadow:color = (0.5, 0.1, 0.1)", api="ShadowAPI"),
-    "line": light("CylinderLight", "        float inputs:intensity = 40\n        float inputs:length = 2\n"
-                   "        float inputs:radius = 0.02\n        bool treatAsLine = 1"),
-    "sun": light("DistantLight", "        float inputs:intensity = 2\n        float inputs:angle = 0"),
-    "twoDomes": light("DomeLight", "        color3f inputs:color = (0.2, 0.3, 0.6)", "sky", place="")
-                 + light("DomeLight", "        asset inputs:texture:file = @./image.exr@\n"
-                         "        float inputs:intensity = 0.5", "dome", place=""),
+    "shadowDistance": light("SphereLight", "float inputs:shadow:distance = 0.7", "float inputs:shadow:falloff = 0.5",
+                            apis=("ShadowAPI",), **BALL),
+    "shadowColor": light("SphereLight", "color3f inputs:shadow:color = (0.5, 0.1, 0.1)", apis=("ShadowAPI",), **BALL),
+    "line": light("CylinderLight", "bool treatAsLine = 1", intensity=40, length=2, radius=0.02),
+    "sun": light("DistantLight", intensity=2, angle=0),
+    "twoDomes": (light("DomeLight", name="sky", color=(0.2, 0.3, 0.6), place={})
+                 + light("DomeLight", IMAGE, name="dome", intensity=0.5, place={})),
     "manyDomes": many_domes(),
 }
 # A card where the block is: of a block, the near side alone would be known (test_byDesign.py).
-STAGES = {"shadowDistance": STAGE.replace(STAGE[STAGE.index('    def Cube "block"'):STAGE.index("%s")], """    def Mesh "card"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(0.1, 0.2, 0.4), (0.9, 0.2, 0.4), (0.9, 0.8, -0.4), (0.1, 0.8, -0.4)]
-        uniform token subdivisionScheme = "none"
-    }
-""")}
+CARD = mesh("card", [(0.1, 0.2, 0.4), (0.9, 0.2, 0.4), (0.9, 0.8, -0.4), (0.1, 0.8, -0.4)])
+STAGES = {"shadowDistance": floorLights.world(floorLights.FLOOR, CARD, "%s")}
 # Few texels of the image give nearly all of its light, so that each render is noisier.
 LESS = dataclasses.replace(equivalence.FULL, widest=10 * equivalence.MARGIN, looks=(6, 12))
 POWER = {"rectImage": dataclasses.replace(LESS, samples=96, looks=(6, 12, 18)), "manyDomes": LESS,
@@ -93,48 +78,26 @@ def test_light_is_the_path_tracers(name, tmp_path):
                           width=SMALL.get(name, sameImage.WIDTH))
 
 
-GLOSSY = """    def Material "metal"
-    {
-        token outputs:surface.connect = </World/metal/surface.outputs:surface>
-        def Shader "surface"
-        {
-            uniform token info:id = "UsdPreviewSurface"
-            color3f inputs:diffuseColor = (0.9, 0.9, 0.9)
-            float inputs:metallic = 1
-            float inputs:roughness = 0.35
-            token outputs:surface
-        }
-    }
-"""
+GLOSSY = preview("metal", inside="/World", diffuseColor=(0.9, 0.9, 0.9), metallic=1, roughness=0.35)
 
 
 @pytest.mark.parametrize("angle", [4, 30, 120])
 def test_wide_suns_are_shadowed_where_samples_of_the_material_find_them(angle, tmp_path):
     """Without a dome nothing else asks what hides far away light from such samples. The block stands in its mirror image."""
-    sun = light("DistantLight", f"        float inputs:intensity = 10\n        float inputs:angle = {angle}",
-                place="        float3 xformOp:rotateXYZ = (-50, 170, 0)\n"
-                      '        uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]\n')
-    stage = STAGE.replace('def Mesh "floor"', 'def Mesh "floor" (prepend apiSchemas = ["MaterialBindingAPI"])')
-    stage = stage.replace('        point3f[] points', "        rel material:binding = </World/metal>\n        point3f[] points",
-                          1)
+    sun = light("DistantLight", intensity=10, angle=angle, place={"turn": (-50, 170, 0)})
+    mirror = floor("floor", 3, color=(0.6, 0.6, 0.6), bind="World/metal")
     power = dataclasses.replace(equivalence.FULL, widest=10 * equivalence.MARGIN)
-    sameImage.assert_same(write(tmp_path, stage % (sun + GLOSSY)), None, NO_HEADLIGHT, power=power)
+    stage = floorLights.world(mirror, floorLights.BLOCK, sun, GLOSSY)
+    sameImage.assert_same(write(tmp_path, stage), None, NO_HEADLIGHT, power=power)
 
 
-INSIDE = """    def Sphere "bulb"
-    {
-        double radius = 0.3
-        double3 xformOp:translate = (-1, 2, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-    }
-"""
+INSIDE = prim("Sphere", "bulb", radius=0.3, at=(-1, 2, 0))
 
 
 @pytest.mark.parametrize("kind", ["SphereLight", "CylinderLight"])
 def test_what_is_inside_of_a_light_casts_nothing(kind, tmp_path):
     """Samples of a sphere light lie inside of it, but it shines from its surface."""
-    place = '        double3 xformOp:translate = (-1, 2, 0)\n        uniform token[] xformOpOrder = ["xformOp:translate"]\n'
-    lamp = light(kind, "        float inputs:radius = 0.4\n        float inputs:intensity = 4", place=place)
+    lamp = light(kind, radius=0.4, intensity=4, place={"at": (-1, 2, 0)})
     drawn, power = [], dataclasses.replace(equivalence.FULL, widest=10 * equivalence.MARGIN)
     for name, lights in (("with", lamp + INSIDE), ("without", lamp)):
         (tmp_path / name).mkdir()
@@ -170,9 +133,9 @@ def test_a_method_of_domes_keeps_the_tolerance_that_it_would_be_taken_for(method
     """A method is taken where its error in the table is at most 0.4 of the tolerance: the whole image has to be within it."""
     truth, stage = skies[scene]
     image = stage.image(0, samples=32, tolerance=1.0, methods={"domeLight": method}) @ LUMINANCE
-    plans = stage.renderer.progress()["plans"].values()
+    plans = stage.state["plans"].values()
     error = max(c["error"] for plan in plans for c in plan["choices"] if c["point"] == "domeLight")
-    off = float((np.abs(image - truth @ LUMINANCE) / (truth @ LUMINANCE + 0.01)).mean())
+    off = relative_error(image, truth @ LUMINANCE)
     assert 0.0 < off <= error / 0.4, (off, error)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import bothBackEnds
+from patina import experiment
 
 SETTINGS = {"width": 32, "height": 24, "samples": 3}
 
@@ -29,9 +30,7 @@ def render(renderer, scene):
     import _patina
 
     film = _patina.Film()
-    renderer.start(scene, "/World/camera", SETTINGS, film)
-    renderer.wait()
-    assert renderer.progress()["backend"] == "raster" and renderer.progress()["converged"]
+    assert experiment.draw(renderer, scene, "/World/camera", SETTINGS, film, "raster")["converged"]
     return film.resolve("color")
 
 

@@ -16,139 +16,35 @@ import equivalence  # noqa: E402
 import inProcess  # noqa: E402
 import pairs  # noqa: E402
 import sameImage  # noqa: E402
-from materialText import material  # noqa: E402
+from usda import material  # noqa: E402
+import usda  # noqa: E402
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Xform "World"
-{
-    double3 xformOp:translate = (%(far)g, %(up)g, %(back)g)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-    def Camera "camera"
-    {
-        float2 clippingRange = (0.1, 1000)
-        float focalLength = 24
-        float horizontalAperture = 20.955
-        float verticalAperture = 15.7
-        matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0.8, -0.6, 0), (0, 0.6, 0.8, 0), (0, 3.6, 4.8, 1))
-        uniform token[] xformOpOrder = ["xformOp:transform"]
-    }
-    def Mesh "floor" (
-        prepend apiSchemas = ["MaterialBindingAPI"]
-    )
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-4, 0, 4), (4, 0, 4), (4, 0, -4), (-4, 0, -4)]
-        texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (
-            interpolation = "vertex"
-        )
-        color3f[] primvars:displayColor = [(0.6, 0.55, 0.5)]
-        uniform token subdivisionScheme = "none"
-%(floor)s
-    }
-    def Sphere "ball"
-    {
-        double radius = 0.8
-        double3 xformOp:translate = (-0.9, 0.8, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-        color3f[] primvars:displayColor = [(0.2, 0.4, 0.7)]
-    }
-    def Cube "block"
-    {
-        double size = 1
-        double3 xformOp:translate = (0.9, 0.5, 0.4)
-        float3 xformOp:rotateXYZ = (0, 30, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-        color3f[] primvars:displayColor = [(0.7, 0.3, 0.2)]
-    }
-    def RectLight "key"
-    {
-        float inputs:intensity = 12
-        double3 xformOp:translate = (-2, 4, 2)
-        float3 xformOp:rotateXYZ = (-55, -35, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-    }
-    def DistantLight "sun"
-    {
-        float inputs:intensity = 2
-        float inputs:angle = 2
-        float3 xformOp:rotateXYZ = (-40, 35, 0)
-        uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-    }
-    def DomeLight "sky"
-    {
-        float inputs:intensity = 0.4
-    }
-%(more)s
-}
-"""
+STAGE = usda.stage(
+    usda.prim("Xform", "World",
+        usda.camera(lens=(24, 20.955, 15.7), clippingRange=(0.1, 1000),
+                    matrix=((1, 0, 0, 0), (0, 0.8, -0.6, 0), (0, 0.6, 0.8, 0), (0, 3.6, 4.8, 1))),
+        usda.floor("floor", 4, "%(floor)s", apis=("MaterialBindingAPI",), st=usda.ST, color=(0.6, 0.55, 0.5)),
+        usda.prim("Sphere", "ball", radius=0.8, at=(-0.9, 0.8, 0), color=(0.2, 0.4, 0.7)),
+        usda.prim("Cube", "block", size=1, at=(0.9, 0.5, 0.4), turn=(0, 30, 0), color=(0.7, 0.3, 0.2)),
+        usda.prim("RectLight", "key", intensity=12, at=(-2, 4, 2), turn=(-55, -35, 0)),
+        usda.prim("DistantLight", "sun", intensity=2, angle=2, turn=(-40, 35, 0)),
+        usda.prim("DomeLight", "sky", intensity=0.4),
+        "%(more)s", at="(%(far)g, %(up)g, %(back)g)"))
 
 # Sines of the place, so that bumps are where the world is, not the prim.
-BUMPS = """
-def Material "bumps"
-{
-    token outputs:mtlx:surface.connect = </bumps/surface.outputs:out>
-    token outputs:mtlx:displacement.connect = </bumps/displacement.outputs:out>
-    def Shader "diffuse"
-    {
-        uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
-        color3f inputs:color = (0.6, 0.55, 0.5)
-        token outputs:out
-    }
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_surface"
-        token inputs:bsdf.connect = </bumps/diffuse.outputs:out>
-        token outputs:out
-    }
-    def Shader "place"
-    {
-        uniform token info:id = "ND_position_vector3"
-        uniform string inputs:space = "world"
-        float3 outputs:out
-    }
-    def Shader "wide"
-    {
-        uniform token info:id = "ND_multiply_vector3FA"
-        float3 inputs:in1.connect = </bumps/place.outputs:out>
-        float inputs:in2 = 4
-        float3 outputs:out
-    }
-    def Shader "wave"
-    {
-        uniform token info:id = "ND_sin_vector3"
-        float3 inputs:in.connect = </bumps/wide.outputs:out>
-        float3 outputs:out
-    }
-    def Shader "x"
-    {
-        uniform token info:id = "ND_extract_vector3"
-        float3 inputs:in.connect = </bumps/wave.outputs:out>
-        int inputs:index = 0
-        float outputs:out
-    }
-    def Shader "displacement"
-    {
-        uniform token info:id = "ND_displacement_float"
-        float inputs:displacement.connect = </bumps/x.outputs:out>
-        float inputs:scale = 0.25
-        token outputs:out
-    }
-}
-"""
+BUMPS = usda.material("bumps", {
+    "diffuse": ("ND_oren_nayar_diffuse_bsdf", {"color": (0.6, 0.55, 0.5)}),
+    "surface": ("ND_surface", {"bsdf": "<diffuse>"}),
+    "place": ("ND_position_vector3", {"uniform string space": "world"}, "float3 out"),
+    "wide": ("ND_multiply_vector3FA", {"float3 in1": "<place>", "in2": 4}, "float3 out"),
+    "wave": ("ND_sin_vector3", {"float3 in": "<wide>"}, "float3 out"),
+    "x": ("ND_extract_vector3", {"float3 in": "<wave>", "index": 0}, "float out"),
+    "displacement": ("ND_displacement_float", {"float displacement": "<x>", "scale": 0.25})},
+    surface="surface", displacement="displacement")
 
-CARD = """    def Mesh "card"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-1e7, 1e7, 1e7), (1e7, 1e7, 1e7), (1e7, 1.1e7, 1e7), (-1e7, 1.1e7, 1e7)]
-        uniform token subdivisionScheme = "none"
-    }"""
+CARD = usda.mesh("card", [(-1e7, 1e7, 1e7), (1e7, 1e7, 1e7), (1e7, 1.1e7, 1e7), (-1e7, 1.1e7, 1e7)])
 
 
 def write(folder, far=0.0, floor="", more="", end=""):
@@ -188,9 +84,9 @@ def test_bumps_of_polygons_stand_in_the_world(tmp_path):
 
 def matte(path):
     """Binds a material of one lobe to all prims: the albedo of the usual surface takes a minute to compile in software."""
-    text = material("matte", {"mtlx:surface": "surface"}, {
-        "lobe": ("ND_oren_nayar_diffuse_bsdf", {"color3f color": "(0.6, 0.5, 0.4)"}),
-        "surface": ("ND_surface", {"token bsdf": "<lobe>"})})
+    text = material("matte", {
+        "lobe": ("ND_oren_nayar_diffuse_bsdf", {"color": (0.6, 0.5, 0.4)}),
+        "surface": ("ND_surface", {"bsdf": "<lobe>"})})
     with open(os.path.join(os.path.dirname(path), "matte.usda"), "w", encoding="utf-8") as file:
         file.write("#usda 1.0\n" + text)
     stage = Usd.Stage.Open(path)
@@ -203,16 +99,13 @@ def matte(path):
 
 
 def test_aovs_are_those_of_the_path_tracer(tmp_path):
-    import _patina
-
     aovs = ("--aov", "all", "--aov", "primvars:displayColor")
     found, stage = {}, matte(write(tmp_path, 500.0))
     for backend in ("raster", "embree"):
         file = str(tmp_path / (backend + ".exr"))
         pairs.record(stage, file, "--backend", backend, "--samples", "16", "-w", "48", "--maxDepth", "1",
                      "--filterRadius", "0.1", *aovs)
-        image = _patina.read_image(file)
-        found[backend] = dict(zip(image.channels, np.moveaxis(np.array(image.pixels), -1, 0)))
+        found[backend] = inProcess.channels(file)
     assert set(found["raster"]) == set(found["embree"])
     for name, other in found["embree"].items():
         if name in ("A", "R", "G", "B", "sampleCount", "variance"):

@@ -5,20 +5,12 @@ import numpy as np
 import pytest
 
 import inProcess
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
 SIZE, SAMPLES = 32, 64
-CAMERA = """#usda 1.0
-def Camera "camera"
-{
-    float focalLength = 50
-    float horizontalAperture = 10
-    float verticalAperture = 10
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+CAMERA = usda.stage(usda.camera(lens=(50, 10, 10), at=(0, 0, 10)), up="")
 HALF = "    float[] primvars:displayOpacity = [0.5]\n"
 CARD = [(-2, -2), (2, -2), (2, 2), (-2, 2)]
 

@@ -4,60 +4,29 @@ import numpy as np
 import pytest
 
 import bothBackEnds
-from materialText import material
+from usda import material
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float focalLength = 50
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    float2 clippingRange = (0.1, 1000)
-    token projection = "orthographic"
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "sky"
-{
-    float inputs:intensity = 1
-}
-def %(shape)s "object" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    %(geometry)s
-    rel material:binding = </material>
-}
-def Mesh "wall" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-9, -9, -3), (9, -9, -3), (9, 9, -3), (-9, 9, -3)]
-    uniform token subdivisionScheme = "none"
-    token visibility = "%(wall)s"
-    rel material:binding = </red>
-}
-%(materials)s
-"""
+STAGE = usda.stage(
+    usda.camera(flat=(20, 20), focalLength=50, clippingRange=(0.1, 1000), at=(0, 0, 10)),
+    usda.prim("DomeLight", "sky", intensity=1),
+    usda.prim("%(shape)s", "object", "%(geometry)s", bind="material"),
+    usda.card("wall", 9, z=-3, bind="red", visibility="%(wall)s"),
+    "%(materials)s")
 
 
 def _materials(terminal, absorption, scattering):
-    red = material("red", {"surface": "surface"}, {
-        "surface": ("ND_surface_unlit", {"color3f emission_color": "(0.5, 0.25, 0.125)"})})
-    return red + material("material", {"mtlx:" + terminal: terminal}, {
+    red = material("red", {
+        "surface": ("ND_surface_unlit", {"emission_color": (0.5, 0.25, 0.125)})})
+    return red + material("material", {
         "vdf": ("ND_anisotropic_vdf", {"vector3f absorption": absorption, "vector3f scattering": scattering}),
-        "glass": ("ND_dielectric_bsdf", {"float ior": "1.5", "float2 roughness": "(0, 0)", "string scatter_mode": '"RT"'}),
-        "layer": ("ND_layer_vdf", {"token top": "<glass>", "token base": "<vdf>"}),
-        "surface": ("ND_surface", {"token bsdf": "<layer>"}),
-        "volume": ("ND_volume", {"token vdf": "<vdf>"}),
-    })
+        "glass": ("ND_dielectric_bsdf", {"ior": 1.5, "roughness": (0, 0), "scatter_mode": "RT"}),
+        "layer": ("ND_layer_vdf", {"top": "<glass>", "base": "<vdf>"}),
+        "surface": ("ND_surface", {"bsdf": "<layer>"}),
+        "volume": ("ND_volume", {"vdf": "<vdf>"}),
+    }, **{terminal: terminal})
 
 
 def _middle(tmp_path, samples=4, terminal="volume", absorption="(0, 0, 0)", scattering="(0, 0, 0)", **parts):

@@ -7,57 +7,23 @@ UsdLux overview says: intensity * 2^exposure * color, divided by the area when n
 """
 import math
 
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{{
-    float2 clippingRange = (0.01, 1000)
-    float focalLength = 500
-    float horizontalAperture = 1
-    float verticalAperture = 1
-    double3 xformOp:translate = (0, 3, 9)
-    float xformOp:rotateX = -18.434948822922
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]
-}}
-def Mesh "floor" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-5, 0, 5), (5, 0, 5), (5, 0, -5), (-5, 0, -5)]
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </white>
-}}
-def Material "white"
-{{
-    token outputs:mtlx:surface.connect = </white/surface.outputs:out>
-    def Shader "diffuse"
-    {{
-        uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
-        color3f inputs:color = (0.5, 0.5, 0.5)
-        token outputs:out
-    }}
-    def Shader "surface"
-    {{
-        uniform token info:id = "ND_surface"
-        token inputs:bsdf.connect = </white/diffuse.outputs:out>
-        token outputs:out
-    }}
-}}
-{light}
-"""
-DOWN = ('float xformOp:rotateX = -90\n    double3 xformOp:translate = (0, 2, 0)\n'
-        '    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]')
-ABOVE = 'double3 xformOp:translate = (0, 2, 0)\n    uniform token[] xformOpOrder = ["xformOp:translate"]'
+import usda
+
+DOWN = {"at": (0, 2, 0), "rotateX": -90}
+ABOVE = {"at": (0, 2, 0)}
 
 
-def light(kind, attributes, place=DOWN, api=""):
-    applied = f' (\n    prepend apiSchemas = ["{api}"]\n)' if api else ""
-    body = "\n    ".join(attributes)
-    return f'def {kind} "light"{applied}\n{{\n    {body}\n    {place}\n}}\n'
+def stage(*prims):
+    """:returns: the text of the floor with these"""
+    return usda.stage(
+        usda.camera(lens=(500, 1, 1), clippingRange=(0.01, 1000), at=(0, 3, 9), rotateX=-18.434948822922),
+        usda.floor("floor", 5, bind="white"),
+        usda.lobe("white", "oren_nayar_diffuse_bsdf", color=(0.5, 0.5, 0.5)), *prims)
+
+
+def light(kind, *lines, place=DOWN, **inputs):
+    """:param place: transforms, as usda.prim() takes them"""
+    return usda.prim(kind, "light", *lines, **inputs, **place)
 
 
 def rect_irradiance(width, height, distance):
@@ -85,37 +51,23 @@ def cylinder_irradiance(radius, length, distance, steps=400):
 
 
 CASES = {
-    "sphere": (light("SphereLight", ["float inputs:intensity = 3", "float inputs:radius = 0.5"], ABOVE),
-               3 * math.pi * (0.5 / 2) ** 2),
-    "sphere normalized": (light("SphereLight", ["float inputs:intensity = 3", "float inputs:radius = 0.5",
-                                                "bool inputs:normalize = 1"], ABOVE),
+    "sphere": (light("SphereLight", intensity=3, radius=0.5, place=ABOVE), 3 * math.pi * (0.5 / 2) ** 2),
+    "sphere normalized": (light("SphereLight", intensity=3, radius=0.5, normalize=True, place=ABOVE),
                           3 / (4 * math.pi * 0.25) * math.pi * (0.5 / 2) ** 2),
-    "sphere with exposure and colour": (light("SphereLight", ["float inputs:intensity = 3", "float inputs:exposure = 2",
-                                                              "color3f inputs:color = (0.5, 0.5, 0.5)",
-                                                              "float inputs:radius = 0.5"], ABOVE),
-                                        6 * math.pi * (0.5 / 2) ** 2),
-    "disk": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 1"]), 3 * math.pi * 1 / (1 + 4)),
-    "disk normalized": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 1",
-                                            "bool inputs:normalize = 1"]), 3 / math.pi * math.pi / (1 + 4)),
-    "disk facing away": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 1"],
-                               DOWN.replace("-90", "90")), 0.0),
-    "rect": (light("RectLight", ["float inputs:intensity = 3", "float inputs:width = 2", "float inputs:height = 1"]),
-             3 * rect_irradiance(2, 1, 2)),
-    "rect normalized": (light("RectLight", ["float inputs:intensity = 3", "float inputs:width = 2", "float inputs:height = 1",
-                                            "bool inputs:normalize = 1"]),
-                        1.5 * rect_irradiance(2, 1, 2)),
-    "cylinder": (light("CylinderLight", ["float inputs:intensity = 3", "float inputs:radius = 0.25", "float inputs:length = 2"],
-                       ABOVE),
+    "sphere with exposure and colour": (light("SphereLight", intensity=3, exposure=2, color=(0.5, 0.5, 0.5), radius=0.5,
+                                              place=ABOVE), 6 * math.pi * (0.5 / 2) ** 2),
+    "disk": (light("DiskLight", intensity=3, radius=1), 3 * math.pi * 1 / (1 + 4)),
+    "disk normalized": (light("DiskLight", intensity=3, radius=1, normalize=True), 3 / math.pi * math.pi / (1 + 4)),
+    "disk facing away": (light("DiskLight", intensity=3, radius=1, place={**DOWN, "rotateX": 90}), 0.0),
+    "rect": (light("RectLight", intensity=3, width=2, height=1), 3 * rect_irradiance(2, 1, 2)),
+    "rect normalized": (light("RectLight", intensity=3, width=2, height=1, normalize=True), 1.5 * rect_irradiance(2, 1, 2)),
+    "cylinder": (light("CylinderLight", intensity=3, radius=0.25, length=2, place=ABOVE),
                  3 * cylinder_irradiance(0.25, 2, 2)),
-    "distant": (light("DistantLight", ["float inputs:intensity = 3", "float inputs:angle = 20"]),
-                3 * math.pi * math.sin(math.radians(10)) ** 2),
-    "distant normalized": (light("DistantLight", ["float inputs:intensity = 3", "float inputs:angle = 20",
-                                                  "bool inputs:normalize = 1"]), 3.0),
-    "dome": (light("DomeLight", ["float inputs:intensity = 3"], ""), 3 * math.pi),
-    "cone that misses nothing": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 0.01",
-                                                     "float inputs:shaping:cone:angle = 30"], DOWN, "ShapingAPI"),
-                                 3 * math.pi * 1e-4 / (1e-4 + 4)),
-    "focus straight ahead": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 0.01",
-                                                 "float inputs:shaping:focus = 8"], DOWN, "ShapingAPI"),
-                             3 * math.pi * 1e-4 / (1e-4 + 4)),
+    "distant": (light("DistantLight", intensity=3, angle=20), 3 * math.pi * math.sin(math.radians(10)) ** 2),
+    "distant normalized": (light("DistantLight", intensity=3, angle=20, normalize=True), 3.0),
+    "dome": (light("DomeLight", intensity=3, place={}), 3 * math.pi),
+    "cone that misses nothing": (light("DiskLight", "float inputs:shaping:cone:angle = 30", intensity=3, radius=0.01,
+                                       apis=("ShapingAPI",)), 3 * math.pi * 1e-4 / (1e-4 + 4)),
+    "focus straight ahead": (light("DiskLight", "float inputs:shaping:focus = 8", intensity=3, radius=0.01,
+                                   apis=("ShapingAPI",)), 3 * math.pi * 1e-4 / (1e-4 + 4)),
 }

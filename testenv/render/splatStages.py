@@ -174,16 +174,10 @@ def sharp_image(stage, folder, pixels=32, samples=1, settings=(), aovs=("color",
     """:returns: images by AOV, every sample at its pixel's middle"""
     from inProcess import Stage, needs_opengl
 
-    if backend == "raster":
-        needs_opengl()
-
+    needs_opengl(backend)
     path = folder / "stage.usda"
     stage.Export(str(path))
     rendered = Stage(path, "--camera", "/camera", "--imageWidth", pixels, "--imageHeight", pixels, "--disableCameraLight",
                      "--backend", backend, *settings)
-    film = rendered.module.Film()
-    rendered.renderer.start(rendered.scene, rendered.camera,
-                            {**rendered.settings, "filterRadius": 0.0, "samples": samples, "aovs": list(aovs)}, film)
-    rendered.renderer.wait()
-    assert not rendered.renderer.progress()["failed"], rendered.renderer.progress()["error"]
+    film = rendered.film(filterRadius=0.0, samples=samples, aovs=list(aovs))
     return {aov: np.array(film.resolve(aov)) for aov in aovs}, rendered

@@ -7,44 +7,17 @@ import numpy as np
 import pytest
 
 from rendering import color, patina, pixels, record, scene
+from usda import camera, prim
 
 HEAD = '#usda 1.0\n(\n    upAxis = "Y"\n)\n'
-CAMERA = """def Camera "camera"
-{
-    double3 xformOp:translate = (0, 0, 5)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "dome"
-{
-    float inputs:intensity = 1
-}
-"""
-QUAD = """def Mesh "quad" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    int[] faceVertexCounts = %(counts)s
-    int[] faceVertexIndices = %(indices)s
-    point3f[] points = %(points)s
-    uniform token subdivisionScheme = "%(scheme)s"
-    rel material:binding = </material>
-    %(extra)s
-}
-"""
+CAMERA = camera(at=(0, 0, 5)) + prim("DomeLight", "dome", intensity=1)
+QUAD = prim("Mesh", "quad", "%(extra)s", bind="material", faceVertexCounts="%(counts)s", faceVertexIndices="%(indices)s",
+            points="%(points)s", subdivisionScheme="%(scheme)s")
 GOOD = {"counts": "[4]", "indices": "[0, 1, 2, 3]", "points": "[(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]",
         "scheme": "none", "extra": ""}
-PREVIEW = """def Material "material"
-{
-    token outputs:surface.connect = </material/surface.outputs:surface>
-    def Shader "surface"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        %s
-        token outputs:surface
-    }
-    %s
-}
-"""
+PREVIEW = prim("Material", "material", "token outputs:surface.connect = </material/surface.outputs:surface>",
+    prim("Shader", "surface", 'uniform token info:id = "UsdPreviewSurface"', "token outputs:surface", "%s"),
+    "%s")
 TINY = ("--imageWidth", 32, "--imageHeight", 32, "--samples", 4)
 
 

@@ -10,35 +10,17 @@ import sys
 import numpy as np
 import pytest
 
+from patina.experiment import LUMINANCE
 from rendering import pixels, record
+import usda
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 EXAMPLES = os.path.join(HERE, "..", "..", "..", "shared", "assets", "materialx")
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float2 clippingRange = (0.1, 10)
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    double3 xformOp:translate = (0, 0, 5)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "sky"
-{
-}
-def Scope "materials" (references = @%(document)s@</MaterialX>)
-{
-}
-def Sphere "ball" (prepend apiSchemas = ["MaterialBindingAPI"])
-{
-    rel material:binding = </materials/Materials/%(material)s>
-}
-"""
+STAGE = usda.stage(
+    usda.camera(flat=(20, 20), clippingRange=(0.1, 10), at=(0, 0, 5)),
+    usda.prim("DomeLight", "sky"),
+    usda.prim("Scope", "materials", meta=("references = @%(document)s@</MaterialX>",)),
+    usda.prim("Sphere", "ball", bind="materials/Materials/%(material)s"))
 
 # A white base, a grey and a dark one, each in a channel.
 BASES = "0.8, 0.4, 0.05"

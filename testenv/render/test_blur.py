@@ -3,19 +3,19 @@
 import numpy as np
 import pytest
 
-from test_features import material, quad, render
+from test_features import quad, render
+from usda import material
 
 WIDTH = 0.5  # of the texture's square
 
 # Left half black, right half white.
 STEP = material("step", {
-    "uv": ("ND_texcoord_vector2", []),
-    "u": ("ND_separate2_vector2", ["float2 inputs:in.connect = </step/uv.outputs:out>", "float outputs:outx"]),
-    "half": ("ND_ifgreater_float", ["float inputs:value1.connect = </step/u.outputs:outx>", "float inputs:value2 = 0.5",
-                                    "float inputs:in1 = 1", "float inputs:in2 = 0"]),
-    "blur": ("ND_blur_float", ["float inputs:in.connect = </step/half.outputs:out>", f"float inputs:size = {WIDTH}"]),
-    "grey": ("ND_convert_float_color3", ["float inputs:in.connect = </step/blur.outputs:out>"]),
-    "surface": ("ND_surface_unlit", ["color3f inputs:emission_color.connect = </step/grey.outputs:out>"])})
+    "uv": ("ND_texcoord_vector2", {}),
+    "u": ("ND_separate2_vector2", {"float2 in": "<uv>"}, "float outx"),
+    "half": ("ND_ifgreater_float", {"float value1": "<u>", "value2": 0.5, "in1": 1, "in2": 0}),
+    "blur": ("ND_blur_float", {"float in": "<half>", "size": WIDTH}),
+    "grey": ("ND_convert_float_color3", {"float in": "<blur>"}),
+    "surface": ("ND_surface_unlit", {"color3f emission_color": "<grey>"})})
 
 
 @pytest.mark.parametrize("backend", ["embree", "raster"])

@@ -6,95 +6,29 @@ import scipy.stats
 
 from inProcess import Stage
 from patina.significance import sidak
+import usda
+from usda import camera, floor, material, mesh, prim
 
 SEEDS = range(8)
 SIGNIFICANCE = 1e-4  # of each test; fixed seeds
 IOR = 1.5
 PASSED = (1 - ((IOR - 1) / (IOR + 1)) ** 2) ** 2  # by both faces of a slab, seen straight on (Fresnel)
 
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{{
-    float2 clippingRange = (0.01, 100)
-    token projection = "orthographic"
-    float horizontalAperture = {aperture}
-    float verticalAperture = {aperture}
-    double3 xformOp:translate = ({x}, 0.9, 0)
-    float3 xformOp:rotateXYZ = (-90, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}}
-def Mesh "floor"
-{{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-1.5, 0, 1.5), (1.5, 0, 1.5), (1.5, 0, -1.5), (-1.5, 0, -1.5)]
-    color3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]
-    uniform token subdivisionScheme = "none"
-}}
-{glass}
-def Material "glass"
-{{
-    token outputs:mtlx:surface.connect = </glass/surface.outputs:out>
-    def Shader "surface"
-    {{
-        uniform token info:id = "ND_open_pbr_surface_surfaceshader"
-        float inputs:transmission_weight = 1
-        color3f inputs:transmission_color = ({color})
-        float inputs:transmission_depth = 1
-        float inputs:specular_ior = 1.5
-        float inputs:specular_roughness = {roughness}
-        token outputs:out
-    }}
-}}
-{light}
-"""
-SLAB = """def Mesh "slab" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
-    int[] faceVertexIndices = [4, 5, 6, 7, 3, 2, 1, 0, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7]
-    point3f[] points = [(-2, 1, 2), (2, 1, 2), (2, 1, -2), (-2, 1, -2), (-2, 2, 2), (2, 2, 2), (2, 2, -2), (-2, 2, -2)]
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </glass>
-}
-"""
-BALL = """def Sphere "ball" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    double radius = 0.4
-    double3 xformOp:translate = (0, 1.5, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-    rel material:binding = </glass>
-}
-"""
-SUN = """def DistantLight "sun"
-{
-    float inputs:intensity = 2
-    float inputs:angle = 0
-    float3 xformOp:rotateXYZ = (-90, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-"""
-LAMP = """def RectLight "lamp"
-{
-    float inputs:intensity = 5
-    float inputs:width = 3
-    float inputs:height = 3
-    double3 xformOp:translate = (0, 4, 0)
-    float3 xformOp:rotateXYZ = (-90, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-"""
+SLAB = mesh("slab", [(-2, 1, 2), (2, 1, 2), (2, 1, -2), (-2, 1, -2), (-2, 2, 2), (2, 2, 2), (2, 2, -2), (-2, 2, -2)],
+            faces=[(4, 5, 6, 7), (3, 2, 1, 0), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)], bind="glass")
+BALL = prim("Sphere", "ball", bind="glass", radius=0.4, at=(0, 1.5, 0))
+SUN = prim("DistantLight", "sun", intensity=2, angle=0, turn=(-90, 0, 0))
+LAMP = prim("RectLight", "lamp", intensity=5, width=3, height=3, at=(0, 4, 0), turn=(-90, 0, 0))
 
 
-def stage(folder, glass, light, roughness=0.0, color="1, 1, 1", aperture=10, x=0, **more):
+def stage(folder, glass, light, roughness=0.0, color=(1, 1, 1), aperture=10, x=0):
     path = folder / "caustics.usda"
-    path.write_text(STAGE.format(glass=glass, light=light, roughness=roughness, color=color, aperture=aperture, x=x, **more))
+    path.write_text(usda.stage(
+        camera(flat=(aperture, aperture), clippingRange=(0.01, 100), at=(x, 0.9, 0), turn=(-90, 0, 0)),
+        floor("floor", 1.5, color=(0.5, 0.5, 0.5)), glass,
+        material("glass", {"surface": ("ND_open_pbr_surface_surfaceshader", {
+            "transmission_weight": 1, "transmission_color": color, "transmission_depth": 1, "specular_ior": 1.5,
+            "specular_roughness": roughness})}), light))
     return path
 
 
@@ -108,7 +42,7 @@ def test_a_slab_passes_what_fresnel_and_beer_leave(tmp_path, color):
     """Three surfaces at most: light that goes to and fro between the faces is left out. A sun of no size through flat glass
     is found by no path."""
     sun = opened(stage(tmp_path, "", SUN), "paths", "--maxDepth", 1).image(0).mean()  # the bare floor
-    path = stage(tmp_path, SLAB, SUN, color=", ".join(map(str, color)))
+    path = stage(tmp_path, SLAB, SUN, color=color)
     made = opened(path, "photons", "--maxDepth", 3, "--samples", 128)
     images = np.array([made.image(seed).mean((0, 1)) for seed in SEEDS])
     assert not opened(path, "paths", "--maxDepth", 3).image(0).any()

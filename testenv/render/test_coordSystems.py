@@ -8,6 +8,7 @@ from pxr import Gf
 
 from inProcess import Stage
 from rendering import SCENES
+import usda
 
 TEXTURE = os.path.join(SCENES, "textures", "checker.png")
 PLACES = {"moved": Gf.Matrix4d().SetTranslate((0.3, -0.2, 0.5)),
@@ -23,19 +24,8 @@ WALL = """
     float3 xformOp:rotateXYZ = (10, 20, 30)
     uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
 """
-HEAD = """#usda 1.0
-def Camera "camera"
-{
-    double3 xformOp:translate = (0.5, 0.25, 6)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
-PROJECTOR = """def Xform "projector"
-{
-    matrix4d xformOp:transform = %s
-    uniform token[] xformOpOrder = ["xformOp:transform"]
-}
-"""
+HEAD = usda.stage(usda.camera(at=(0.5, 0.25, 6)), up="")
+PROJECTOR = usda.prim("Xform", "projector", matrix="%s")
 NEW = "rel coordSys:paint:binding = <%s>"
 OLD = "rel coordSys:paint = <%s>"
 APPLIED = ("CoordSysAPI:paint",)

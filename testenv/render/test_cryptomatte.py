@@ -8,77 +8,21 @@ import pytest
 
 from inProcess import needs_opengl
 from rendering import patina, record
+import usda
 
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = 80
-    float verticalAperture = 40
-    double3 xformOp:translate = (0, 0, 5)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DistantLight "sun"
-{
-}
-def Material "red"
-{
-    token outputs:surface.connect = </red/s.outputs:surface>
-    def Shader "s"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        token outputs:surface
-    }
-}
-def Xform "left" (
-    kind = "component"
-)
-{
-    def Mesh "quad" (
-        prepend apiSchemas = ["MaterialBindingAPI"]
-    )
-    {
-        point3f[] points = [(-2.5, -9, 0), (0.5, -9, 0), (0.5, 9, 0), (-2.5, 9, 0)]
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        uniform token subdivisionScheme = "none"
-        rel material:binding = </red>
-    }
-}
-def Mesh "right"
-{
-    point3f[] points = [(0.5, -9, 0), (3, -9, 0), (3, 9, 0), (0.5, 9, 0)]
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    uniform token subdivisionScheme = "none"
-    string primvars:patina:cryptoAsset = "set"
-}
-def Scope "Render"
-{
-    def RenderSettings "main"
-    {
-        int2 resolution = (8, 4)
-        rel camera = </camera>
-        rel products = </Render/product>
-    }
-    def RenderProduct "product"
-    {
-        token productName = "product.exr"
-        rel orderedVars = [</Render/ci>, </Render/object>]
-    }
-    def RenderVar "ci"
-    {
-        string sourceName = "Ci"
-    }
-    def RenderVar "object"
-    {
-        string sourceName = "crypto_object"
-    }
-}
-"""
+STAGE = usda.stage(
+    usda.camera(flat=(80, 40), at=(0, 0, 5)),
+    usda.prim("DistantLight", "sun"),
+    usda.preview("red"),
+    usda.prim("Xform", "left",
+        usda.mesh("quad", [(-2.5, -9, 0), (0.5, -9, 0), (0.5, 9, 0), (-2.5, 9, 0)], bind="red"),
+        meta=('kind = "component"',)),
+    usda.mesh("right", [(0.5, -9, 0), (3, -9, 0), (3, 9, 0), (0.5, 9, 0)], 'string primvars:patina:cryptoAsset = "set"'),
+    usda.prim("Scope", "Render",
+        usda.prim("RenderSettings", "main", "rel camera = </camera>", "rel products = </Render/product>", resolution=(8, 4)),
+        usda.prim("RenderProduct", "product", "rel orderedVars = [</Render/ci>, </Render/object>]", productName="product.exr"),
+        usda.prim("RenderVar", "ci", sourceName="Ci"),
+        usda.prim("RenderVar", "object", sourceName="crypto_object")))
 # The image is 8 units wide, a pixel one: what each of them covers of the pixels of a row.
 LEFT, RIGHT = [0, 0.5, 1, 1, 0.5, 0, 0, 0], [0, 0, 0, 0, 0.5, 1, 1, 0]
 EXPECTED = {

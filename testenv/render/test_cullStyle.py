@@ -4,20 +4,9 @@ import numpy as np
 import pytest
 
 import inProcess
+import usda
 
-HEAD = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = 120
-    float verticalAperture = 30
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+HEAD = usda.stage(usda.camera(flat=(120, 30), at=(0, 0, 10)))
 CUBE = """def %(kind)s "%(name)s"
 {
     uniform bool doubleSided = %(doubleSided)d
@@ -54,15 +43,9 @@ def stage(tmp_path_factory):
 @pytest.mark.parametrize("backend", ["embree", "raster"])
 def test_the_camera_passes_faces_by(stage, backend, tmp_path):
     inProcess.needs_opengl(backend)
-    import _patina
-
     shot = inProcess.Stage(stage, "--backend", backend, "--camera", "/camera", "-w", "32", image_height=8)
     for style, wanted in SEEN.items():
-        film = _patina.Film()
-        shot.renderer.start(shot.scene, shot.camera,
-                            {**shot.settings, "samples": 1, "cullStyle": style, "aovs": ["depth", "alpha"]}, film)
-        shot.renderer.wait()
-        assert shot.renderer.progress()["backend"] == backend
+        film = shot.film(samples=1, cullStyle=style, aovs=["depth", "alpha"])
         depth, alpha = np.array(film.resolve("depth"))[4], np.array(film.resolve("alpha"))[4]
         # Pixels in the middle of each cube, from its front through its back; a step of a 32-bit depth is far smaller.
         np.testing.assert_allclose(depth[4::8].reshape(-1), wanted, atol=1e-3, err_msg=style)

@@ -6,59 +6,27 @@ import numpy as np
 import pytest
 
 import _patina
-from inProcess import needs_opengl
+import inProcess
 from rendering import patina, record, scene
+import usda
 
 # Surfaces, visible lights, domes, presence, media in glass, a volume, catchers with alpha between 0 and 1, motion, lenses.
 SCENES = ["diffuseBox", "lightRect", "lightDome", "hair", "media", "volume", "catchers", "motionBlur", "depthOfField"]
-HEAD = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = 80
-    float verticalAperture = 40
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DistantLight "sun"
-{
-}
-def Material "half"
-{
-    token outputs:surface.connect = </half/s.outputs:surface>
-    def Shader "s"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        float inputs:opacity = 0.5
-        token inputs:opacityMode = "presence"
-        token outputs:surface
-    }
-}
-"""
+HEAD = usda.stage(
+    usda.camera(flat=(80, 40), at=(0, 0, 10)),
+    usda.prim("DistantLight", "sun"),
+    usda.preview("half", opacity=0.5, **{"token opacityMode": "presence"}))
 
 
 def quad(name, left, right, z, material=""):
     binding = f"rel material:binding = </{material}>" if material else ""
-    return f'''def Mesh "{name}" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{{
-    point3f[] points = [({left}, -9, {z}), ({right}, -9, {z}), ({right}, 9, {z}), ({left}, 9, {z})]
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    uniform token subdivisionScheme = "none"
-    {binding}
-}}
-'''
+    return usda.mesh(name, [(left, -9, z), (right, -9, z), (right, 9, z), (left, 9, z)], binding,
+                     apis=("MaterialBindingAPI",))
 
 
 def flat(path):
     """:returns: float array (height, width, 4) of R, G, B, A; of a deep image as OpenImageIO flattens it"""
-    read = _patina.read_image(str(path))
-    return np.array(read.pixels)[..., [read.channels.index(c) for c in "RGBA"]].astype(np.float64)
+    return inProcess.pixels(path, "RGBA").astype(np.float64)
 
 
 def samples_of(path, x, y):
@@ -124,35 +92,14 @@ def test_samples_of_a_volume_fill_it(tmp_path):
 
 
 def test_products_of_type_deep_raster(tmp_path):
-    render = '''
-def Scope "Render"
-{
-    def RenderSettings "main"
-    {
-        int2 resolution = (8, 4)
-        rel camera = </camera>
-        rel products = [</Render/flat>, </Render/deep>]
-    }
-    def RenderProduct "flat"
-    {
-        token productName = "flat.exr"
-    }
-    def RenderProduct "deep"
-    {
-        token productType = "deepRaster"
-        token productName = "deep.exr"
-        rel orderedVars = [</Render/ci>, </Render/normal>]
-    }
-    def RenderVar "ci"
-    {
-        string sourceName = "Ci"
-    }
-    def RenderVar "normal"
-    {
-        string sourceName = "N"
-    }
-}
-'''
+    render = usda.prim("Scope", "Render",
+        usda.prim("RenderSettings", "main", "rel camera = </camera>", "rel products = [</Render/flat>, </Render/deep>]",
+                  resolution=(8, 4)),
+        usda.prim("RenderProduct", "flat", productName="flat.exr"),
+        usda.prim("RenderProduct", "deep", 'token productType = "deepRaster"',
+                  "rel orderedVars = [</Render/ci>, </Render/normal>]", productName="deep.exr"),
+        usda.prim("RenderVar", "ci", sourceName="Ci"),
+        usda.prim("RenderVar", "normal", sourceName="N"))
     stage, report = tmp_path / "stage.usda", tmp_path / "report.json"
     stage.write_text(HEAD + quad("sheet", -9, 0.5, 4, "half") + quad("wall", -9, 9, 2) + render)
     patina("record", stage, "--settings", "/Render/main", "--outputFolder", tmp_path, "--samples", 16, "--quiet",
@@ -164,7 +111,7 @@ def Scope "Render"
 
 
 def test_the_rasterizer_says_that_it_has_none(tmp_path):
-    needs_opengl("raster")
+    inProcess.needs_opengl("raster")
     report = tmp_path / "report.json"
     record(scene("diffuseBox"), tmp_path / "image.exr", "-w", 16, "--samples", 1, "--backend", "raster", "--deep",
            tmp_path / "deep.exr", f"--json={report}")

@@ -8,56 +8,26 @@ import scipy.stats
 from scipy.spatial.transform import Rotation
 
 from inProcess import Stage
+import usda
+from usda import camera, material, mesh, prim
 
 SEEDS = range(12)
 SIGNIFICANCE = 1e-4  # of each t-test; fixed seeds
 D, F, C = 587.56, 486.13, 656.27  # nm
 IOR, ABBE, APEX = 1.6, 20.0, np.radians(60)
 
-STAGE = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{{
-    float2 clippingRange = (0.01, 10000)
-    token projection = "orthographic"
-    float horizontalAperture = 0.1
-    float verticalAperture = 0.1
-    double3 xformOp:translate = ({x}, 0, 5)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}}
-def Mesh "glass" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{{
-    int[] faceVertexCounts = [{counts}]
-    int[] faceVertexIndices = [{indices}]
-    point3f[] points = [{points}]
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </flint>
-}}
-def Material "flint"
-{{
-    token outputs:mtlx:surface.connect = </flint/surface.outputs:out>
-    def Shader "surface"
-    {{
-        uniform token info:id = "ND_open_pbr_surface_surfaceshader"
-        float inputs:transmission_weight = 1
-        float inputs:specular_ior = 1.6
-        float inputs:specular_roughness = {roughness}
-        float inputs:transmission_dispersion_scale = {scale}
-        float inputs:transmission_dispersion_abbe_number = {abbe}
-        token outputs:out
-    }}
-}}
-{light}
-"""
-WHITE = 'def DomeLight "white"\n{\n}\n'
+WHITE = prim("DomeLight", "white")
 
 
-def text(points):
-    return ", ".join(f"({x:.9g}, {y:.9g}, {z:.9g})" for x, y, z in points)
+def stage(path, points, faces, light, x=0, roughness=0.0, scale=1.0, abbe=ABBE):
+    """A prism or a slab of glass. :returns: the path"""
+    path.write_text(usda.stage(
+        camera(flat=(0.1, 0.1), clippingRange=(0.01, 10000), at=(x, 0, 5)),
+        mesh("glass", [tuple(f"{c:.9g}" for c in point) for point in points], faces=faces, bind="flint"),
+        material("flint", {"surface": ("ND_open_pbr_surface_surfaceshader", {
+            "transmission_weight": 1, "specular_ior": 1.6, "specular_roughness": roughness,
+            "transmission_dispersion_scale": scale, "transmission_dispersion_abbe_number": abbe})}), light))
+    return path
 
 
 def prism():
@@ -73,37 +43,23 @@ def strip(near, far):
     """A lamp of radiance 1 that faces the origin from 100000 units away, between two angles from -z towards +x."""
     middle, width = (near + far) / 2, 2e5 * np.tan((far - near) / 2)
     x, z = 1e5 * np.sin(middle), -1e5 * np.cos(middle)
-    return f"""def RectLight "strip"
-{{
-    float inputs:intensity = 1
-    float inputs:width = {width:.9g}
-    float inputs:height = 20000
-    double3 xformOp:translate = ({x:.9g}, 0, {z:.9g})
-    float3 xformOp:rotateXYZ = (0, {180 - np.degrees(middle):.9g}, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}}
-"""
+    return prim("RectLight", "strip", intensity=1, width=f"{width:.9g}", height=20000, at=f"({x:.9g}, 0, {z:.9g})",
+                turn=f"(0, {180 - np.degrees(middle):.9g}, 0)")
 
 
 def prism_stage(folder, light):
     points, away = prism()
     # The triangle's corners: apex, back, front; the ray enters between apex and front, off the apex.
-    path = folder / "prism.usda"
-    path.write_text(STAGE.format(x=(points[0][0] + points[2][0]) / 2, counts="3, 3, 4, 4, 4",
-                                 indices="0, 1, 2, 5, 4, 3, 3, 4, 1, 0, 4, 5, 2, 1, 5, 3, 0, 2", points=text(points),
-                                 roughness=0, scale=1, abbe=ABBE, light=light))
-    return path
+    faces = [(0, 1, 2), (5, 4, 3), (3, 4, 1, 0), (4, 5, 2, 1), (5, 3, 0, 2)]
+    return stage(folder / "prism.usda", points, faces, light, (points[0][0] + points[2][0]) / 2)
 
 
 def slab_stage(folder, roughness=0.0, scale=1.0, abbe=9.0, light=WHITE, turn=(0.0, 0.0, 0.0)):
     """:param turn: about an axis, by its length in radians"""
     points = [(x, y, z) for z in (-0.5, 0.5) for x, y in ((-8, -8), (8, -8), (8, 8), (-8, 8))]
     points = Rotation.from_rotvec(turn).apply(points)
-    path = folder / f"slab{roughness}{scale}{abbe}.usda"
-    path.write_text(STAGE.format(x=0, counts="4, 4, 4, 4, 4, 4", points=text(points), light=light, roughness=roughness,
-                                 indices="4, 5, 6, 7, 3, 2, 1, 0, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7",
-                                 scale=scale, abbe=abbe))
-    return path
+    faces = [(4, 5, 6, 7), (3, 2, 1, 0), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+    return stage(folder / f"slab{roughness}{scale}{abbe}.usda", points, faces, light, 0, roughness, scale, abbe)
 
 
 def ior(nm):
@@ -147,9 +103,8 @@ def spectrum():
 
 def means(path, *arguments, samples=256, seeds=SEEDS, **settings):
     """:returns: the mean colour of an image for each seed"""
-    stage = Stage(path, "--imageWidth", 8, "--samples", samples,
-                  *arguments, image_height=8)
-    return np.array([stage.image(seed, **settings).mean((0, 1)) for seed in seeds])
+    shot = Stage(path, "--imageWidth", 8, "--samples", samples, *arguments, image_height=8)
+    return np.array([shot.image(seed, **settings).mean((0, 1)) for seed in seeds])
 
 
 @pytest.mark.parametrize("band", [(435, 455), (520, 540), (600, 625)])
@@ -181,9 +136,8 @@ def test_white_light_stays_white_through_a_slab(tmp_path, turn):
 @pytest.mark.parametrize("roughness", [0.0, 0.4, 0.8])
 def test_three_wavelengths_have_the_mean_of_one(tmp_path, roughness):
     """Hero wavelengths and their weights change the noise alone: under a lamp that only some directions see, too."""
-    lamp = 'def SphereLight "lamp"\n{\n    float inputs:intensity = 30\n    float inputs:radius = 0.7\n' \
-           '    double3 xformOp:translate = (3, 1, -4)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n' \
-           'def DomeLight "sky"\n{\n    color3f inputs:color = (0.2, 0.3, 0.6)\n}\n'
+    lamp = (prim("SphereLight", "lamp", intensity=30, radius=0.7, at=(3, 1, -4))
+            + prim("DomeLight", "sky", color=(0.2, 0.3, 0.6)))
     path = slab_stage(tmp_path, roughness, light=lamp)
     hero, single = (means(path, "--maxDepth", 12, methods={"dispersion": method}) for method in ("hero", "single"))
     for channel in range(3):

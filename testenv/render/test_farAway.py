@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 import inProcess
+from patina import experiment
 from usdaText import render_text
+from usda import camera, floor, prim
 
 pytest.importorskip("pxr.Usd")
 pytest.importorskip("_patina")
@@ -12,64 +14,18 @@ pytest.importorskip("_patina")
 # Neither whole numbers, nor such that floats have so far away: the spacing of floats is 1/128 there.
 FAR = (100000.3337, 12.1, 50000.1234)
 
-STAGE = """
-def Xform "world"
-{
-    double3 xformOp:translate = %(at)s
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-    def Camera "camera"
-    {
-        float2 clippingRange = (0.01, 10000000)
-        double3 xformOp:translate = (0.2003, 1.5, 4.0001)
-        float3 xformOp:rotateXYZ = (-18, 0, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-    }
-    def RectLight "light"
-    {
-        float inputs:intensity = 30
-        double3 xformOp:translate = (1.5, 3.0007, 1.5)
-        float3 xformOp:rotateXYZ = (-60, 40, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-    }
-    def Mesh "floor"
-    {
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [(-50, 0, 50), (50, 0, 50), (50, 0, -50), (-50, 0, -50)]
-    }
-    def Cube "block"
-    {
-        double size = 0.05
-        double3 xformOp:translate = (0.303, 0.0251, 2.6)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-    }
-    def Sphere "ball"
-    {
-        double radius = 0.3
-        double3 xformOp:translate = (-0.4003, 0.3, 2.1)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-    }
-    def BasisCurves "curve"
-    {
-        uniform token type = "linear"
-        int[] curveVertexCounts = [2]
-        point3f[] points = [(0, 0, 0), (0, 0.8, 0)]
-        float[] widths = [0.05] (interpolation = "constant")
-        double3 xformOp:translate = (0.7003, 0, 1.9)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-    }
-    def PointInstancer "posts"
-    {
-        rel prototypes = </world/posts/post>
-        int[] protoIndices = [0, 0]
-        point3f[] positions = [(-0.9, 0.1, 2.0), (0.1, 0.1, 1.2)]
-        def Cube "post"
-        {
-            double size = 0.2
-        }
-    }
-}
-"""
+STAGE = prim("Xform", "world",
+    camera(clippingRange=(0.01, 10000000), at=(0.2003, 1.5, 4.0001), turn=(-18, 0, 0)),
+    prim("RectLight", "light", intensity=30, at=(1.5, 3.0007, 1.5), turn=(-60, 40, 0)),
+    floor("floor", 50, scheme=""),
+    prim("Cube", "block", size=0.05, at=(0.303, 0.0251, 2.6)),
+    prim("Sphere", "ball", radius=0.3, at=(-0.4003, 0.3, 2.1)),
+    prim("BasisCurves", "curve", type="linear", curveVertexCounts=[2], points=[(0, 0, 0), (0, 0.8, 0)],
+         widths='[0.05] (interpolation = "constant")', at=(0.7003, 0, 1.9)),
+    prim("PointInstancer", "posts", "rel prototypes = </world/posts/post>",
+        prim("Cube", "post", size=0.2),
+        protoIndices=[0, 0], positions=[(-0.9, 0.1, 2.0), (0.1, 0.1, 1.2)]),
+    at="%(at)s")
 
 
 def look(at, **settings):
@@ -188,7 +144,6 @@ def test_scenes_near_the_origin_keep_their_numbers():
             edit.clear()
             info = read_stage(open_text(STAGE % {"at": at}), edit, StageOptions(headlight=False))
         film = _patina.Film()
-        renderer.start(scene, info.camera, {"width": 16, "height": 16, "samples": 2, "threads": 1, "aovs": ["color"]}, film)
-        renderer.wait(-1.0)
+        experiment.draw(renderer, scene, info.camera, {"width": 16, "height": 16, "samples": 2, "threads": 1}, film)
         images.append(np.array(film.resolve("color")))
     assert np.array_equal(images[0], images[2])

@@ -5,70 +5,31 @@ import math
 import numpy as np
 import pytest
 
+import inProcess
 from rendering import color, record
+import usda
+from usda import material
 
-HEAD = '#usda 1.0\n(\n    upAxis = "Y"\n)\n'
-CAMERA = """def Camera "camera"
-{
-    float2 clippingRange = (0.01, 1000)
-    float focalLength = 50
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+HEAD = usda.stage()
+CAMERA = usda.camera(lens=(50, 20, 20), clippingRange=(0.01, 1000), at=(0, 0, 10))
 
 
-def quad(name, z, size=1.0, x=0.0, material="white", extra=""):
-    points = ", ".join(f"({x + sx * size}, {sy * size}, {z})" for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
-    return f"""def Mesh "{name}" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [{points}]
-    texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </{material}>
-    {extra}
-}}
-"""
-
-
-def material(name, nodes):
-    body = ""
-    for node, (kind, inputs) in nodes.items():
-        lines = "".join(f"        {line}\n" for line in inputs)
-        body += (f'    def Shader "{node}"\n    {{\n        uniform token info:id = "{kind}"\n'
-                 f'{lines}        token outputs:out\n    }}\n')
-    return f'def Material "{name}"\n{{\n    token outputs:mtlx:surface.connect = </{name}/surface.outputs:out>\n{body}}}\n'
+def quad(name, z, size=1.0, x=0.0, material="white", *held, **more):
+    points = [(x + sx * size, sy * size, z) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    return usda.mesh(name, points, *held, bind=material, st=usda.ST, **more)
 
 
 def lambert(name, value):
-    return material(name, {"diffuse": ("ND_oren_nayar_diffuse_bsdf", [f"color3f inputs:color = ({value}, {value}, {value})"]),
-                           "surface": ("ND_surface", [f"token inputs:bsdf.connect = </{name}/diffuse.outputs:out>"])})
+    return usda.lobe(name, "oren_nayar_diffuse_bsdf", color=(value, value, value))
 
 
 def glow(name, rgb):
-    return material(name, {"edf": ("ND_uniform_edf", [f"color3f inputs:color = {rgb}"]),
-                           "surface": ("ND_surface", [f"token inputs:edf.connect = </{name}/edf.outputs:out>"])})
+    return material(name, {"edf": ("ND_uniform_edf", {"color": rgb}), "surface": ("ND_surface", {"edf": "<edf>"})})
 
 
-def preview(name, *inputs):
-    lines = "".join(f"        {line}\n" for line in inputs)
-    return (f'def Material "{name}"\n{{\n'
-            f'    token outputs:surface.connect = </{name}/s.outputs:surface>\n    def Shader "s"\n'
-            f'    {{\n        uniform token info:id = "UsdPreviewSurface"\n'
-            f'{lines}        token outputs:surface\n    }}\n}}\n')
-
-
-def distant(name, links="", apis="", intensity=math.pi):
+def distant(name, *lines, intensity=math.pi, **more):
     """From the camera's side; a facing white Lambertian surface of albedo 0.5 shows intensity * 0.5 / pi."""
-    applied = f" (\n    prepend apiSchemas = [{apis}]\n)" if apis else ""
-    return (f'def DistantLight "{name}"{applied}\n{{\n    float inputs:intensity = {intensity}\n'
-            f'    float inputs:angle = 0\n    {links}\n}}\n')
+    return usda.prim("DistantLight", name, *lines, intensity=intensity, angle=0, **more)
 
 
 def render(tmp_path, *parts, samples=64, arguments=(), channels="RGB"):
@@ -80,35 +41,34 @@ def render(tmp_path, *parts, samples=64, arguments=(), channels="RGB"):
 
 
 def test_light_linking_leaves_out_what_is_not_linked(tmp_path):
-    links = ('prepend rel collection:lightLink:excludes = </right>\n    uniform bool collection:lightLink:includeRoot = 1')
-    image = render(tmp_path, distant("sun", links, '"CollectionAPI:lightLink"'), quad("left", 0, 0.9, -1),
-                   quad("right", 0, 0.9, 1), lambert("white", 0.5))
+    sun = distant("sun", "prepend rel collection:lightLink:excludes = </right>",
+                  "uniform bool collection:lightLink:includeRoot = 1", apis=("CollectionAPI:lightLink",))
+    image = render(tmp_path, sun, quad("left", 0, 0.9, -1), quad("right", 0, 0.9, 1), lambert("white", 0.5))
     assert image[16, 8] == pytest.approx(0.5, rel=1e-4)
     assert image[16, 24] == pytest.approx(0.0, abs=1e-6)
 
 
 def test_shadow_linking_lets_light_through_what_is_not_linked(tmp_path):
-    links = ('prepend rel collection:shadowLink:excludes = </blocker>\n    uniform bool collection:shadowLink:includeRoot = 1')
-    tilt = "    float xformOp:rotateY = 45\n    uniform token[] xformOpOrder = [\"xformOp:rotateY\"]\n"
+    links = ("prepend rel collection:shadowLink:excludes = </blocker>", "uniform bool collection:shadowLink:includeRoot = 1")
+    linked = distant("sun", *links, apis=("CollectionAPI:shadowLink",), rotateY=45)
     # Light from the right passes the blocker, which stands beside the view of the floor's centre.
-    for api, expected in (("", 0.0), ('"CollectionAPI:shadowLink"', 0.5 * math.cos(math.pi / 4))):
-        image = render(tmp_path, distant("sun", (links if api else "") + "\n" + tilt, api), quad("floor", 0, 1.5),
-                       quad("blocker", 3, 1.0, 3.0), lambert("white", 0.5))
+    for sun, expected in ((distant("sun", rotateY=45), 0.0), (linked, 0.5 * math.cos(math.pi / 4))):
+        image = render(tmp_path, sun, quad("floor", 0, 1.5), quad("blocker", 3, 1.0, 3.0), lambert("white", 0.5))
         assert image[16, 16] == pytest.approx(expected, rel=1e-3, abs=1e-6)
 
 
 @pytest.mark.parametrize("opacity, expected", [(1.0, 0.0), (0.0, 2.0)])
 def test_presence_shows_what_is_behind(tmp_path, opacity, expected):
-    surface = material("card", {"surface": ("ND_surface", [f"float inputs:opacity = {opacity}"])})
+    surface = material("card", {"surface": ("ND_surface", {"opacity": opacity})})
     image = render(tmp_path, quad("front", 1, material="card"), quad("back", 0, material="glow"), surface,
-                   glow("glow", "(2, 2, 2)"))
+                   glow("glow", (2, 2, 2)))
     assert image[16, 16] == pytest.approx(expected, abs=1e-6)
 
 
 def test_half_presence_is_the_mean_and_casts_half_a_shadow(tmp_path):
-    surface = material("card", {"surface": ("ND_surface", ["float inputs:opacity = 0.5"])})
+    surface = material("card", {"surface": ("ND_surface", {"opacity": 0.5})})
     image = render(tmp_path, quad("front", 1, material="card"), quad("back", 0, material="glow"), surface,
-                   glow("glow", "(2, 2, 2)"), samples=1024)
+                   glow("glow", (2, 2, 2)), samples=1024)
     # Binomial: 8 x 8 pixels of 1024 samples, deviation of the mean 2 * 0.5 / 256; 5 of them.
     assert image[12:20, 12:20].mean() == pytest.approx(1.0, abs=5 * 1.0 / 256)
     lit = render(tmp_path, distant("sun"), quad("floor", 0, 3), quad("front", 1, 0.5, 0.0, "card"), lambert("white", 0.5),
@@ -119,11 +79,10 @@ def test_half_presence_is_the_mean_and_casts_half_a_shadow(tmp_path):
 
 def test_opacity_threshold_cuts_out(tmp_path):
     for opacity, expected in ((0.4, 2.0), (0.6, 0.0)):
-        card = preview("card", f"float inputs:opacity = {opacity}", "float inputs:opacityThreshold = 0.5",
-                       "color3f inputs:diffuseColor = (0, 0, 0)", "int inputs:useSpecularWorkflow = 1",
-                       "color3f inputs:specularColor = (0, 0, 0)")
+        card = usda.preview("card", opacity=opacity, opacityThreshold=0.5, diffuseColor=(0, 0, 0), useSpecularWorkflow=1,
+                            specularColor=(0, 0, 0))
         image = render(tmp_path, quad("front", 1, material="card"), quad("back", 0, material="glow"), card,
-                       glow("glow", "(2, 2, 2)"))
+                       glow("glow", (2, 2, 2)))
         assert image[16, 16] == pytest.approx(expected, abs=2e-3)
 
 
@@ -136,13 +95,10 @@ def test_glowing_mesh_mesh_light_and_rect_light_light_a_floor_alike(tmp_path):
     black = lambert("black", 0.0)
     # Facing the floor: the panel's front looks along -z.
     turned = 'uniform token orientation = "leftHanded"'
-    glowing = render(tmp_path, floor_under(quad("panel", 12, 2.0, 0, "glow", turned)), glow("glow", "(3, 3, 3)"), samples=1024)
-    mesh = quad("panel", 12, 2.0, 0, "black", turned + "\n    float inputs:intensity = 3")
-    mesh = mesh.replace('"MaterialBindingAPI"', '"MaterialBindingAPI", "MeshLightAPI"')
+    glowing = render(tmp_path, floor_under(quad("panel", 12, 2.0, 0, "glow", turned)), glow("glow", (3, 3, 3)), samples=1024)
+    mesh = quad("panel", 12, 2.0, 0, "black", turned, "float inputs:intensity = 3", apis=("MeshLightAPI",))
     as_light = render(tmp_path, floor_under(mesh), black, samples=1024)
-    rect = ('def RectLight "panel"\n{\n    float inputs:intensity = 3\n    float inputs:width = 4\n'
-            '    float inputs:height = 4\n    double3 xformOp:translate = (0, 0, 12)\n'
-            '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n')
+    rect = usda.prim("RectLight", "panel", intensity=3, width=4, height=4, at=(0, 0, 12))
     as_rect = render(tmp_path, floor_under(rect), samples=1024)
     centre = np.s_[12:20, 12:20]
     assert as_rect[centre].mean() > 0.05
@@ -153,22 +109,15 @@ def test_glowing_mesh_mesh_light_and_rect_light_light_a_floor_alike(tmp_path):
 def test_absorption_follows_beers_law(tmp_path):
     """A clear cube of ior 1 and absorption (0.5, 1, 2), two units thick, in front of a glow of 1."""
     glass = material("glass", {
-        "interface": ("ND_dielectric_bsdf", ["float inputs:ior = 1", "float2 inputs:roughness = (0, 0)",
-                                             'string inputs:scatter_mode = "RT"']),
-        "inside": ("ND_absorption_vdf", ["float3 inputs:absorption = (0.5, 1, 2)"]),
-        "layer": ("ND_layer_vdf", ["token inputs:top.connect = </glass/interface.outputs:out>",
-                                   "token inputs:base.connect = </glass/inside.outputs:out>"]),
-        "surface": ("ND_surface", ["token inputs:bsdf.connect = </glass/layer.outputs:out>"])})
-    cube = ('def Cube "cube" (\n    prepend apiSchemas = ["MaterialBindingAPI"]\n)\n{\n'
-            '    double size = 2\n    rel material:binding = </glass>\n}\n')
-    ortho = "--camera", "/ortho"
-    camera = ('def Camera "ortho"\n{\n    token projection = "orthographic"\n'
-              '    float horizontalAperture = 10\n    float verticalAperture = 10\n'
-              '    double3 xformOp:translate = (0, 0, 10)\n'
-              '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n')
+        "interface": ("ND_dielectric_bsdf", {"ior": 1, "roughness": (0, 0), "scatter_mode": "RT"}),
+        "inside": ("ND_absorption_vdf", {"float3 absorption": (0.5, 1, 2)}),
+        "layer": ("ND_layer_vdf", {"top": "<interface>", "base": "<inside>"}),
+        "surface": ("ND_surface", {"bsdf": "<layer>"})})
+    cube = usda.prim("Cube", "cube", size=2, bind="glass")
+    camera = usda.camera(name="ortho", flat=(10, 10), at=(0, 0, 10))
     stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
-    stage.write_text(HEAD + camera + cube + quad("back", -3, 3.0, 0, "glow") + glass + glow("glow", "(1, 1, 1)"))
-    record(stage, image, *ortho, "--imageWidth", 16, "--imageHeight", 16, "--samples", 16)
+    stage.write_text(HEAD + camera + cube + quad("back", -3, 3.0, 0, "glow") + glass + glow("glow", (1, 1, 1)))
+    record(stage, image, "--camera", "/ortho", "--imageWidth", 16, "--imageHeight", 16, "--samples", 16)
     assert color(image)[8, 8] == pytest.approx(np.exp([-1.0, -2.0, -4.0]), rel=1e-3)
 
 
@@ -178,10 +127,7 @@ def test_aovs_of_a_plain_quad(tmp_path):
     record(stage, image, "--imageWidth", 33, "--imageHeight", 33, "--samples", 16,
            *[f for name in ("depth", "cameraDepth", "normal", "Neye", "position", "albedo", "primvars:st", "primId",
                             "instanceId", "elementId", "sampleCount", "variance") for f in ("--aov", name)])
-    import _patina
-
-    found = _patina.read_image(str(image))
-    data = {name: np.array(found.pixels)[..., i] for i, name in enumerate(found.channels)}
+    data = inProcess.channels(image)
     middle, side = (16, 16), (16, 24)
     assert data["depth.Z"][middle] == pytest.approx(6, abs=1e-4)
     assert data["depth.Z"][side] == pytest.approx(10, abs=1e-4)
@@ -200,16 +146,12 @@ def test_aovs_of_a_plain_quad(tmp_path):
 def test_instances_look_like_copies(tmp_path):
     """A point instancer inside a point instancer against the same meshes written out."""
     mesh = quad("leaf", 0, 0.3)
-    inner = ('def PointInstancer "inner"\n{\n'
-             '    point3f[] positions = [(-0.5, 0, 0), (0.5, 0, 0)]\n'
-             '    int[] protoIndices = [0, 0]\n    rel prototypes = </outer/inner/leaf>\n' + mesh + "}\n")
-    nested = ('def PointInstancer "outer"\n{\n'
-              '    point3f[] positions = [(0, -0.6, 0), (0, 0.6, 0.5)]\n'
-              '    int[] protoIndices = [0, 0]\n    rel prototypes = </outer/inner>\n' + inner + "}\n")
-    copies = ""
-    for k, (x, y, z) in enumerate([(-0.5, -0.6, 0), (0.5, -0.6, 0), (-0.5, 0.6, 0.5), (0.5, 0.6, 0.5)]):
-        copies += (f'def Xform "x{k}"\n{{\n    double3 xformOp:translate = ({x}, {y}, {z})\n'
-                   f'    uniform token[] xformOpOrder = ["xformOp:translate"]\n{mesh}}}\n')
+    inner = usda.prim("PointInstancer", "inner", "rel prototypes = </outer/inner/leaf>", mesh,
+                      positions=[(-0.5, 0, 0), (0.5, 0, 0)], protoIndices=[0, 0])
+    nested = usda.prim("PointInstancer", "outer", "rel prototypes = </outer/inner>", inner,
+                       positions=[(0, -0.6, 0), (0, 0.6, 0.5)], protoIndices=[0, 0])
+    copies = "".join(usda.prim("Xform", f"x{k}", mesh, at=place) for k, place in enumerate(
+        [(-0.5, -0.6, 0), (0.5, -0.6, 0), (-0.5, 0.6, 0.5), (0.5, 0.6, 0.5)]))
     rest = lambert("white", 0.5) + distant("sun")
     a, b = render(tmp_path, nested, rest, samples=16), render(tmp_path, copies, rest, samples=16)
     assert a.max() > 0.4
@@ -217,13 +159,9 @@ def test_instances_look_like_copies(tmp_path):
 
 
 def test_light_multipliers_split_diffuse_and_specular(tmp_path):
-    light = ('def RectLight "light"\n{{\n    float inputs:intensity = 5\n'
-             '    float inputs:width = 3\n    float inputs:height = 3\n'
-             '    float inputs:diffuse = {}\n    float inputs:specular = {}\n'
-             '    double3 xformOp:translate = (0, 0, 12)\n'
-             '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}}\n')
-    shiny = preview("white", "color3f inputs:diffuseColor = (0.5, 0.5, 0.5)", "float inputs:roughness = 0.3")
-    whole, diffuse, specular = (render(tmp_path, light.format(d, s), quad("floor", 0, 1.5), shiny, samples=256).mean()
-                                for d, s in ((1, 1), (1, 0), (0, 1)))
+    shiny = usda.preview("white", diffuseColor=(0.5, 0.5, 0.5), roughness=0.3)
+    whole, diffuse, specular = (
+        render(tmp_path, usda.prim("RectLight", "light", intensity=5, width=3, height=3, diffuse=d, specular=s, at=(0, 0, 12)),
+               quad("floor", 0, 1.5), shiny, samples=256).mean() for d, s in ((1, 1), (1, 0), (0, 1)))
     assert diffuse > 0 and specular > 0
     assert whole == pytest.approx(diffuse + specular, rel=0.01)

@@ -8,6 +8,7 @@ import scipy.stats
 
 from inProcess import Stage
 from rendering import color, record, scene
+import usda
 
 SIZE, SAMPLES = 64, 1024
 DIFFUSE = "/World/materials/white/diffuse"
@@ -67,39 +68,15 @@ def test_background_is_the_dome(tmp_path):
     assert np.allclose(color(image)[0, :8], 1.0, atol=1e-6)
 
 
-BUBBLE = """#usda 1.0
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = 6
-    float verticalAperture = 6
-    double3 xformOp:translate = (0, 0, 5)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "sky"
-{
-}
-def Sphere "bubble" (prepend apiSchemas = ["MaterialBindingAPI"])
-{
-    double radius = 0.45
-    rel material:binding = </soap>
-}
-def Material "soap"
-{
-    token outputs:mtlx:surface.connect = </soap/surface.outputs:out>
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_open_pbr_surface_surfaceshader"
-        float inputs:transmission_weight = 1
-        float inputs:specular_ior = 1
-        float inputs:specular_roughness = 0
-        float inputs:thin_film_weight = 1
-        float inputs:thin_film_thickness = 0.5
-        bool inputs:geometry_thin_walled = 1
-        token outputs:out
-    }
-}
-"""
+BUBBLE = usda.stage(
+    usda.camera(flat=(6, 6), at=(0, 0, 5)),
+    usda.prim("DomeLight", "sky"),
+    usda.prim("Sphere", "bubble", bind="soap", radius=0.45),
+    usda.material("soap", {
+        "surface": ("ND_open_pbr_surface_surfaceshader",
+                    {"transmission_weight": 1, "specular_ior": 1, "specular_roughness": 0, "thin_film_weight": 1,
+                     "thin_film_thickness": 0.5, "geometry_thin_walled": True})}),
+    up="")
 
 
 def test_a_soap_bubble_shows_no_more_and_no_less_than_the_sky(tmp_path):

@@ -8,46 +8,17 @@ import numpy as np
 import pytest
 
 from usdaText import render_text
+from usda import camera, floor, material, prim
 
 T = 9.0
 SEEDS, SIZE, TILE = 8, 16, 4
-STAGE = """(upAxis = "Y")
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float2 clippingRange = (0.01, 100)
-    float horizontalAperture = 60
-    float verticalAperture = 60
-    double3 xformOp:translate = (0, 0.5, 0)
-    float3 xformOp:rotateXYZ = (-90, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-def Mesh "floor"
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)]
-    uniform token subdivisionScheme = "none"
-    color3f[] primvars:displayColor = [(0.8, 0.8, 0.8)]
-}
-def Material "glow"
-{
-    token outputs:surface.connect = </glow/surface.outputs:surface>
-    def Shader "surface"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor = (0, 0, 0)
-        color3f inputs:emissiveColor.connect = </glow/reader.outputs:result>
-        token outputs:surface
-    }
-    def Shader "reader"
-    {
-        uniform token info:id = "UsdPrimvarReader_float3"
-        string inputs:varname = "glow"
-        float3 outputs:result
-    }
-}
-"""
+STAGE = (
+    '(upAxis = "Y")\n'
+    + camera(flat=(60, 60), clippingRange=(0.01, 100), at=(0, 0.5, 0), turn=(-90, 0, 0))
+    + floor("floor", 9, color=(0.8, 0.8, 0.8))
+    + material("glow", {
+        "surface": ("UsdPreviewSurface", {"diffuseColor": (0, 0, 0), "color3f emissiveColor": "<reader>"}),
+        "reader": ("UsdPrimvarReader_float3", {"varname": "glow"})}))
 
 
 def _strip(count):
@@ -65,16 +36,9 @@ def _numbers(rows):
 
 
 def _mesh(name, points, triangles, glow, interpolation):
-    return f"""def Mesh "{name}" (prepend apiSchemas = ["MaterialBindingAPI"])
-{{
-    int[] faceVertexCounts = {[3] * len(triangles)}
-    int[] faceVertexIndices = {triangles.ravel().tolist()}
-    point3f[] points = {_numbers(points)}
-    uniform token subdivisionScheme = "none"
-    color3f[] primvars:glow = {_numbers(glow)} (interpolation = "{interpolation}")
-    rel material:binding = </glow>
-}}
-"""
+    return prim("Mesh", name, f'color3f[] primvars:glow = {_numbers(glow)} (interpolation = "{interpolation}")', bind="glow",
+                faceVertexCounts=[3] * len(triangles), faceVertexIndices=triangles.ravel().tolist(), points=_numbers(points),
+                subdivisionScheme="none")
 
 
 def _stages():

@@ -3,50 +3,26 @@
 import numpy as np
 import pytest
 
+from patina import experiment
+from patina.chart import probes
 from usdaText import render_text
 from rendering import patina
+import usda
 
 pytest.importorskip("pxr.Usd")
 pytest.importorskip("_patina")
 
-STAGE = """
-def Camera "camera"
-{
-    float2 clippingRange = %(range)s
-    float4[] clippingPlanes = %(planes)s
-    float focusDistance = %(focus)s
-    float fStop = %(stop)s
-    float3 xformOp:scale = %(scale)s
-    double3 xformOp:translate = %(translate)s
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
-}
-def DomeLight "dome"
-{
-}
-def SphereLight "lamp"
-{
-    double3 xformOp:translate = (0, 0, %(light)s)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Sphere "ball"
-{
-}
-def PointInstancer "many"
-{
-    rel prototypes = </many/cube>
-    int[] protoIndices = [0, 0]
-    point3f[] positions = [(30, 0, 0), (-30, 0, 0)]
-    float3[] scales = [(1, 1, 1), %(instance)s]
-    def Cube "cube"
-    {
-    }
-}
-def Cube "large"
-{
-    double3 xformOp:translate = (0, %(height)s, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+STAGE = (
+    usda.camera("float4[] clippingPlanes = %(planes)s", clippingRange="%(range)s", focusDistance="%(focus)s",
+                fStop="%(stop)s", at="%(translate)s", scale="%(scale)s")
+    + usda.prim("DomeLight", "dome")
+    + usda.prim("SphereLight", "lamp", at="(0, 0, %(light)s)")
+    + usda.prim("Sphere", "ball")
+    + usda.prim(
+        "PointInstancer", "many", "rel prototypes = </many/cube>", "float3[] scales = [(1, 1, 1), %(instance)s]",
+        usda.prim("Cube", "cube"),
+        protoIndices=[0, 0], positions=[(30, 0, 0), (-30, 0, 0)])
+    + usda.prim("Cube", "large", at="(0, %(height)s, 0)"))
 SOUND = {"range": "(0.1, 1000)", "planes": "[]", "focus": 0, "stop": 0, "scale": "(1, 1, 1)", "translate": "(0, 0, 5)",
          "instance": "(1, 1, 1)", "height": 5, "light": 30}
 
@@ -100,15 +76,11 @@ def test_an_instance_that_turns_halfway_within_the_shutter_is_drawn():
         edit.set_implicit("/cube", shape="cube", group="A")
         edit.set_instancer("/turning", prototypes=["A"], prototype_indices=np.zeros(1, np.int32),
                            transforms=([0.0, 1.0], [np.eye(4)[None], turn[None]]))
-        camera = np.eye(4)
-        camera[3, 2] = 6.0
-        edit.set_camera("/camera", transform=camera, shutter_open=0.0, shutter_close=1.0)
+        edit.set_camera("/camera", transform=probes.moved(0, 0, 6), shutter_open=0.0, shutter_close=1.0)
         edit.set_light("/dome", type="dome")
-    renderer = _patina.make_renderer("embree")
-    renderer.start(scene, "/camera", {"width": 16, "height": 16, "samples": 64, "threads": 1, "aovs": ["color", "alpha"],
-                                        "domeLightCameraVisibility": False}, film)
-    renderer.wait(-1.0)
-    assert not renderer.progress()["failed"]
+    settings = {"width": 16, "height": 16, "samples": 64, "threads": 1, "aovs": ["color", "alpha"],
+                "domeLightCameraVisibility": False}
+    experiment.draw(_patina.make_renderer("embree"), scene, "/camera", settings, film)
     assert np.isfinite(film.resolve("color")).all()
     alpha = np.array(film.resolve("alpha"))
     assert alpha[8, 8] > 0.7 and 0.1 < alpha[8, 3] < 0.7  # in the middle it is thin, but always there

@@ -7,49 +7,15 @@ import pytest
 
 from inProcess import needs_opengl
 from rendering import color, patina, record
+import usda
 
-HEAD = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float2 clippingRange = (0.01, 1000)
-    float focalLength = 50
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "sky"
-{
-    float inputs:intensity = 1
-}
-def Material "reads"
-{
-    token outputs:surface.connect = </reads/surface.outputs:surface>
-    def Shader "surface"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor.connect = </reads/tint.outputs:result>
-        color3f inputs:emissiveColor.connect = </reads/glow.outputs:result>
-        token outputs:surface
-    }
-    def Shader "tint"
-    {
-        uniform token info:id = "UsdPrimvarReader_float3"
-        string inputs:varname = "tint"
-        float3 inputs:fallback = (0.2, 0.2, 0.2)
-        float3 outputs:result
-    }
-    def Shader "glow"
-    {
-        uniform token info:id = "UsdPrimvarReader_float3"
-        string inputs:varname = "glow"
-        float3 outputs:result
-    }
-}
-"""
+HEAD = usda.stage(
+    usda.camera(lens=(50, 20, 20), clippingRange=(0.01, 1000), at=(0, 0, 10)),
+    usda.prim("DomeLight", "sky", intensity=1),
+    usda.material("reads", {
+        "surface": ("UsdPreviewSurface", {"color3f diffuseColor": "<tint>", "color3f emissiveColor": "<glow>"}),
+        "tint": ("UsdPrimvarReader_float3", {"varname": "tint", "float3 fallback": (0.2, 0.2, 0.2)}),
+        "glow": ("UsdPrimvarReader_float3", {"varname": "glow"})}))
 PLACES = [(-1.2, -1, 0), (0, 1, 0), (1.2, -1, 0)]
 COLOURS = [(0.8, 0.1, 0.1), (0.1, 0.8, 0.1), (0.1, 0.1, 0.8)]
 
@@ -89,19 +55,11 @@ def instanced(primvars, own="", bound=False):
 def native(primvars, own="", bound=False):
     """The same as native instances below prims that have the values."""
     prototype = 'class Xform "prototype"\n{\n' + ball("ball", (0, 0, 0), own, bound) + "}\n"
-    return prototype + "".join(f"""def Xform "above{i}"
-{{
-{"".join(primvar(kind, name, values[i:i + 1], False) for name, (kind, values) in primvars.items())}
-    double3 xformOp:translate = {place}
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-    def Xform "copy" (
-        instanceable = true
-        inherits = </prototype>
-    )
-    {{
-    }}
-}}
-""" for i, place in enumerate(PLACES))
+    return prototype + "".join(usda.prim(
+        "Xform", f"above{i}",
+        f'{"".join(primvar(kind, name, values[i:i + 1], False) for name, (kind, values) in primvars.items())}',
+        usda.prim("Xform", "copy", meta=("instanceable = true", "inherits = </prototype>")),
+        at=place) for i, place in enumerate(PLACES))
 
 
 def copies(primvars, own="", bound=False):
@@ -151,13 +109,7 @@ def test_native_instances_are_like_copies(tmp_path):
 
 def test_what_glows_by_them_lights_alike(tmp_path):
     """Light of a mesh is sampled by what each instance emits."""
-    floor = """def Cube "wall"
-{
-    double size = 6
-    double3 xformOp:translate = (0, 0, -3.7)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+    floor = usda.prim("Cube", "wall", size=6, at=(0, 0, -3.7))
     primvars = {"glow": ("color3f", [(9, 0, 0), (0, 0, 0), (0, 0, 9)])}
     images = [color(render(tmp_path, name, make(primvars, bound=True) + floor, "--samples", "256"))
               for name, make in (("instances", instanced), ("copies", copies))]

@@ -6,33 +6,32 @@ import math
 import numpy as np
 import pytest
 
-from lightStages import DOWN, STAGE, light
+from lightStages import light
+from lightStages import stage as floor_under
 from rendering import color, record
+import usda
 
 POINT = ["float inputs:intensity = 4", "float inputs:radius = 0.01", "bool inputs:normalize = 1", "bool treatAsPoint = 1"]
-PLACED = ["double3 xformOp:translate = (%g, %g, %g)", "float xformOp:rotateX = -90",
-              'uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]']
 
 
 def filter_text(kind, lines, place=(0.0, 1.0, 0.0), name="filter"):
-    body = "\n    ".join([*lines, PLACED[0] % place, *PLACED[1:]])
-    return f'def {kind} "{name}"\n{{\n    {body}\n}}\n'
+    return usda.prim(kind, name, *lines, at=place, rotateX=-90)
 
 
 def floor(folder, lamp, filters="", samples=16, flags=(), size=8):
     stage, image = folder / "stage.usda", folder / "image.exr"
-    stage.write_text(STAGE.format(light=lamp + filters))
+    stage.write_text(floor_under(lamp, filters))
     record(stage, image, "--camera", "/camera", "--imageWidth", size, "--imageHeight", size, "--samples", samples, *flags)
     return color(image).mean()
 
 
 def lamp(kind="SphereLight", attributes=POINT, target="</filter>"):
-    return light(kind, [*attributes, f"rel light:filters = {target}"], DOWN)
+    return light(kind, *attributes, f"rel light:filters = {target}")
 
 
 @pytest.fixture
 def unfiltered(tmp_path):
-    return floor(tmp_path, light("SphereLight", POINT, DOWN))
+    return floor(tmp_path, light("SphereLight", *POINT))
 
 
 # The floor's point is the origin; the light's way to it crosses the plane y = 1 at x = 0.
@@ -56,7 +55,7 @@ def test_barn_door(tmp_path, unfiltered, lines, place, share):
 def test_barn_door_over_half_of_a_light(tmp_path):
     """An opening whose side stands over the middle of a wide light hides half of it: half of its irradiance, by symmetry."""
     wide = ["float inputs:width = 2", "float inputs:height = 2", "float inputs:intensity = 2"]
-    whole = floor(tmp_path, light("RectLight", wide, DOWN), samples=256)
+    whole = floor(tmp_path, light("RectLight", *wide), samples=256)
     opening = filter_text("PxrBarnLightFilter",
                           ["float inputs:width = 4", "float inputs:height = 8", "float inputs:radius = 0"], (2, 1, 0))
     half = floor(tmp_path, lamp("RectLight", wide), opening, samples=256)
@@ -66,7 +65,7 @@ def test_barn_door_over_half_of_a_light(tmp_path):
 
 def test_barn_door_before_a_distant_light(tmp_path):
     sun = ["float inputs:intensity = 1", "float inputs:angle = 0"]
-    whole = floor(tmp_path, light("DistantLight", sun, DOWN))
+    whole = floor(tmp_path, light("DistantLight", *sun))
     for x, share in ((0.0, 1.0), (2.0, 0.0)):
         found = floor(tmp_path, lamp("DistantLight", sun), filter_text("PxrBarnLightFilter", [], (x, 1, 0)))
         assert found == pytest.approx(share * whole, rel=1e-3, abs=1e-6)
@@ -140,18 +139,8 @@ def test_image(tmp_path, unfiltered, quarters, kind, lines, place, share):
     assert found == pytest.approx(share * unfiltered, rel=5e-3, abs=float(0.01 * unfiltered))
 
 
-MESH = """def Mesh "light" (
-    prepend apiSchemas = ["MeshLightAPI"]
-)
-{
-    float inputs:intensity = 2
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)]
-    uniform token subdivisionScheme = "none"
-    %s
-}
-"""
+MESH = usda.mesh("light", [(-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)], "float inputs:intensity = 2", "%s",
+                 apis=("MeshLightAPI",))
 
 
 @pytest.mark.parametrize("kind, lines, place, share, tolerance", [
@@ -168,18 +157,7 @@ def test_mesh_light(tmp_path, kind, lines, place, share, tolerance):
 
 def test_filters_of_a_mesh_light_leave_its_glow(tmp_path):
     """materialSyncMode independent: the light is filtered, and the glow of the material beside it is not."""
-    glow = '''def Material "glow"
-{
-    token outputs:surface.connect = </glow/surface.outputs:surface>
-    def Shader "surface"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:emissiveColor = (1, 1, 1)
-        color3f inputs:diffuseColor = (0, 0, 0)
-        token outputs:surface
-    }
-}
-'''
+    glow = usda.preview("glow", emissiveColor=(1, 1, 1), diffuseColor=(0, 0, 0))
     none = filter_text("PxrIntMultLightFilter", ["float inputs:intensity = 0"])
     bound = 'token light:materialSyncMode = "independent"\n    rel light:filters = %s\n    rel material:binding = </glow>'
     mesh = MESH.replace('["MeshLightAPI"]', '["MeshLightAPI", "MaterialBindingAPI"]')
@@ -198,7 +176,7 @@ def test_multiplier_and_order(tmp_path, unfiltered):
 def test_the_camera_and_samples_of_the_bsdf_see_the_filtered_light(tmp_path):
     """A dome is found by both strategies; its filter scales what they find alike."""
     dome = ["float inputs:intensity = 1"]
-    text = light("DomeLight", [*dome, "rel light:filters = </filter>"], "")
+    text = light("DomeLight", *dome, "rel light:filters = </filter>", place={})
     found = floor(tmp_path, text, filter_text("PxrIntMultLightFilter", ["float inputs:intensity = 2"]), samples=64)
     # Irradiance pi, albedo 0.5; 4096 samples whose values differ by less than their mean.
     assert found == pytest.approx(2.0 * 0.5, rel=5 / math.sqrt(4096))

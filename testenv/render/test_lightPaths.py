@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from rendering import SCENES, color, patina, record
-from test_features import CAMERA, HEAD, distant, glow, lambert, material, quad
+from test_features import CAMERA, HEAD, distant, glow, lambert, quad
+import usda
+from usda import material, prim
 
 FIRST = ("emission", "diffuse", "specular", "transmission", "subsurface", "volume")  # by what happens first
 ORDER = ("emission", "direct", "indirect")  # by how often
@@ -27,12 +29,7 @@ def layer(image, name):
 
 def film_of(stage, names, **settings):
     """:returns: what a render of some aovs leaves, and the colour of one without them"""
-    films = [stage.module.Film(), stage.module.Film()]
-    for film, wanted in zip(films, (list(names), [])):
-        stage.renderer.start(stage.scene, stage.camera, {**stage.settings, **settings, "aovs": wanted}, film)
-        stage.renderer.wait()
-        assert not stage.renderer.progress()["failed"], stage.renderer.progress()["error"]
-    return films[0], films[1].resolve("color")
+    return stage.film(**settings, aovs=list(names)), stage.film(**settings, aovs=[]).resolve("color")
 
 
 def assert_is_sum(film, names, total):
@@ -88,19 +85,10 @@ def assert_mean(values, expected):
 def closed_room(albedo, glowing=1.0):
     """A cube seen from inside, whose walls glow and are Lambertian: light of k bounces is glowing * albedo^k everywhere."""
     both = material("walls", {
-        "diffuse": ("ND_oren_nayar_diffuse_bsdf", [f"color3f inputs:color = ({albedo}, {albedo}, {albedo})"]),
-        "edf": ("ND_uniform_edf", [f"color3f inputs:color = ({glowing}, {glowing}, {glowing})"]),
-        "surface": ("ND_surface", ["token inputs:bsdf.connect = </walls/diffuse.outputs:out>",
-                                   "token inputs:edf.connect = </walls/edf.outputs:out>"])})
-    return both + """def Cube "room" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    double size = 60
-    uniform bool doubleSided = 1
-    rel material:binding = </walls>
-}
-"""
+        "diffuse": ("ND_oren_nayar_diffuse_bsdf", {"color": (albedo, albedo, albedo)}),
+        "edf": ("ND_uniform_edf", {"color": (glowing, glowing, glowing)}),
+        "surface": ("ND_surface", {"bsdf": "<diffuse>", "edf": "<edf>"})})
+    return both + prim("Cube", "room", bind="walls", size=60, doubleSided=1)
 
 
 def test_each_order_of_a_furnace_has_its_power_of_the_albedo(tmp_path):
@@ -115,12 +103,10 @@ def test_lobes_get_their_own_light(tmp_path):
     """A mix of a diffuse and a rough metal lobe in a white sky: the diffuse AOV is half of the diffuse lobe's albedo, however
     the lobes are drawn. By which lobe was drawn alone it would be another."""
     mixed = material("white", {
-        "diffuse": ("ND_oren_nayar_diffuse_bsdf", ["color3f inputs:color = (0.8, 0.8, 0.8)"]),
-        "metal": ("ND_conductor_bsdf", ["float2 inputs:roughness = (0.6, 0.6)", "color3f inputs:ior = (0.2, 0.9, 1.1)",
-                                        "color3f inputs:extinction = (3.9, 2.4, 2.2)"]),
-        "mix": ("ND_mix_bsdf", ["token inputs:fg.connect = </white/diffuse.outputs:out>",
-                                "token inputs:bg.connect = </white/metal.outputs:out>", "float inputs:mix = 0.5"]),
-        "surface": ("ND_surface", ["token inputs:bsdf.connect = </white/mix.outputs:out>"])})
+        "diffuse": ("ND_oren_nayar_diffuse_bsdf", {"color": (0.8, 0.8, 0.8)}),
+        "metal": ("ND_conductor_bsdf", {"roughness": (0.6, 0.6), "ior": (0.2, 0.9, 1.1), "extinction": (3.9, 2.4, 2.2)}),
+        "mix": ("ND_mix_bsdf", {"fg": "<diffuse>", "bg": "<metal>", "mix": 0.5}),
+        "surface": ("ND_surface", {"bsdf": "<mix>"})})
     image = render(tmp_path, ["diffuse", "specular"], mixed, quad("wall", 0, 4.0), 'def DomeLight "sky"\n{\n}\n', samples=64)
     assert_mean(layer(image, "diffuse"), 0.4)
     assert layer(image, "specular").mean() > 0.1
@@ -135,7 +121,7 @@ def test_light_groups_are_their_lights(tmp_path):
     wall = quad("wall", 0, 4.0) + lambert("white", 0.5)
     names = ["key=lpe:C.*<L.'key'>", "fill=lpe:C.*<L.'fill'>", "sky=lpe:C.*<B.'sky'>", "rest=lpe:C.*<[LO].[^'key''fill''sky']>"]
     image = render(tmp_path, names, wall,
-                   distant("a", LABEL % "key" + '\n    custom string primvars:lightGroup = "fill"', intensity=math.pi),
+                   distant("a", LABEL % "key", 'custom string primvars:lightGroup = "fill"', intensity=math.pi),
                    distant("b", 'custom string primvars:lightGroup = "fill"', intensity=2 * math.pi),
                    distant("c", intensity=3 * math.pi),
                    'def DomeLight "sky"\n{\n    custom string primvars:lightGroup = "sky"\n}\n', samples=64)
@@ -147,9 +133,9 @@ def test_light_groups_are_their_lights(tmp_path):
 
 def test_emissive_geometry_has_a_light_group(tmp_path):
     """The label is inherited, and an edit of it changes the AOV."""
-    lamp = ('def Xform "lamps"\n{\n    custom string primvars:lightGroup = "%s" (interpolation = "constant")\n'
-            + quad("lamp", 0, 4.0, material="glow")
-            + "}\n" + glow("glow", (2.0, 2.0, 2.0)))
+    lamp = (prim("Xform", "lamps", 'custom string primvars:lightGroup = "%s" (interpolation = "constant")',
+                 quad("lamp", 0, 4.0, material="glow"))
+            + glow("glow", (2.0, 2.0, 2.0)))
     for label, expected in (("lamp", 2.0), ("other", 0.0)):
         image = render(tmp_path, ["lamp=lpe:C<O.'lamp'>", "glow=lpe:CO"], lamp % label, samples=2)
         assert layer(image, "lamp") == pytest.approx(expected, abs=1e-6)
@@ -161,8 +147,7 @@ def test_a_label_may_change_while_the_renderer_stays(tmp_path):
     from inProcess import Stage
     from patina import stage as reader
 
-    text = (quad("lamp", 0, 4.0, material="glow",
-                 extra='custom string primvars:lightGroup = "key" (interpolation = "constant")')
+    text = (quad("lamp", 0, 4.0, 0.0, "glow", 'custom string primvars:lightGroup = "key" (interpolation = "constant")')
             + glow("glow", (2.0, 2.0, 2.0)) + quad("wall", -1, 8.0) + lambert("white", 0.5)
             + distant("sun", 'custom string primvars:lightGroup = "key"'))
     path = write(tmp_path, text)
@@ -240,49 +225,24 @@ def test_an_expression_without_a_name_is_one(tmp_path):
     assert layer(image, "lpe_C_RD_L").max() > 0.0
 
 
-PRODUCT = """#usda 1.0
-( subLayers = [@{stage}@] )
-def Scope "Render"
-{{
-    def RenderSettings "settings"
-    {{
-        rel camera = </World/camera>
-        rel products = </Render/product>
-        uniform int2 resolution = (16, 12)
-        int patina:samples = 2
-    }}
-    def RenderProduct "product"
-    {{
-        token productName = "{image}"
-        rel orderedVars = [</Render/beauty>, </Render/bounce>, </Render/lit>, </Render/wrong>]
-    }}
-    def RenderVar "beauty"
-    {{
-        uniform string sourceName = "C.*"
-        uniform token sourceType = "lpe"
-    }}
-    def RenderVar "bounce"
-    {{
-        uniform string sourceName = "C<RD>.*L"
-        uniform token sourceType = "lpe"
-    }}
-    def RenderVar "lit"
-    {{
-        uniform string sourceName = "lpe:C<RD><L.>"
-        custom string driver:parameters:aov:name = "straight"
-    }}
-    def RenderVar "wrong"
-    {{
-        uniform string sourceName = "C<RD"
-        uniform token sourceType = "lpe"
-    }}
-}}
-"""
+def lpe(name, expression):
+    return prim("RenderVar", name, f'uniform string sourceName = "{expression}"', 'uniform token sourceType = "lpe"')
 
 
 def test_products_have_light_paths(tmp_path):
     stage, image = tmp_path / "stage.usda", tmp_path / "product.exr"
-    stage.write_text(PRODUCT.format(stage=os.path.join(SCENES, "lightRect.usda"), image=image))
+    stage.write_text(usda.stage(
+        prim("Scope", "Render",
+             prim("RenderSettings", "settings", "rel camera = </World/camera>", "rel products = </Render/product>",
+                  "uniform int2 resolution = (16, 12)", "int patina:samples = 2"),
+             prim("RenderProduct", "product",
+                  "rel orderedVars = [</Render/beauty>, </Render/bounce>, </Render/lit>, </Render/wrong>]",
+                  productName=str(image)),
+             lpe("beauty", "C.*"), lpe("bounce", "C<RD>.*L"),
+             prim("RenderVar", "lit", 'uniform string sourceName = "lpe:C<RD><L.>"',
+                  'custom string driver:parameters:aov:name = "straight"'),
+             lpe("wrong", "C<RD")),
+        up="", subLayers=f"[@{os.path.join(SCENES, 'lightRect.usda')}@]"))
     told = patina("record", stage, "--settings", "/Render/settings", "--outputFolder", tmp_path)
     assert "/Render/wrong.sourceName" in told.stderr.replace(": ", ".") and "column 5" in told.stderr
     assert layer(image, "bounce").max() > layer(image, "straight").max() * 0.99 > 0.0

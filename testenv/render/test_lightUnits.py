@@ -4,16 +4,17 @@ import math
 
 import pytest
 
-from lightStages import CASES, STAGE, light
+from lightStages import CASES, light, stage
+from patina.experiment import LUMINANCE
 from rendering import color, record
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_floor_under_a_light(tmp_path, name):
     text, irradiance = CASES[name]
-    stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
-    stage.write_text(STAGE.format(light=text))
-    record(stage, image, "--camera", "/camera", "--imageWidth", 16, "--imageHeight", 16, "--samples", 1024)
+    path, image = tmp_path / "stage.usda", tmp_path / "image.exr"
+    path.write_text(stage(text))
+    record(path, image, "--camera", "/camera", "--imageWidth", 16, "--imageHeight", 16, "--samples", 1024)
     found = color(image).mean()
     # The camera sees 0.02 units of the floor: nothing varies. 262144 stratified samples.
     assert found == pytest.approx(0.5 * irradiance / math.pi, rel=5e-3, abs=1e-7)
@@ -21,21 +22,19 @@ def test_floor_under_a_light(tmp_path, name):
 
 def test_colour_temperature_6500_is_nearly_white(tmp_path):
     found = []
-    for extra in ([], ["bool inputs:enableColorTemperature = 1", "float inputs:colorTemperature = 6500"]):
-        stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
-        stage.write_text(STAGE.format(light=light("DomeLight", ["float inputs:intensity = 1", *extra], "")))
-        record(stage, image, "--camera", "/camera", "--imageWidth", 8, "--imageHeight", 8, "--samples", 64)
+    for extra in ({}, {"enableColorTemperature": True, "colorTemperature": 6500}):
+        path, image = tmp_path / "stage.usda", tmp_path / "image.exr"
+        path.write_text(stage(light("DomeLight", intensity=1, place={}, **extra)))
+        record(path, image, "--camera", "/camera", "--imageWidth", 8, "--imageHeight", 8, "--samples", 64)
         found.append(color(image).mean(axis=(0, 1)))
     assert found[1] == pytest.approx(found[0], rel=0.1)
 
 
 @pytest.mark.parametrize("kelvin, warm", [(2000, True), (12000, False)])
 def test_colour_temperature_tints_and_keeps_luminance(tmp_path, kelvin, warm):
-    stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
-    attributes = ["float inputs:intensity = 1", "bool inputs:enableColorTemperature = 1",
-                  f"float inputs:colorTemperature = {kelvin}"]
-    stage.write_text(STAGE.format(light=light("DomeLight", attributes, "")))
-    record(stage, image, "--camera", "/camera", "--imageWidth", 8, "--imageHeight", 8, "--samples", 256)
+    path, image = tmp_path / "stage.usda", tmp_path / "image.exr"
+    path.write_text(stage(light("DomeLight", intensity=1, enableColorTemperature=True, colorTemperature=kelvin, place={})))
+    record(path, image, "--camera", "/camera", "--imageWidth", 8, "--imageHeight", 8, "--samples", 256)
     r, g, b = color(image).mean(axis=(0, 1))
     assert (r > b) == warm
-    assert 0.2126 * r + 0.7152 * g + 0.0722 * b == pytest.approx(0.5, rel=0.02)
+    assert LUMINANCE @ (r, g, b) == pytest.approx(0.5, rel=0.02)

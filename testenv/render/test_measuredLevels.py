@@ -7,28 +7,10 @@ import sys
 
 import pytest
 
-CAMERA = """#usda 1.0
-def Camera "camera" {
-    float horizontalAperture = 40
-    float verticalAperture = 30
-    float focalLength = 40
-    float2 clippingRange = (0.1, 10000)
-}
-def Material "grey" {
-    token outputs:surface.connect = </grey/surface.outputs:surface>
-    def Shader "surface" {
-        uniform token info:id = "UsdPreviewSurface"
-        token outputs:surface
-    }
-}
-"""
-ROOT = """def Xform "%s" (prepend apiSchemas = ["LODRootAPI", "LODOverrideAPI"]) {
-    double3 xformOp:translate = (%g, 0, %g)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-    %s
-    %s
-}
-"""
+from usda import camera, preview, prim, stage
+
+CAMERA = stage(camera(lens=(40, 40, 30), clippingRange=(0.1, 10000)), preview("grey"), up="")
+ROOT = prim("Xform", "%s", "%s", "%s", apis=("LODRootAPI", "LODOverrideAPI"), at="(%g, 0, %g)")
 LEVELS = {"fine": 48, "middle": 16, "coarse": 6}
 
 
@@ -40,13 +22,10 @@ def ball(name, count):
               for i in range(rows + 1) for k in range(count)]
     quads = [(i * count + k, (i + 1) * count + k, (i + 1) * count + (k + 1) % count, i * count + (k + 1) % count)
              for i in range(rows) for k in range(count)]
-    return f"""def Mesh "{name}" (prepend apiSchemas = ["MaterialBindingAPI"]) {{
-        rel material:binding = </grey>
-        uniform token subdivisionScheme = "none"
-        point3f[] points = [{", ".join("(%.5f, %.5f, %.5f)" % p for p in points)}]
-        int[] faceVertexCounts = [{", ".join("4" for _ in quads)}]
-        int[] faceVertexIndices = [{", ".join(str(i) for quad in quads for i in quad)}]
-    }}"""
+    return prim("Mesh", name, bind="grey", subdivisionScheme="none",
+                points=[", ".join("(%.5f, %.5f, %.5f)" % p for p in points)],
+                faceVertexCounts=[", ".join("4" for _ in quads)],
+                faceVertexIndices=[", ".join(str(i) for quad in quads for i in quad)])
 
 
 BALLS = "\n".join(ball(*level) for level in LEVELS.items())

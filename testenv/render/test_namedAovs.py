@@ -6,38 +6,19 @@ import json
 import numpy as np
 import pytest
 
-from inProcess import needs_opengl
+import inProcess
 from rendering import record
+import usda
 
 SIZE, DISTANCE = 32, 8.0
 PIXELS = SIZE / DISTANCE  # a unit across at that distance; the aperture is as wide as the focal length
-HEAD = """#usda 1.0
-(
-    upAxis = "Y"
-    metersPerUnit = %(metersPerUnit)g
-    startTimeCode = 5
-    endTimeCode = 5
-)
-def Xform "world"
-{
-    double3 xformOp:translate = (%(far)g, %(far)g, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-    def Camera "camera"
-    {
-        float focalLength = 50
-        float horizontalAperture = 50
-        float verticalAperture = 50
-        float2 clippingRange = (%(near)g, %(most)g)
-        double shutter:open = %(open)g
-        double shutter:close = %(close)g
-        %(camera)s
-    }
-%(prims)s
-}
-def DistantLight "sun"
-{
-}
-"""
+HEAD = usda.stage(
+    usda.prim("Xform", "world",
+        usda.camera("double shutter:open = %(open)g", "double shutter:close = %(close)g", "%(camera)s", lens=(50, 50, 50),
+                    clippingRange="(%(near)g, %(most)g)"),
+        "%(prims)s", at="(%(far)g, %(far)g, 0)"),
+    usda.prim("DistantLight", "sun"),
+    metersPerUnit="%(metersPerUnit)g", startTimeCode=5, endTimeCode=5)
 WHERE = [dict(metersPerUnit=1), dict(metersPerUnit=0.01, unit=100.0), dict(metersPerUnit=1, far=1e5)]
 places = pytest.mark.parametrize("where", WHERE, ids=["metres", "centimetres", "far"])
 backends = pytest.mark.parametrize("backend", ["embree", "raster"])
@@ -75,17 +56,13 @@ def scaled(unit):
 
 def render(tmp_path, text, aovs, backend="embree", *arguments, samples=4):
     """:returns: dict of channel -> array, and the command's report"""
-    import _patina
-
-    needs_opengl(backend)
+    inProcess.needs_opengl(backend)
     stage, image, report = tmp_path / "stage.usda", tmp_path / "image.exr", tmp_path / "report.json"
     stage.write_text(text)
     record(stage, image, "-w", SIZE, "--samples", samples, "--frames", 5, "--backend", backend, "--filterRadius", 0.5,
            f"--json={report}",
            *[a for aov in aovs for a in ("--aov", aov)], *arguments)
-    found = _patina.read_image(str(image))
-    with open(report, encoding="utf-8") as file:
-        return dict(zip(found.channels, np.moveaxis(np.array(found.pixels), -1, 0))), json.load(file)
+    return inProcess.channels(image), json.loads(report.read_text())
 
 
 def vectors(channels, name, axes="XY"):
@@ -172,21 +149,11 @@ def test_points_that_move(tmp_path, scheme):
 @pytest.mark.parametrize("kind", ["curves", "points"])
 def test_curves_and_points_that_move(tmp_path, kind):
     if kind == "points":
-        text = '''    def Points "balls"
-    {
-        point3f[] points.timeSamples = {5: [(0, 0, -8)], 6: [(0.5, 0, -8)]}
-        float[] widths = [4]
-    }
-'''
+        text = usda.prim("Points", "balls", "point3f[] points.timeSamples = {5: [(0, 0, -8)], 6: [(0.5, 0, -8)]}", widths=[4])
     else:
-        text = '''    def BasisCurves "fibres"
-    {
-        uniform token type = "linear"
-        int[] curveVertexCounts = [2]
-        point3f[] points.timeSamples = {5: [(0, -9, -8), (0, 9, -8)], 6: [(0.5, -9, -8), (0.5, 9, -8)]}
-        float[] widths = [4, 4]
-    }
-'''
+        text = usda.prim("BasisCurves", "fibres",
+                         "point3f[] points.timeSamples = {5: [(0, -9, -8), (0, 9, -8)], 6: [(0.5, -9, -8), (0.5, 9, -8)]}",
+                         type="linear", curveVertexCounts=[2], widths=[4, 4])
     channels, _ = render(tmp_path, stage_text(text), MOTION)
     middle = (SIZE // 2, SIZE // 2)
     assert vectors(channels, "motionForward")[middle] == pytest.approx((0.5 * PIXELS, 0), abs=rounding({}))
@@ -238,56 +205,24 @@ def test_asking_for_motion_changes_no_picture(tmp_path, backend):
 
 def test_a_product_without_blur(tmp_path):
     """The prim's own flag of UsdRender, and its name for the vectors."""
-    import _patina
     from rendering import patina
 
-    settings = '''
-def Scope "Render"
-{
-    def RenderSettings "main"
-    {
-        int2 resolution = (32, 32)
-        rel camera = </world/camera>
-        rel products = </Render/product>
-        bool disableMotionBlur = 1
-    }
-    def RenderProduct "product"
-    {
-        token productName = "product.exr"
-        rel orderedVars = [</Render/ahead>, </Render/flat>, </Render/place>, </Render/st>, </Render/P>]
-    }
-    def RenderVar "ahead"
-    {
-        token dataType = "float2"
-        string sourceName = "motionFore"
-    }
-    def RenderVar "flat"
-    {
-        token dataType = "normal3f"
-        string sourceName = "Ngn"
-    }
-    def RenderVar "place"
-    {
-        token dataType = "point3f"
-        string sourceName = "__Pref"
-    }
-    def RenderVar "st"
-    {
-        token dataType = "texCoord2f"
-        string sourceName = "st"
-    }
-    def RenderVar "P"
-    {
-        string sourceName = "P"
-    }
-}
-'''
+    settings = usda.prim("Scope", "Render",
+        usda.prim("RenderSettings", "main", "rel camera = </world/camera>", "rel products = </Render/product>",
+                  "bool disableMotionBlur = 1", resolution=(32, 32)),
+        usda.prim("RenderProduct", "product",
+                  "rel orderedVars = [</Render/ahead>, </Render/flat>, </Render/place>, </Render/st>, </Render/P>]",
+                  productName="product.exr"),
+        usda.prim("RenderVar", "ahead", dataType="float2", sourceName="motionFore"),
+        usda.prim("RenderVar", "flat", dataType="normal3f", sourceName="Ngn"),
+        usda.prim("RenderVar", "place", dataType="point3f", sourceName="__Pref"),
+        usda.prim("RenderVar", "st", dataType="texCoord2f", sourceName="st"),
+        usda.prim("RenderVar", "P", sourceName="P"))
     (tmp_path / "stage.usda").write_text(
         stage_text(quad(moving("translate", {0: (-5, 0, 0), 10: (5, 0, 0)})), shutter=(0.5, 0.75)) + settings)
     patina("record", tmp_path / "stage.usda", "--settings", "/Render/main", "--outputFolder", tmp_path, "--frames", 5,
            "--samples", 4, "--quiet")
-    found = _patina.read_image(str(tmp_path / "product.exr"))
-    channels = dict(zip(found.channels, np.moveaxis(np.array(found.pixels), -1, 0)))
+    channels = inProcess.channels(tmp_path / "product.exr")
     assert {name.split(".")[0] for name in channels} == {"motionForward", "Ng", "Pref", "uv", "position"}
     assert vectors(channels, "motionForward") == pytest.approx(
         np.broadcast_to((PIXELS, 0.0), (SIZE, SIZE, 2)), abs=rounding({}))
@@ -347,19 +282,10 @@ def test_reference_position(tmp_path, backend, where, scheme):
     if scheme == "loop":
         faces = [t for a, b, c, d in faces for t in ((a, b, c), (a, c, d))]
     move = np.array([5 * unit, 0, 0])
-    prim = f'''    def Mesh "cloth"
-    {{
-        int[] faceVertexCounts = [{", ".join(str(len(f)) for f in faces)}]
-        int[] faceVertexIndices = [{", ".join(str(i) for f in faces for i in f)}]
-        point3f[] points = {text(grid + move)}
-        point3f[] primvars:Pref = {text(grid)} (
-            interpolation = "vertex"
-        )
-        uniform token subdivisionScheme = "{scheme}"
-        double3 xformOp:translate = ({-5 * unit}, 0, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-    }}
-'''
+    prim = usda.prim("Mesh", "cloth", f'point3f[] primvars:Pref = {text(grid)} ( interpolation = "vertex" )',
+                     faceVertexCounts=[", ".join(str(len(f)) for f in faces)],
+                     faceVertexIndices=[", ".join(str(i) for f in faces for i in f)], points=text(grid + move),
+                     subdivisionScheme=scheme, at=(-5 * unit, 0, 0))
     channels, _ = render(tmp_path, stage_text(prim, **where), ("Pref", "position"), backend)
     seen = channels["A"] == 1
     found = vectors(channels, "Pref", "XYZ")[seen]
@@ -385,12 +311,9 @@ def test_reference_position_without_the_primvar(tmp_path, backend):
 def test_equal_spheres_that_share_their_triangles(tmp_path, backend):
     """Twenty of them, each with ways of its own: to the right before the frame, up after it."""
     places_ = [((i % 5 - 2) * 1.5, (i // 5 - 1.5) * 1.5) for i in range(20)]
-    prims = "".join(f'''    def Sphere "s{i:02d}"
-    {{
-        double radius = 0.7
-        {moving("translate", {4: (x - 0.1 * i, y, -8), 5: (x, y, -8), 6: (x, y + 0.05 * i, -8)})}
-    }}
-''' for i, (x, y) in enumerate(places_))
+    prims = "".join(usda.prim("Sphere", f"s{i:02d}",
+                              f'{moving("translate", {4: (x - 0.1 * i, y, -8), 5: (x, y, -8), 6: (x, y + 0.05 * i, -8)})}',
+                              radius=0.7) for i, (x, y) in enumerate(places_))
     channels, _ = render(tmp_path, stage_text(prims), ("Pref", "position", "primId", *MOTION), backend)
     for i, (x, y) in enumerate(places_):
         seen = channels["primId"] == i

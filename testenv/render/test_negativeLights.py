@@ -3,35 +3,29 @@
 import numpy as np
 import pytest
 
-from lightStages import ABOVE, DOWN, STAGE, light
+from lightStages import ABOVE, light, stage
 from rendering import color, record
+from usda import mesh
 
-MESH = """def Mesh "light" (
-    prepend apiSchemas = ["MeshLightAPI"]
-)
-{
-    %s
-    uniform token light:materialSyncMode = "noMaterialResponse"
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)]
-    uniform token subdivisionScheme = "none"
-}
-"""
+def glowing(intensity, color):
+    return mesh("light", [(-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)],
+                'uniform token light:materialSyncMode = "noMaterialResponse"', f"float inputs:intensity = {intensity}",
+                f"color3f inputs:color = {color}", apis=("MeshLightAPI",))
+
+
 LIGHTS = {
-    "sphere": lambda lines: light("SphereLight", lines, ABOVE),
-    "rect": lambda lines: light("RectLight", lines),
-    "distant": lambda lines: light("DistantLight", ["float inputs:angle = 5", *lines], DOWN),
-    "dome": lambda lines: light("DomeLight", lines, ""),
-    "mesh": lambda lines: MESH % "\n    ".join(lines),
+    "sphere": lambda **inputs: light("SphereLight", place=ABOVE, **inputs),
+    "rect": lambda **inputs: light("RectLight", **inputs),
+    "distant": lambda **inputs: light("DistantLight", angle=5, **inputs),
+    "dome": lambda **inputs: light("DomeLight", place={}, **inputs),
+    "mesh": glowing,
 }
 
 
 def picture(folder, name, intensity, *flags, tint=(1.0, 0.5, 0.25)):
-    stage, image = folder / f"{name}{intensity}.usda", folder / f"{name}{intensity}.exr"
-    lines = [f"float inputs:intensity = {intensity}", f"color3f inputs:color = {tint}"]
-    stage.write_text(STAGE.format(light=LIGHTS[name](lines)))
-    record(stage, image, "--camera", "/camera", "--imageWidth", 8, "--imageHeight", 8, "--samples", 16, *flags)
+    path, image = folder / f"{name}{intensity}.usda", folder / f"{name}{intensity}.exr"
+    path.write_text(stage(LIGHTS[name](intensity=intensity, color=tint)))
+    record(path, image, "--camera", "/camera", "--imageWidth", 8, "--imageHeight", 8, "--samples", 16, *flags)
     return color(image)
 
 

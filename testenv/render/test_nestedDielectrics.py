@@ -11,90 +11,38 @@ import pytest
 pytest.importorskip("_patina")
 
 from rendering import color, patina, record  # noqa: E402
+import usda  # noqa: E402
 
-HEAD = """#usda 1.0
-( metersPerUnit = %g )
-def Camera "camera"
-{
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    float focalLength = 50
-    float2 clippingRange = (0.001, 100000)
-    double3 xformOp:translate = (%g, %g, %g)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DomeLight "dome"
-{
-    float inputs:intensity = 0.3
-}
-def RectLight "lamp"
-{
-    float inputs:width = %g
-    float inputs:height = %g
-    float inputs:intensity = 8
-    color3f inputs:color = (1, 0.6, 0.3)
-    double3 xformOp:translate = (%g, %g, %g)
-    float xformOp:rotateX = -60
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]
-}
-"""
 GLASS, WATER, ICE = 1.5, 1.33, 1.31
 
 
 def head(unit=1.0, at=(0.0, 0.0, 0.0)):
     """:param unit: units of the stage for one of the test's lengths"""
-    x, y, z = at
-    return HEAD % (0.01 / unit, x, y, z + 8 * unit, 3 * unit, 3 * unit, x, y + 3 * unit, z + 2 * unit)
+    def place(y, z):
+        return f"{at[0]:g}", f"{at[1] + y * unit:g}", f"{at[2] + z * unit:g}"
+
+    return usda.stage(
+        usda.camera(lens=(50, 20, 20), clippingRange=(0.001, 100000), at=place(0, 8)),
+        usda.prim("DomeLight", "dome", intensity=0.3),
+        usda.prim("RectLight", "lamp", color=(1, 0.6, 0.3), width=f"{3 * unit:g}", height=f"{3 * unit:g}", intensity=8,
+                  at=place(3, 2), rotateX=-60),
+        up="", metersPerUnit=float(f"{0.01 / unit:g}"))
 
 
 def material(name, ior, absorption=None):
     """Clear, or with a medium that absorbs so much per unit of length; a second bounce of each is coloured by that alone."""
-    return f"""def Material "{name}"
-{{
-    token outputs:surface.connect = </{name}/surface.outputs:out>
-    {"" if absorption is None else f"token outputs:volume.connect = </{name}/volume.outputs:out>"}
-    def Shader "surface"
-    {{
-        uniform token info:id = "ND_surface"
-        token inputs:bsdf.connect = </{name}/bsdf.outputs:out>
-        token outputs:out
-    }}
-    def Shader "bsdf"
-    {{
-        uniform token info:id = "ND_dielectric_bsdf"
-        float inputs:ior = {ior:.9g}
-        string inputs:scatter_mode = "RT"
-        float2 inputs:roughness = (0, 0)
-        token outputs:out
-    }}
-    {"" if absorption is None else f'''def Shader "volume"
-    {{
-        uniform token info:id = "ND_volume"
-        token inputs:vdf.connect = </{name}/vdf.outputs:out>
-        token outputs:out
-    }}
-    def Shader "vdf"
-    {{
-        uniform token info:id = "ND_absorption_vdf"
-        float3 inputs:absorption = ({absorption[0]}, {absorption[1]}, {absorption[2]})
-        token outputs:out
-    }}'''}
-}}
-"""
+    nodes = {"surface": ("ND_surface", {"bsdf": "<bsdf>"}),
+             "bsdf": ("ND_dielectric_bsdf", {"float ior": f"{ior:.9g}", "scatter_mode": "RT", "roughness": (0, 0)})}
+    if absorption is None:
+        return usda.material(name, nodes)
+    nodes.update(volume=("ND_volume", {"vdf": "<vdf>"}), vdf=("ND_absorption_vdf", {"float3 absorption": tuple(absorption)}))
+    return usda.material(name, nodes, surface="surface", volume="volume")
 
 
 def sphere(name, radius, paint, priority=0, inside_out=False, at=(0.0, 0.0, 0.0), unit=1.0):
-    where = ", ".join(f"{x:.9g}" for x in at)
-    return f"""def Sphere "{name}" ( prepend apiSchemas = ["MaterialBindingAPI"] )
-{{
-    double radius = {radius * unit:.9g}
-    {'uniform token orientation = "leftHanded"' if inside_out else ""}
-    {f"int primvars:patina:dielectricPriority = {priority}" if priority else ""}
-    rel material:binding = </{paint}>
-    double3 xformOp:translate = ({where})
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}}
-"""
+    lines = ['uniform token orientation = "leftHanded"'] * inside_out
+    lines += [f"int primvars:patina:dielectricPriority = {priority}"] if priority else []
+    return usda.prim("Sphere", name, *lines, radius=f"{radius * unit:.9g}", bind=paint, at=tuple(f"{x:.9g}" for x in at))
 
 
 def image(folder, name, text, *flags):
@@ -166,13 +114,7 @@ def test_a_camera_in_the_drink(tmp_path):
 
 
 def test_photons_go_the_same_way(tmp_path):
-    text = head() + """def Mesh "floor"
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-6, -2, 6), (6, -2, 6), (6, -2, -6), (-6, -2, -6)]
-}
-"""
+    text = head() + usda.floor("floor", 6, y=-2, scheme="")
     text += material("water", WATER)
     nested = text + material("ice", ICE) + sphere("drink", 1.5, "water", 1) + sphere("cube", 0.8, "ice", 2)
     cut = text + material("ice", ICE / WATER) + sphere("drink", 1.5, "water") + sphere("cube", 0.8, "ice")

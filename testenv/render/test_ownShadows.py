@@ -4,52 +4,14 @@ import numpy as np
 import pytest
 
 import inProcess
+import usda
 
-STAGE = """#usda 1.0
-(
-    metersPerUnit = 1
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float focalLength = 50
-    float horizontalAperture = 20
-    float verticalAperture = 20
-    double3 xformOp:translate = (0, 2, 0)
-    float xformOp:rotateX = -90
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]
-}
-def Mesh "floor" (prepend apiSchemas = ["MaterialBindingAPI"])
-{
-    rel material:binding = </looks>
-    point3f[] points = [(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)]
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    uniform token subdivisionScheme = "none"
-}
-def Material "looks"
-{
-    token outputs:surface.connect = </looks/s.outputs:surface>
-    def Shader "s"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor = (0.5, 0.5, 0.5)
-        float inputs:metallic = METALLIC
-        float inputs:roughness = ROUGHNESS
-        token outputs:surface
-    }
-}
-"""
-CARD = """def Mesh "card"
-{
-    point3f[] points = [(-9, 3, 9), (9, 3, 9), (9, 3, -9), (-9, 3, -9)]
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    uniform token subdivisionScheme = "none"
-    bool doubleSided = 1
-    color3f[] primvars:displayColor = [(0, 0, 0)]
-}
-"""
+STAGE = usda.stage(
+    usda.camera(lens=(50, 20, 20), at=(0, 2, 0), rotateX=-90),
+    usda.floor("floor", 9, bind="looks"),
+    usda.preview("looks", diffuseColor=(0.5, 0.5, 0.5), **{"float metallic": "METALLIC", "float roughness": "ROUGHNESS"}),
+    metersPerUnit=1)
+CARD = usda.floor("card", 9, "bool doubleSided = 1", y=3, color=(0, 0, 0))
 LIGHTS = {"dome": ('DomeLight', "    float inputs:intensity = 1\n"),
           "rect": ('RectLight', "    float inputs:intensity = 2\n    float inputs:width = 6\n    float inputs:height = 6\n"
                    "    double3 xformOp:translate = (0, 5, 0)\n    float xformOp:rotateX = -90\n"

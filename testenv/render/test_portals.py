@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rendering import SCENES, color, record
+import usda
 
 PORTALS = "        rel portals = </World/window>\n"
 SEEDS, SAMPLES = 16, 16
@@ -50,22 +51,12 @@ def test_there_is_less_noise(pictures):
 
 def test_what_is_no_portal_is_named(tmp_path):
     stage, statistics = tmp_path / "stage.usda", tmp_path / "statistics.json"
-    stage.write_text("""#usda 1.0
-def DomeLight "sky"
-{
-    rel portals = [</nowhere>, </ball>, </flat>]
-}
-def Sphere "ball"
-{
-}
-def PortalLight "flat"
-{
-    float inputs:width = 0
-}
-def PortalLight "lonely"
-{
-}
-""")
+    stage.write_text(usda.stage(
+        usda.prim("DomeLight", "sky", "rel portals = [</nowhere>, </ball>, </flat>]"),
+        usda.prim("Sphere", "ball"),
+        usda.prim("PortalLight", "flat", width=0),
+        usda.prim("PortalLight", "lonely"),
+        up=""))
     record(stage, tmp_path / "image.exr", "--imageWidth", 4, "--samples", 1, f"--json={statistics}")
     said = [w["prim"] + " " + w["message"] for w in json.loads(statistics.read_text())["warnings"]]
     for text in ("/sky /nowhere is no PortalLight", "/sky /ball is no PortalLight", "/sky /flat has no size",

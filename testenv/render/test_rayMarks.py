@@ -5,62 +5,20 @@ import pytest
 
 from inProcess import needs_opengl
 from usdaText import render_text
+from usda import camera, preview, prim
 
 SIZE = 32
-CAMERA = """
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = 40
-    float verticalAperture = 40
-    float2 clippingRange = (0.1, 100)
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
-SUN = """
-def DistantLight "sun"
-{
-    float inputs:angle = 0
-    float inputs:intensity = 2
-    double3 xformOp:rotateXYZ = (0, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-"""
+CAMERA = camera(flat=(40, 40), clippingRange=(0.1, 100), at=(0, 0, 10))
+SUN = prim("DistantLight", "sun", "double3 xformOp:rotateXYZ = (0, 0, 0)",
+           'uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]', angle=0, intensity=2)
 DOME = 'def DomeLight "sky"\n{\n    float inputs:intensity = 0.7\n}\n'
-MIRROR = """
-def Material "mirror"
-{
-    token outputs:surface.connect = </mirror/s.outputs:surface>
-    def Shader "s"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        int inputs:useSpecularWorkflow = 1
-        color3f inputs:specularColor = (1, 1, 1)
-        color3f inputs:diffuseColor = (0, 0, 0)
-        float inputs:roughness = 0
-        token outputs:surface
-    }
-}
-"""
+MIRROR = preview("mirror", useSpecularWorkflow=1, specularColor=(1, 1, 1), diffuseColor=(0, 0, 0), roughness=0)
 
 
 def quad(name, z=0.0, x=(-9.0, 9.0), y=(-9.0, 9.0), marks="", color=(0.5, 0.5, 0.5), more=""):
     corners = ", ".join(f"({a}, {b}, {z})" for a, b in ((x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])))
-    return f"""
-def Mesh "{name}" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{{
-    point3f[] points = [{corners}]
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    uniform token subdivisionScheme = "none"
-    color3f[] primvars:displayColor = [{color}]
-    {marks}
-    {more}
-}}
-"""
+    return prim("Mesh", name, marks, more, points=[corners], faceVertexCounts=[4], faceVertexIndices=[0, 1, 2, 3],
+                subdivisionScheme="none", apis=("MaterialBindingAPI",), color=color)
 
 
 def render(text, aovs=("color", "alpha"), samples=4, depth=1, **settings):
@@ -125,19 +83,7 @@ def test_a_mirror_shows_what_specular_rays_see(kind, seen):
     assert (image.mean() < 0.35) == seen  # half of the sky's radiance
 
 
-GLOW = """
-def Material "glow"
-{
-    token outputs:surface.connect = </glow/s.outputs:surface>
-    def Shader "s"
-    {
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor = (0, 0, 0)
-        color3f inputs:emissiveColor = (3, 3, 3)
-        token outputs:surface
-    }
-}
-"""
+GLOW = preview("glow", diffuseColor=(0, 0, 0), emissiveColor=(3, 3, 3))
 
 
 def glow(mark, backend="embree", samples=4):

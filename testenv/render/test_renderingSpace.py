@@ -10,57 +10,21 @@ import pytest
 _patina = pytest.importorskip("_patina")
 
 from rendering import color, patina, record  # noqa: E402
+import usda  # noqa: E402
 
 # Rec.709 to AP1; its rows sum to 1.
 AP1 = np.array([[0.613097402, 0.339523146, 0.047379451],
                 [0.070193722, 0.916353879, 0.013452398],
                 [0.020615593, 0.109569773, 0.869814634]])
-WHITE = """def DistantLight "sun"
-{
-    float inputs:intensity = 1
-    float inputs:angle = 0
-    %s
-}
-"""
-CAMERA = """#usda 1.0
-( %s )
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = 10
-    float verticalAperture = 10
-    float2 clippingRange = (1, 100)
-    double3 xformOp:translate = (0, 0, 20)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
-FLOOR = """def Mesh "floor" ( prepend apiSchemas = ["MaterialBindingAPI"] )
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-5, -5, 0), (5, -5, 0), (5, 5, 0), (-5, 5, 0)]
-    texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] ( interpolation = "vertex" )
-    @PRIMVAR@
-    rel material:binding = </paint>
-}
-def Material "paint"
-{
-    token outputs:surface.connect = </paint/surface.outputs:out>
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_surface"
-        token inputs:bsdf.connect = </paint/bsdf.outputs:out>
-        token outputs:out
-    }
-    def Shader "bsdf"
-    {
-        uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
-        @COLOR@
-        token outputs:out
-    }
-    @NODES@
-}
-"""
+WHITE = usda.prim("DistantLight", "sun", "%s", intensity=1, angle=0)
+CAMERA = usda.stage("( %s )", usda.camera(flat=(10, 10), clippingRange=(1, 100), at=(0, 0, 20)), up="")
+FLOOR = (
+    usda.card("floor", 5, "@PRIMVAR@", scheme="", bind="paint", st=usda.ST)
+    + usda.prim("Material", "paint", "token outputs:surface.connect = </paint/surface.outputs:out>",
+        usda.prim("Shader", "surface", 'uniform token info:id = "ND_surface"',
+                  "token inputs:bsdf.connect = </paint/bsdf.outputs:out>", "token outputs:out"),
+        usda.prim("Shader", "bsdf", 'uniform token info:id = "ND_oren_nayar_diffuse_bsdf"', "token outputs:out", "@COLOR@"),
+        "@NODES@"))
 ORANGE, MINT = np.array([0.8, 0.3, 0.05]), np.array([0.2, 0.9, 0.5])
 SRGB = np.where(ORANGE > 0.0031308, 1.055 * ORANGE ** (1 / 2.4) - 0.055, 12.92 * ORANGE)
 
@@ -181,15 +145,8 @@ def _chromaticities(path):
     return np.frombuffer(data[start + 4:start + 36], "<f4")
 
 
-SETTINGS = """
-def RenderSettings "settings"
-{
-    uniform token renderingColorSpace = "%s"
-    rel camera = </camera>
-    uniform int2 resolution = (8, 8)
-    int patina:samples = 4
-}
-"""
+SETTINGS = usda.prim("RenderSettings", "settings", 'uniform token renderingColorSpace = "%s"', "rel camera = </camera>",
+                     "uniform int2 resolution = (8, 8)", "int patina:samples = 4")
 
 
 @pytest.mark.parametrize("space", ["lin_ap1_scene", "srgb_texture", "nobody knows", "lin_rec709_scene", "raw"])

@@ -4,26 +4,14 @@ import numpy as np
 import pytest
 
 import inProcess
+import usda
 
-STAGE = """#usda 1.0
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = 40
-    float verticalAperture = 40
-    float2 clippingRange = (0.1, 100)
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Mesh "cube"
-{
-    int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
-    int[] faceVertexIndices = [0, 1, 3, 2, 2, 3, 5, 4, 4, 5, 7, 6, 6, 7, 1, 0, 1, 7, 5, 3, 6, 0, 2, 4]
-    point3f[] points = [(-1, -1, 1), (1, -1, 1), (-1, 1, 1), (1, 1, 1), (-1, 1, -1), (1, 1, -1), (-1, -1, -1), (1, -1, -1)]
-    float3 xformOp:rotateXYZ = (20, 30, 0)
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-"""
+STAGE = usda.stage(
+    usda.camera(flat=(40, 40), clippingRange=(0.1, 100), at=(0, 0, 10)),
+    usda.mesh("cube", [(-1, -1, 1), (1, -1, 1), (-1, 1, 1), (1, 1, 1), (-1, 1, -1), (1, 1, -1), (-1, -1, -1), (1, -1, -1)],
+              faces=[(0, 1, 3, 2), (2, 3, 5, 4), (4, 5, 7, 6), (6, 7, 1, 0), (1, 7, 5, 3), (6, 0, 2, 4)], scheme="",
+              turn=(20, 30, 0)),
+    up="")
 
 
 @pytest.mark.parametrize("backend", ["embree", "raster"])

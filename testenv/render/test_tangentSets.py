@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import inProcess
+import usda
 
 NORMAL = np.array([0.48, 0.36, 0.8])  # in the frame of the map, of unit length
 PIXELS = 8                            # that a card is wide
@@ -33,27 +34,9 @@ CARDS = {
 SAMPLES = {"embree": "64", "raster": "4"}
 LIT = {"lit": ({"st": "plain", "st1": "turned"}, "st1"), "lit by name": ({"UVMap": "mirrored"}, "UVMap")}
 
-HEAD = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    token projection = "orthographic"
-    float horizontalAperture = %(across)d
-    float verticalAperture = 10
-    double3 xformOp:translate = (%(middle)s, 0, 5)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def DistantLight "sun"
-{
-    float inputs:intensity = 3.14159265
-    float inputs:angle = 0.1
-    bool inputs:normalize = 1
-    float3 xformOp:rotateXYZ = (0, %(turn).6f, 0)
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-"""
+HEAD = usda.stage(
+    usda.camera(flat=("%(across)d", 10), at="(%(middle)s, 0, 5)"),
+    usda.prim("DistantLight", "sun", intensity=3.14159265, angle=0.1, normalize=True, turn="(0, %(turn).6f, 0)"))
 
 
 def expected(run, mirrors=False):

@@ -10,6 +10,7 @@ import pytest
 
 import tiledTiff
 from rendering import color, patina, record
+import usda
 
 MIB = 1 << 20
 SMALL = ("--imageWidth", 48, "--imageHeight", 32, "--samples", 4, "--threads", 2)
@@ -20,53 +21,22 @@ def stage(folder, files, repeats=1):
     prims = []
     for i, file in enumerate(files):
         x = i - 0.5 * len(files)
-        prims.append(f"""
-def Mesh "q{i}" (prepend apiSchemas = ["MaterialBindingAPI"])
-{{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [({x}, -0.8, 1), ({x + 0.95}, -0.8, 1), ({x + 0.95}, 1.2, -9), ({x}, 1.2, -9)]
-    texCoord2f[] primvars:st = [(0, 0), ({repeats}, 0), ({repeats}, {repeats}), (0, {repeats})] (interpolation = "vertex")
-    rel material:binding = </m{i}>
-}}
-def Material "m{i}"
-{{
-    token outputs:surface.connect = </m{i}/s.outputs:surface>
-    def Shader "s"
-    {{
-        uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:emissiveColor.connect = </m{i}/t.outputs:rgb>
-        color3f inputs:diffuseColor = (0, 0, 0)
-        token outputs:surface
-    }}
-    def Shader "t"
-    {{
-        uniform token info:id = "UsdUVTexture"
-        asset inputs:file = @{file}@
-        token inputs:wrapS = "repeat"
-        token inputs:wrapT = "mirror"
-        float2 inputs:st.connect = </m{i}/p.outputs:result>
-        float3 outputs:rgb
-    }}
-    def Shader "p"
-    {{
-        uniform token info:id = "UsdPrimvarReader_float2"
-        string inputs:varname = "st"
-        float2 outputs:result
-    }}
-}}""")
+        prims.append((
+            usda.mesh(f"q{i}", [(x, -0.8, 1), (x + 0.95, -0.8, 1), (x + 0.95, 1.2, -9), (x, 1.2, -9)],
+                      f'texCoord2f[] primvars:st = [(0, 0), ({repeats}, 0), ({repeats}, {repeats}), (0, {repeats})] '
+                      f'(interpolation = "vertex")',
+                      scheme="", bind=f"m{i}")
+            + usda.material(f"m{i}", {
+                            "s": ("UsdPreviewSurface", {"color3f emissiveColor": "<t>", "diffuseColor": (0, 0, 0)}),
+                            "t": ("UsdUVTexture",
+                                  {"file": file, "token wrapS": "repeat", "token wrapT": "mirror", "float2 st": "<p>"}),
+                            "p": ("UsdPrimvarReader_float2", {"varname": "st"})},
+                            surface="s")))
     path = os.path.join(folder, "stage.usda")
     with open(path, "w", encoding="utf-8") as text:
-        text.write(f"""#usda 1.0
-def Camera "camera"
-{{
-    float horizontalAperture = 36
-    float verticalAperture = 24
-    float focalLength = {40 / len(files) ** 0.5}
-    float2 clippingRange = (0.01, 100)
-    double3 xformOp:translate = (0, 0, 3)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}}""" + "\n".join(prims) + "\n")
+        text.write(usda.stage(
+            usda.camera(lens=(40 / len(files) ** 0.5, 36, 24), clippingRange=(0.01, 100), at=(0, 0, 3)),
+            up="") + "\n".join(prims) + "\n")
     return path
 
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Graphs that failed once, kept as documents: what may be expected of one stands in a comment, with what failed. The word
 `raster` there has both back ends compared; `seed` is that of the graph, which chooses the random places of a look."""
-import os
 import re
 import xml.etree.ElementTree as ElementTree
 from types import SimpleNamespace
@@ -9,21 +8,19 @@ from types import SimpleNamespace
 import graphText
 
 KINDS = {*graphText.BSDFS, *graphText.EDFS, *graphText.VDFS, *graphText.MORE}
-CORPUS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "corpus")
 EXPECTED = re.compile(r"<!-- expected: (.*) -->")
 
 
-def write(path, text, graph, methods, lines):
+def noted(text, graph, methods, lines):
     """:param graph: with bound, seed, loses, thin and ward, as graphText.Graph
     :param lines: what failed
+    :returns: the document with its comments
     """
     words = [f"bound={graph.bound:g}", f"seed={graph.seed}",
              *(name for name in ("loses", "thin", "ward") if getattr(graph, name)),
              *(f"{point}={name}" for point, name in sorted(methods.items()))]
     failed = "\n     ".join(line.replace("--", "- -") for line in lines)
-    comments = f"<!-- expected: {' '.join(words)} -->\n<!-- {failed} -->"
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text.replace("\n<materialx", f"\n{comments}\n<materialx", 1))
+    return text.replace("\n<materialx", f"\n<!-- expected: {' '.join(words)} -->\n<!-- {failed} -->\n<materialx", 1)
 
 
 def read(path):
@@ -49,8 +46,3 @@ def read(path):
         else:
             setattr(expected, name, True)
     return text, expected, methods
-
-
-def corpus():
-    """:returns: paths of all kept graphs"""
-    return sorted(os.path.join(CORPUS, name) for name in os.listdir(CORPUS) if name.endswith(".mtlx"))

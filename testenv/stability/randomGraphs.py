@@ -17,9 +17,10 @@ import tempfile
 import time
 from collections import Counter
 
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.join(FOLDER, "..", "fuzz"))
 if __name__ == "__main__":
-    folder = os.path.dirname(os.path.abspath(__file__))
-    sys.path[:0] = [folder, os.path.join(folder, "..")]
+    sys.path[:0] = [FOLDER, os.path.join(FOLDER, "..")]
     import checkout
 
     checkout.enter()
@@ -29,6 +30,8 @@ import graphLooks  # noqa: E402
 import graphShrink  # noqa: E402
 import graphText  # noqa: E402
 import kept  # noqa: E402
+import keptFindings  # noqa: E402
+from patina import experiment  # noqa: E402
 
 # Of the path tracer alone, and with values that are estimates.
 WALKS = {("energyCompensation", "randomWalk"), ("layering", "positionFree")}
@@ -131,9 +134,8 @@ class Finding:
         return "\n  ".join([head, *self.failed]) + "\n" + graphText.document(self.nodes)
 
     def keep(self, folder):
-        os.makedirs(folder, exist_ok=True)
-        kept.write(os.path.join(folder, f"{self.words.replace(' ', '')}.mtlx"), graphText.document(self.nodes), self.graph,
-                   self.methods, self.failed)
+        text = kept.noted(graphText.document(self.nodes), self.graph, self.methods, self.failed)
+        keptFindings.save(folder, "randomGraphs", ".mtlx", ("promise", self.words, text.encode(), "\n".join(self.failed)))
 
 
 def of_processor(seed, count):
@@ -202,34 +204,21 @@ def main():
     spans = [(arguments.seed + (at // size if arguments.raster else at), min(size, count - at)) for at in range(0, count, size)]
     # A process that dies ends the run, with the seeds that it had.
     context = multiprocessing.get_context("fork")
-    with concurrent.futures.ProcessPoolExecutor(arguments.jobs, mp_context=context) as pool:
-        running = {}
-        waiting = iter(spans)
-        def more():
-            for seed, number in waiting:
-                running[pool.submit(work, seed, number)] = seed
-                return
-        for _ in range(2 * arguments.jobs):
-            more()
-        while running:
-            done, _ = concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED)
-            for future in done:
-                seed = running.pop(future)
-                try:
-                    found, numbers = future.result()
-                except Exception as error:
-                    raise SystemExit(f"graphs from seed {seed} on: {type(error).__name__}: {error}") from error
-                more()
-                counted.update(numbers)
-                broken += len(found)
-                for finding in found:
-                    findings.append(("promise", f"{finding.words}: {finding.failed[0]}"))
-                    print(finding, flush=True)
-                    if arguments.keep:
-                        finding.keep(arguments.keep)
+    pool = concurrent.futures.ProcessPoolExecutor(arguments.jobs, mp_context=context)
+    for (seed, _), future in experiment.as_done(pool, work, spans):
+        try:
+            found, numbers = future.result()
+        except Exception as error:
+            raise SystemExit(f"graphs from seed {seed} on: {type(error).__name__}: {error}") from error
+        counted.update(numbers)
+        broken += len(found)
+        for finding in found:
+            findings.append(("promise", f"{finding.words}: {finding.failed[0]}"))
+            print(finding, flush=True)
+            if arguments.keep:
+                finding.keep(arguments.keep)
     seconds = (time.time() - start) * arguments.jobs
     if arguments.results is not None:
-        sys.path.append(os.path.join(folder, "..", "fuzz"))
         import results
 
         counts = {"fine": count - broken} | ({"promise": broken} if broken else {})

@@ -15,6 +15,7 @@ import graphChecks  # noqa: E402
 import graphText  # noqa: E402
 import kept  # noqa: E402
 import randomGraphs  # noqa: E402
+import keptFindings  # noqa: E402
 
 COUNT = 100
 WALKED = 60
@@ -71,14 +72,14 @@ def test_both_back_ends(seed):
     assert randomGraphs.failures(_patina, randomGraphs.load(_patina, graph.text()), graph, {}, raster=True) == []
 
 
-@pytest.mark.parametrize("path", kept.corpus(), ids=os.path.basename)
+@pytest.mark.parametrize("path", keptFindings.corpus("randomGraphs"), ids=os.path.basename)
 def test_corpus(path):
     text, expected, methods = kept.read(path)
     raster = getattr(expected, "raster", False) and not without_opengl()
     assert randomGraphs.failures(_patina, randomGraphs.load(_patina, text), expected, methods, raster) == []
 
 
-@pytest.mark.parametrize("path", kept.corpus(), ids=os.path.basename)
+@pytest.mark.parametrize("path", keptFindings.corpus("randomGraphs"), ids=os.path.basename)
 def test_corpus_by_looks(path):
     text, expected, methods = kept.read(path)
     assert randomGraphs.look(_patina, randomGraphs.load(_patina, text), expected, methods)[0] == []
@@ -101,7 +102,7 @@ def test_every_closure_is_tried():
 
 def test_kept_graphs_come_back(tmp_path):
     graph = graphText.Graph(5)
-    kept.write(tmp_path / "a.mtlx", graph.text(), graph, {"thinFilm": "table"}, ["f: nan -- at x"])
+    (tmp_path / "a.mtlx").write_text(kept.noted(graph.text(), graph, {"thinFilm": "table"}, ["f: nan -- at x"]))
     text, expected, methods = kept.read(tmp_path / "a.mtlx")
     assert (expected.bound, expected.loses, expected.thin, methods) == (graph.bound, graph.loses, graph.thin,
                                                                         {"thinFilm": "table"})
@@ -187,7 +188,7 @@ def test_values_may_jump_where_directions_round():
 
 def test_a_constant_that_is_no_number_passes_for_no_other():
     """A tangent of NaN is that of the point, as none is, and not the normal."""
-    text = kept.read(os.path.join(kept.CORPUS, "constantNotANumber.mtlx"))[0]
+    text = kept.read(os.path.join(keptFindings.folder("randomGraphs"), "constantNotANumber.mtlx"))[0]
     bare = text.replace('<input name="tangent" type="vector3" nodename="n1"/>', "")
     assert bare != text
     wo, u = graphChecks.draws()

@@ -8,6 +8,7 @@ import pytest
 
 from patina.cli import compiled, imageMetrics, materials
 from patina.view import compareImages, images, reference, shapes
+from usda import prim, stage
 
 DEMOS = os.path.join(os.path.dirname(__file__), "..", "..", "plugin", "patina", "view", "demos")
 TEN = {"classic": ("lambert", "phong", "blinnPhong", "ward", "cookTorrance", "rust"),
@@ -16,51 +17,17 @@ WIDTH, SAMPLES = 32, 64
 HARD_ONES = ("lambert", "metal", "coat", "sheen")
 ALL = {"soft": sum(TEN.values(), ()), "hard": HARD_ONES}
 FEW = {"soft": ("coat",), "hard": ("metal",)}  # each takes ten seconds of OpenGL in software, and so does each demo
-SOFT = """#usda 1.0
-def DistantLight "sun"
-{
-    float inputs:angle = 0
-    float inputs:intensity = 1.2
-    float3 xformOp:rotateXYZ = (-35, -40, 0)
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-def SphereLight "lamp"
-{
-    color3f inputs:color = (1, 0.7, 0.5)
-    float inputs:intensity = 90
-    float inputs:radius = 0.2
-    bool treatAsPoint = 1
-    double3 xformOp:translate = (3, 1, 2)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+SOFT = stage(
+    prim("DistantLight", "sun", angle=0, intensity=1.2, turn=(-35, -40, 0)),
+    prim("SphereLight", "lamp", "color3f inputs:color = (1, 0.7, 0.5)", "bool treatAsPoint = 1", intensity=90, radius=0.2,
+         at=(3, 1, 2)),
+    up="")
 # A low sun, a small lamp near by, a panel, and a bright window in a dark room.
-HARD = """#usda 1.0
-def DistantLight "lowSun"
-{
-    float inputs:angle = 4
-    float inputs:intensity = 800
-    float3 xformOp:rotateXYZ = (-35, -40, 0)
-    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
-}
-def SphereLight "bulb"
-{
-    color3f inputs:color = (1, 0.7, 0.5)
-    float inputs:intensity = 60
-    float inputs:radius = 0.15
-    double3 xformOp:translate = (3, 1, 2)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def RectLight "panel"
-{
-    float inputs:intensity = 8
-    float inputs:width = 1
-    float inputs:height = 2
-    double3 xformOp:translate = (-2.5, 1.5, 1)
-    float3 xformOp:rotateXYZ = (-20, -70, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-"""
+HARD = stage(
+    prim("DistantLight", "lowSun", angle=4, intensity=800, turn=(-35, -40, 0)),
+    prim("SphereLight", "bulb", "color3f inputs:color = (1, 0.7, 0.5)", intensity=60, radius=0.15, at=(3, 1, 2)),
+    prim("RectLight", "panel", intensity=8, width=1, height=2, at=(-2.5, 1.5, 1), turn=(-20, -70, 0)),
+    up="")
 CASES = {"soft": ("sun", "lamp"), "hard": ("lowSun", "bulb", "panel")}
 
 

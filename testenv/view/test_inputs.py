@@ -5,14 +5,14 @@ import os
 import numpy as np
 import pytest
 
-from materialText import material
+from usda import material
 
-MATERIAL = "#usda 1.0\n" + material("plastic", {"mtlx:surface": "surface"}, {
+MATERIAL = "#usda 1.0\n" + material("plastic", {
     "base": ("ND_oren_nayar_diffuse_bsdf", {"color3f color": "<noise>"}),
     "noise": ("ND_fractal3d_color3", {"int octaves": "2"}),
-    "coat": ("ND_dielectric_bsdf", {"string distribution": '"ggx"', "float2 roughness": "(0.2, 0.2)"}),
-    "layer": ("ND_layer_bsdf", {"token top": "<coat>", "token base": "<base>"}),
-    "surface": ("ND_surface", {"token bsdf": "<layer>"}),
+    "coat": ("ND_dielectric_bsdf", {"distribution": "ggx", "roughness": (0.2, 0.2)}),
+    "layer": ("ND_layer_bsdf", {"top": "<coat>", "base": "<base>"}),
+    "surface": ("ND_surface", {"bsdf": "<layer>"}),
 })
 CONTROL = "page.panel.gui.controllersRecursive().find(c => c._name === '{}')"
 

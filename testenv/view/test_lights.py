@@ -6,73 +6,24 @@ import urllib.parse
 import numpy as np
 import pytest
 
-from materialText import material
 from patina.cli import compiled, imageMetrics, materials
 from patina.view import compareImages, images, reference, shapes
+import usda
 
 WIDTH = 40
-STAGE = """#usda 1.0
-def Material "plastic"
-{
-    token outputs:mtlx:surface.connect = </plastic/surface.outputs:out>
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_standard_surface_surfaceshader"
-        color3f inputs:base_color = (0.5, 0.5, 0.5)
-        float inputs:specular_roughness = 0.3
-        token outputs:out
-    }
-}
-def RectLight "picture"
-{
-    float inputs:intensity = 6
-    float inputs:width = 3
-    float inputs:height = 2
-    asset inputs:texture:file = @picture.exr@
-    double3 xformOp:translate = (0.5, 1, 3)
-    float3 xformOp:rotateXYZ = (-20, 10, 30)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-def CylinderLight "tube"
-{
-    float inputs:intensity = 20
-    float inputs:length = 2
-    float inputs:radius = 0.1
-    double3 xformOp:translate = (-1, 2, 2)
-    float3 xformOp:rotateXYZ = (0, 0, 40)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-def SphereLight "profile" (prepend apiSchemas = ["ShapingAPI"])
-{
-    float inputs:intensity = 6
-    float inputs:radius = 0.2
-    asset inputs:shaping:ies:file = @lamp.ies@
-    double3 xformOp:translate = (-1.2, 2.2, 2.2)
-    float3 xformOp:rotateXYZ = (-45, -28, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-def CylinderLight "thread"
-{
-    float inputs:intensity = 10
-    float inputs:length = 2
-    float inputs:radius = 0
-    bool inputs:normalize = true
-    double3 xformOp:translate = (1.5, 1.5, 1.5)
-    float3 xformOp:rotateXYZ = (0, 0, 70)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-def Mesh "panel" (prepend apiSchemas = ["MeshLightAPI"])
-{
-    uniform token subdivisionScheme = "none"
-    float inputs:intensity = 30
-    point3f[] points = [(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.7, 0), (-0.5, 0.5, 0.3)]
-    int[] faceVertexCounts = [3, 3]
-    int[] faceVertexIndices = [0, 2, 1, 0, 3, 2]
-    double3 xformOp:translate = (-3, 1.2, 1)
-    float3 xformOp:rotateXYZ = (0, -70, 15)
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-}
-"""
+STAGE = usda.stage(
+    usda.material("plastic", {"surface": ("ND_standard_surface_surfaceshader", {
+        "base_color": (0.5, 0.5, 0.5), "specular_roughness": 0.3})}),
+    usda.prim("RectLight", "picture", "asset inputs:texture:file = @picture.exr@", intensity=6, width=3, height=2,
+              at=(0.5, 1, 3), turn=(-20, 10, 30)),
+    usda.prim("CylinderLight", "tube", intensity=20, length=2, radius=0.1, at=(-1, 2, 2), turn=(0, 0, 40)),
+    usda.prim("SphereLight", "profile", "asset inputs:shaping:ies:file = @lamp.ies@", intensity=6, radius=0.2,
+              apis=("ShapingAPI",), at=(-1.2, 2.2, 2.2), turn=(-45, -28, 0)),
+    usda.prim("CylinderLight", "thread", intensity=10, length=2, radius=0, normalize=True, at=(1.5, 1.5, 1.5),
+              turn=(0, 0, 70)),
+    usda.mesh("panel", [(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.7, 0), (-0.5, 0.5, 0.3)], "float inputs:intensity = 30",
+              faces=[(0, 2, 1), (0, 3, 2)], apis=("MeshLightAPI",), at=(-3, 1.2, 1), turn=(0, -70, 15)),
+    up="")
 # Brighter to one side, and off its axis.
 PROFILE = """IESNA:LM-63-1995
 TILT=NONE
@@ -140,8 +91,7 @@ def test_a_page_has_room_for_so_many_lights(tmp_path, make, chromium, capsys, mo
     domes = [f'def DomeLight "dome{i}"\n{{\n    asset inputs:texture:file = @sky.exr@\n}}\n' for i in range(40)]
     rects = [f'def RectLight "rect{i}"\n{{\n    double3 xformOp:translate = (0, 0, {3 + i})\n'
              '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n' for i in range(300)]
-    plain = material("plain", {"mtlx:surface": "surface"}, {
-        "bsdf": ("ND_oren_nayar_diffuse_bsdf", {}), "surface": ("ND_surface", {"token bsdf": "<bsdf>"})})
+    plain = usda.lobe("plain", "oren_nayar_diffuse_bsdf")
     file.write_text("#usda 1.0\n" + plain + "".join(domes + rects))
     latlong = images.latlong
     monkeypatch.setattr(images, "latlong", lambda path, largest: read.append(path) or latlong(path, largest))

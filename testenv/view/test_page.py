@@ -7,34 +7,13 @@ import urllib.parse
 import numpy as np
 import pytest
 
-MATERIAL = """#usda 1.0
-def Scope "look"
-{
-    def SphereLight "lamp"
-    {
-        float inputs:intensity = 40
-        float inputs:radius = 0.3
-        double3 xformOp:translate = (3, 2, 3)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-    }
-    def Material "red"
-    {
-        token outputs:mtlx:surface.connect = </look/red/surface.outputs:out>
-        def Shader "bsdf"
-        {
-            uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
-            color3f inputs:color = (0.8, 0.1, 0.05)
-            token outputs:out
-        }
-        def Shader "surface"
-        {
-            uniform token info:id = "ND_surface"
-            token inputs:bsdf.connect = </look/red/bsdf.outputs:out>
-            token outputs:out
-        }
-    }
-}
-"""
+from usda import lobe, prim, stage
+
+MATERIAL = stage(
+    prim("Scope", "look",
+        prim("SphereLight", "lamp", intensity=40, radius=0.3, at=(3, 2, 3)),
+        lobe("red", "oren_nayar_diffuse_bsdf", inside="/look", color=(0.8, 0.1, 0.05))),
+    up="")
 CONTROLS = {"presets": [{"name": "blue", "values": {"/look/red/bsdf.color": [0.05, 0.1, 0.8]}}],
             "sentences": {"red": "A sentence."}}
 COLOR = "page.state.values[0][page.state.current.inputs.findIndex(i => i.input.endsWith('bsdf.color'))]"

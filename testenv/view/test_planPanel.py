@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from accessibility import axe_script, violations
-from materialText import material
+from usda import material
 from test_hostile import DOCUMENT, EVIL
 
-MATERIAL = "#usda 1.0\n" + material("metal", {"mtlx:surface": "surface"}, {
-    "metal": ("ND_conductor_bsdf", {"float2 roughness": "(0.8, 0.8)"}),
-    "body": ("ND_mix_bsdf", {"token fg": "<metal>", "token bg": "<other>", "float mix": "1"}),
+MATERIAL = "#usda 1.0\n" + material("metal", {
+    "metal": ("ND_conductor_bsdf", {"roughness": (0.8, 0.8)}),
+    "body": ("ND_mix_bsdf", {"fg": "<metal>", "bg": "<other>", "mix": 1}),
     "other": ("ND_oren_nayar_diffuse_bsdf", {}),
-    "surface": ("ND_surface", {"token bsdf": "<body>"}),
+    "surface": ("ND_surface", {"bsdf": "<body>"}),
 })
 FAR = 60.0  # radii: light that the camera sees is all but parallel, so that a sphere shows every cosine by its share
 

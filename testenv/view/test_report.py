@@ -10,52 +10,19 @@ import numpy as np
 import pytest
 
 from patina.cli import main
+from usda import camera, material, prim, stage
 
-STAGE = """#usda 1.0
-def Camera "camera"
-{
-    float horizontalAperture = 20
-    float verticalAperture = 10
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def Sphere "other"
-{
-}
-def DomeLight "dome"
-{
-}
-def Scope "looks"
-{
-    def Material "red"
-    {
-        token outputs:surface.connect = </looks/red/s.outputs:surface>
-        def Shader "s"
-        {
-            uniform token info:id = "UsdPreviewSurface"
-            color3f inputs:diffuseColor.connect = </looks/red/t.outputs:rgb>
-            token outputs:surface
-        }
-        def Shader "t"
-        {
-            uniform token info:id = "UsdUVTexture"
-            asset inputs:file = @none<i>.png@
-            float3 outputs:rgb
-        }
-    }
-}
-def Sphere "ball"
-{
-    rel material:binding = </looks/red>
-    double3 xformOp:translate = (0.5, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-def SphereLight "lamp"
-{
-    double3 xformOp:translate = (5, 5, 5)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+STAGE = stage(
+    camera(horizontalAperture=20, verticalAperture=10, at=(0, 0, 10)),
+    prim("Sphere", "other"),
+    prim("DomeLight", "dome"),
+    prim("Scope", "looks",
+        material("red", {
+            "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}),
+            "t": ("UsdUVTexture", {"file": "none<i>.png"})}, inside="/looks", surface="s")),
+    prim("Sphere", "ball", "rel material:binding = </looks/red>", at=(0.5, 0, 0)),
+    prim("SphereLight", "lamp", at=(5, 5, 5)),
+    up="")
 SMALL = ("-w", "64", "--samples", "32", "--aov", "depth", "--quiet")
 
 

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from accessibility import axe_script, violations
-from materialText import material
+from usda import material
 
-MATERIAL = "#usda 1.0\n" + material("red", {"mtlx:surface": "surface"}, {
-    "base": ("ND_oren_nayar_diffuse_bsdf", {"color3f color": "(0.1, 0.3, 0.7)"}),
-    "coat": ("ND_dielectric_bsdf", {"float weight": "0"}),
-    "layer": ("ND_layer_bsdf", {"token top": "<coat>", "token base": "<base>"}),
-    "surface": ("ND_surface", {"token bsdf": "<layer>"}),
+MATERIAL = "#usda 1.0\n" + material("red", {
+    "base": ("ND_oren_nayar_diffuse_bsdf", {"color": (0.1, 0.3, 0.7)}),
+    "coat": ("ND_dielectric_bsdf", {"weight": 0}),
+    "layer": ("ND_layer_bsdf", {"top": "<coat>", "base": "<base>"}),
+    "surface": ("ND_surface", {"bsdf": "<layer>"}),
 })
 # Tells every text that a driver is given from here on.
 SPY = """const gl = viewer.renderer.getContext(), own = gl.shaderSource.bind(gl);

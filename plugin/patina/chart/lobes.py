@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rows of measured methods: CSV, SVG, and the table that is compiled in."""
-import csv
 import os
 import re
 from collections import defaultdict
 
+from patina import experiment
 from patina.chart import look
 from patina.chart.front import pareto
 from patina.chart.plot import Plot
@@ -99,12 +99,7 @@ def with_times(rows, table):
 
 
 def write_csv(rows, path):
-    with outputs.writing(path, newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS)
-        writer.writeheader()
-        for row in rows:
-            writer.writerow({name: f"{row[name]:.6g}" if isinstance(row[name], float) else row[name]
-                             for name in COLUMNS})
+    experiment.write_csv(path, COLUMNS, rows)
 
 
 def write_table(rows, path):
@@ -143,8 +138,7 @@ def write_charts(rows, folder):
         points = [(row["ns"], row["mean"], row["method"]) for row in group]
         name = "".join(c if c.isalnum() else "_" for c in f"{point}_{subject}") + ".svg"
         path = os.path.join(folder, name)
-        with outputs.writing(path) as file:
-            file.write(scatter(f"{point}, {subject}", points, f"mean error ({group[0]['errorOf']})"))
+        outputs.write_text(path, scatter(f"{point}, {subject}", points, f"mean error ({group[0]['errorOf']})"))
         paths.append(path)
     return paths
 

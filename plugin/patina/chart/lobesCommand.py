@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 """patina chart --lobes: ns per evaluation against error of every method."""
-import json
 import os
 
 from patina.chart import lobes
@@ -32,19 +31,14 @@ def run(arguments):
     if arguments.errors:
         rows = lobes.with_times(rows, patina.method_table())
     rows = lobes.with_cost(rows, points)
-    try:
-        if arguments.table:
-            table = lobes.of_renderer(rows, points)
-            if arguments.point:
-                table = lobes.merged(table, patina.method_table(), arguments.point)
-            lobes.write_table(table, arguments.table)
-        if arguments.out:
-            lobes.write_csv(rows, os.path.join(arguments.out, "lobes.csv"))
-            lobes.write_charts(rows, arguments.out)
-        text = json.dumps(rows, indent=1) if arguments.json else ""
-        if arguments.json and arguments.json != "-":
-            outputs.write_text(arguments.json, text + "\n")
-    except OSError as error:
-        raise CommandError(f"cannot write {error.filename}: {error.strerror}") from error
-    print(text if arguments.json == "-" else lobes.listing(rows))
+    if arguments.table:
+        table = lobes.of_renderer(rows, points)
+        if arguments.point:
+            table = lobes.merged(table, patina.method_table(), arguments.point)
+        lobes.write_table(table, arguments.table)
+    if arguments.out:
+        lobes.write_csv(rows, os.path.join(arguments.out, "lobes.csv"))
+        lobes.write_charts(rows, arguments.out)
+    if not outputs.write_json(arguments.json, rows):
+        print(lobes.listing(rows))
     return 0

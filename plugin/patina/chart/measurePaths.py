@@ -12,7 +12,7 @@ import time
 import numpy as np
 
 from patina.chart import probes
-from patina.chart.sceneMeasures import LUMINANCE
+from patina.experiment import LUMINANCE, draw, relative_error
 from patina.cli import compiled
 
 SCENES = ("box", "corner")
@@ -33,7 +33,7 @@ def path_depth(timed=True, scenes=SCENES, bins=range(BINS), samples=64):
             errors, spent = np.zeros((BINS, 4)), []
             for b in bins:
                 image = pictures[b].render(maxDepth=int(method), rouletteDepth=_NEVER)[0]
-                errors[b] = (np.abs(image - truths[b]) / (truths[b] + 0.01)).mean()
+                errors[b] = relative_error(image, truths[b])
                 if timed:
                     spent.append(pictures[b].render(maxDepth=int(method))[2])
             rows.append(_row("pathDepth", method, scene, "picture", errors, np.ones((BINS, 4)), errors[list(bins)], spent,
@@ -93,9 +93,7 @@ class _Pictures:
         self.scene, self.renderer = self.module.Scene(), self.module.make_renderer("embree")
         albedo = _albedo(b)
         with self.scene.edit() as edit:
-            place = np.eye(4, dtype=np.float32)
-            place[3, :3] = 0.25, 0.1, 0.45
-            edit.set_camera("/camera", transform=place, focal_length=20.0, clip_near=0.01)
+            edit.set_camera("/camera", transform=probes.moved(0.25, 0.1, 0.45), focal_length=20.0, clip_near=0.01)
             edit.set_material("/material", probes.network("oren_nayar_diffuse_bsdf", color=(albedo,) * 3, roughness=0.0))
             edit.set_mesh("/walls", scheme="none", material="/material", double_sided=True, **_walls(_FACES[scene]))
             lamp = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0.1, 0.45, 0, 1]], np.float32)
@@ -107,8 +105,7 @@ class _Pictures:
         settings = {"width": _WIDTH, "height": _WIDTH, "samples": samples or self.samples, "seed": seed, "maxDepth": maxDepth,
                     "methods": methods or {}, "checkpointSeconds": 0.0, **more}
         begin = time.process_time()
-        self.renderer.start(self.scene, "/camera", settings, film)
-        self.renderer.wait()
+        draw(self.renderer, self.scene, "/camera", settings, film)
         spent = time.process_time() - begin
         count = settings["samples"]
         image = np.asarray(film.resolve("color"), np.float64) @ LUMINANCE

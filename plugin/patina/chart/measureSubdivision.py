@@ -12,7 +12,7 @@ import time
 import numpy as np
 
 from patina.chart import probes
-from patina.chart.sceneMeasures import LUMINANCE
+from patina.experiment import LUMINANCE, draw, relative_error
 from patina.cli import compiled
 
 POINT = "subdivision"
@@ -78,7 +78,7 @@ class _Column:
     def error(self, b, method):
         truth, image = self.truths[b], self._render(b, method)[0]
         covered = (truth != _BACKGROUND) | (image != _BACKGROUND)
-        return float((np.abs(image - truth) / (truth + 0.01))[covered].mean())
+        return relative_error(image[covered], truth[covered])
 
     def times(self, method):
         """:returns: processor time of a whole new picture per sample, ns, and triangles"""
@@ -103,11 +103,10 @@ class _Column:
         film = self.module.Film()
         settings = {"width": self.width, "height": self.width, "samples": samples or self.samples, "filterRadius": 0.5,
                     "seed": 7, "methods": {POINT: method}, "checkpointSeconds": 0.0}
-        self.renderer.start(self.scene, "/camera", settings, film)
-        self.renderer.wait()
+        state = draw(self.renderer, self.scene, "/camera", settings, film)
         spent = time.process_time() - begin
         image = np.asarray(film.resolve("color"), np.float64) @ LUMINANCE + _BACKGROUND * (1.0 - film.resolve("alpha"))
-        return image, spent, self.renderer.progress()["statistics"]["trianglesStored"]
+        return image, spent, state["statistics"]["trianglesStored"]
 
     def _network(self, b):
         if self.kind == "diffuse":
@@ -119,12 +118,12 @@ class _Column:
         scene = self.module.Scene()
         aperture = 10.0 * self.pixel * self.width
         with scene.edit() as edit:
-            edit.set_camera("/camera", transform=_moved(0.0, 0.0, 5.0), orthographic=True, horizontal_aperture=aperture,
+            edit.set_camera("/camera", transform=probes.moved(0.0, 0.0, 5.0), orthographic=True, horizontal_aperture=aperture,
                             vertical_aperture=aperture, clip_near=0.1)
             edit.set_mesh("/shape", **self.mesh)
             edit.set_light("/dome", type="dome", intensity=0.4, camera_visible=False)
             for name, axis, intensity in (("/key", (-0.5, 0.7, 0.5), 9.0), ("/rim", (0.9, 0.1, -0.1), 6.0)):
-                edit.set_light(name, type="rect", transform=_facing(np.array(axis), 4.0), width=2.5, height=2.5,
+                edit.set_light(name, type="rect", transform=probes.facing(axis, 4.0), width=2.5, height=2.5,
                                intensity=intensity, camera_visible=False)
         return scene
 
@@ -174,25 +173,9 @@ def _edges(indices):
     return [(int(q[k]), int(q[(k + 1) % 4])) for q in quads for k in range(4)]
 
 
-def _moved(x, y, z):
-    matrix = np.eye(4, dtype=np.float32)
-    matrix[3, :3] = x, y, z
-    return matrix
-
-
 def _turned():
     """So that no edge of the cage is seen along an axis of the picture."""
     a, b = np.radians(31.0), np.radians(23.0)
     around_y = np.array([[np.cos(a), 0, -np.sin(a), 0], [0, 1, 0, 0], [np.sin(a), 0, np.cos(a), 0], [0, 0, 0, 1]])
     around_x = np.array([[1, 0, 0, 0], [0, np.cos(b), np.sin(b), 0], [0, -np.sin(b), np.cos(b), 0], [0, 0, 0, 1]])
     return (around_y @ around_x).astype(np.float32)
-
-
-def _facing(axis, distance):
-    """A place on an axis that looks at the origin along its -z."""
-    z = axis / np.linalg.norm(axis)
-    x = np.cross([0.0, 1.0, 0.0], z)
-    x /= np.linalg.norm(x)
-    matrix = np.eye(4, dtype=np.float32)
-    matrix[0, :3], matrix[1, :3], matrix[2, :3], matrix[3, :3] = x, np.cross(z, x), z, distance * z
-    return matrix

@@ -12,13 +12,12 @@ the mean over the pixels of |luminance - truth| over (truth + 0.01):
 
 Times are of processors, so that what else the machine does has no part in them.
 """
-import csv
 import time
 from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 
-from patina.chart.sceneMeasures import LUMINANCE
+from patina.experiment import LUMINANCE, read_csv
 from patina.chart.sceneRenders import StageRenders
 
 COLUMNS = ("stage", "backend", "tolerance", "predicted", "methodError", "methodWithin", "methodSigma", "speedup",
@@ -180,9 +179,8 @@ def listing(rows):
 def read(path):
     """:returns: the rows of a predictions.csv"""
     kinds = {"float": float, "int": int, "bool": lambda text: text == "True", "str": str}
-    with open(path, newline="", encoding="utf-8") as file:
-        return [Row(**{f.name: kinds[getattr(f.type, "__name__", f.type)](row[f.name]) for f in fields(Row)})
-                for row in csv.DictReader(file)]
+    return [Row(**{f.name: kinds[getattr(f.type, "__name__", f.type)](row[f.name]) for f in fields(Row)})
+            for row in read_csv(path)]
 
 
 def summary(rows):

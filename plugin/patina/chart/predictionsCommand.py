@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """patina chart --predictions STAGE...: what the planner predicts against what comes."""
-import csv
 import os
 import sys
 
-from patina import inputs
+from patina import experiment, inputs
 from patina.chart import predictions
 from patina.chart.sceneCommand import failures, problem_of, shown
 from patina.cli import outputs, overrides, recordFlags
@@ -73,13 +72,9 @@ class Table:
             self._write()
 
     def add(self, row):
-        self.rows.append({name: f"{value:.4g}" if isinstance(value, float) else value
-                          for name, value in row.as_dict().items()})
+        self.rows.append(row.as_dict())
         if self.path:
             self._write()
 
     def _write(self):
-        with outputs.writing(self.path, newline="") as file:
-            writer = csv.DictWriter(file, predictions.COLUMNS)
-            writer.writeheader()
-            writer.writerows(self.rows)
+        experiment.write_csv(self.path, predictions.COLUMNS, self.rows, digits=4)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Materials of one lobe to be asked for numbers, and the directions that sweeps look along."""
+"""Materials of one lobe to be asked for numbers, the directions that sweeps look along, and places in scenes."""
 import numpy as np
 
 from patina.cli import compiled
@@ -71,3 +71,20 @@ def sampled(probe, wo, count=4096, channel=0):
 def noise(probe, wo, count=4096):
     """:returns: standard deviation of one sample's weight"""
     return float(samples(probe, wo, count)["weight"][:, 0].astype(np.float64).std())
+
+
+def moved(x, y, z):
+    """:returns: the place of a prim that is moved and not turned, 4 x 4 row vectors"""
+    matrix = np.eye(4, dtype=np.float32)
+    matrix[3, :3] = x, y, z
+    return matrix
+
+
+def facing(axis, distance):
+    """:returns: a place on an axis that looks at the origin along its -z"""
+    z = np.asarray(axis, float) / np.linalg.norm(axis)
+    x = np.cross([0.0, 1.0, 0.0], z)
+    x /= np.linalg.norm(x)
+    matrix = np.eye(4, dtype=np.float32)
+    matrix[0, :3], matrix[1, :3], matrix[2, :3], matrix[3, :3] = x, np.cross(z, x), z, distance * z
+    return matrix

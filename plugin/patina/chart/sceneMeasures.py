@@ -9,9 +9,9 @@ import numpy as np
 
 from patina.chart.front import pareto
 from patina.cli import imageMetrics
+from patina.experiment import LUMINANCE
 
 TILES = 6  # a picture is cut into so many tiles along its longer side for slopes by tile
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
 def errors(image, reference, with_flip=True):

@@ -6,7 +6,8 @@ from html import escape
 import numpy as np
 
 from patina.chart import look, png, sceneCharts, sceneResults
-from patina.chart.sceneMeasures import LUMINANCE, seconds_text
+from patina.chart.sceneMeasures import seconds_text
+from patina.experiment import LUMINANCE
 from patina.chart.sceneRenders import WORDS
 from patina.cli import outputs
 

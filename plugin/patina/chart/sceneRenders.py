@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from patina.chart.sceneMeasures import LUMINANCE
+from patina.experiment import LUMINANCE
 from patina.cli import compiled, openStage, overrides
 from patina.cli.errors import CommandError
 

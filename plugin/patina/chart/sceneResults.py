@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rows and findings of a stage's renders: what the CSV, the charts and the page show."""
-import csv
 from dataclasses import dataclass, field
 
+from patina import experiment
 from patina.chart import sceneMeasures
 from patina.chart.sceneRenders import WORDS
-from patina.cli import outputs
 
 COLUMNS = ("stage", "backend", "samples", "tolerance", "toleranceMet", "repeats", "seed", "seconds", "secondsInAll", "cores",
            "relMSE", "rmse", "flip", "meanError", "relative", "relMSEDirect", "rmseDirect", "flipDirect", "meanErrorDirect")
@@ -108,12 +107,7 @@ def _crossover(rows, measure):
 
 
 def write_csv(results, path):
-    with outputs.writing(path, newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, extrasaction="ignore")
-        writer.writeheader()
-        for row in (row for result in results for row in result.rows):
-            writer.writerow({name: "" if row[name] is None else f"{row[name]:.6g}" if isinstance(row[name], float)
-                             else row[name] for name in COLUMNS})
+    experiment.write_csv(path, COLUMNS, [row for result in results for row in result.rows])
 
 
 def read_csv(path):
@@ -121,12 +115,11 @@ def read_csv(path):
 
     :returns: a StageResult for each stage"""
     results = {}
-    with open(path, encoding="utf-8", newline="") as file:
-        for row in csv.DictReader(file):
-            for name in COLUMNS:
-                if name not in ("stage", "backend", "toleranceMet"):
-                    row[name] = float(row[name]) if row[name] else "" if name == "tolerance" else None
-            results.setdefault(row["stage"], StageResult(row["stage"])).rows.append(row)
+    for row in experiment.read_csv(path):
+        for name in COLUMNS:
+            if name not in ("stage", "backend", "toleranceMet"):
+                row[name] = float(row[name]) if row[name] else "" if name == "tolerance" else None
+        results.setdefault(row["stage"], StageResult(row["stage"])).rows.append(row)
     for result in results.values():
         for backend in WORDS:
             steps = [row for row in result.rows if row["backend"] == backend and not row["tolerance"]]

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """patina chart --stability: every method through the region where it fails, with the bound that holds there."""
-import csv
-import json
 import os
 
+from patina import experiment
 from patina.chart import stabilityPage, sweepsClassic, sweepsDiffuse, sweepsEnergy, sweepsMicrofacets, sweepsFilm, sweepsFrames
 from patina.chart import sweepsFresnel, sweepsLayers, sweepsPlan, sweepsSky
 from patina.cli import outputs
@@ -36,19 +35,11 @@ def run(arguments):
     outputs.make_folder(arguments.out)
     found = sweeps(arguments.points, arguments.family)
     rows = [row for sweep in found for row in sweep.rows()]
-    text = json.dumps(rows, indent=1) if arguments.json else ""
-    try:
-        if arguments.out:
-            with outputs.writing(os.path.join(arguments.out, "stability.csv"), newline="") as file:
-                writer = csv.DictWriter(file, COLUMNS)
-                writer.writeheader()
-                writer.writerows(rows)
-            stabilityPage.write(found, arguments.out)
-        if arguments.json and arguments.json != "-":
-            outputs.write_text(arguments.json, text + "\n")
-    except OSError as error:
-        raise CommandError(f"cannot write {error.filename}: {error.strerror}") from error
-    print(text if arguments.json == "-" else stabilityPage.listing(found))
+    if arguments.out:
+        experiment.write_csv(os.path.join(arguments.out, "stability.csv"), COLUMNS, rows, digits=None)
+        stabilityPage.write(found, arguments.out)
+    if not outputs.write_json(arguments.json, rows):
+        print(stabilityPage.listing(found))
     problems = [problem for sweep in found for problem in sweep.problems()]
     if problems:
         raise CommandError(f"{len(problems)} bounds do not hold; first: {problems[0]}")

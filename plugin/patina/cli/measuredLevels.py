@@ -12,7 +12,7 @@ import math
 import numpy as np
 from pxr import Usd
 
-from patina.chart.sceneMeasures import LUMINANCE
+from patina.experiment import LUMINANCE, relative_error
 from patina.stage import levels, read_stage
 
 SHARE = 0.1  # of a tolerance, for the errors of all roots together
@@ -63,7 +63,7 @@ def _errors(drawn, truth):
     light, alpha, _ = drawn[truth]
     grey = light.sum() / max(alpha.sum(), 1.0)
     before = [image + (1.0 - alpha) * grey for image, alpha, _ in drawn]
-    return [float((np.abs(image - before[truth]) / (before[truth] + 0.01)).mean()) for image in before]
+    return [relative_error(image, before[truth]) for image in before]
 
 
 def _draw(module, stage, options, path, bounds, size_of):

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from patina.experiment import draw
+
 PATCH = """int uVertexCount = 3  int vVertexCount = 2  int uOrder = 3  int vOrder = 2
     double[] uKnots = [0, 0, 0, 1, 1, 1]  double[] vKnots = [0, 0, 1, 1]
     point3f[] points = [(0,0,0), (1,1,0), (2,0,0), (0,0,1), (1,1,1), (2,0,1)] """
@@ -143,9 +145,7 @@ def test_both_back_ends_draw_them(read):
     assert not reading.warnings
     for backend in ("embree", "raster"):
         film, renderer = _patina.Film(), _patina.make_renderer(backend)
-        renderer.start(reading.scene, reading.info.camera, {"width": 16, "height": 16, "samples": 4, "seed": 1}, film)
-        while not renderer.wait(1.0):
-            pass
+        draw(renderer, reading.scene, reading.info.camera, {"width": 16, "height": 16, "samples": 4, "seed": 1}, film)
         image = np.array(film.resolve("color"))[..., :3]
         assert (image[3:5, 5] > 0.99).all(), (backend, image[3:5, 5])  # the sky
         for name, (row, column), wanted in (("patch", (4, 1), (1, 0, 0)), ("tets", (5, 9), (0, 1, 0)),

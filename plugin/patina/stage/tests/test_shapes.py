@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from patina.experiment import draw
+
 
 def test_every_implicit_prim(read):
     reading = read("""
@@ -181,9 +183,7 @@ def test_colors_of_faces_show_in_both_back_ends(read):
             interpolation = "vertex") }}""")
     for backend in ("embree", "raster"):
         film, renderer = _patina.Film(), _patina.make_renderer(backend)
-        renderer.start(reading.scene, reading.info.camera, {"width": 64, "height": 64, "samples": 4, "seed": 1}, film)
-        while not renderer.wait(1.0):
-            pass
+        draw(renderer, reading.scene, reading.info.camera, {"width": 64, "height": 64, "samples": 4, "seed": 1}, film)
         image = np.array(film.resolve("color"))[..., :3]
         # The cap ends at 36 degrees from the pole, whose sine is 0.59.
         for (x, y), wanted in (((-1, 1.3), 1), ((-1.3, 1), 1), ((-1, 1.8), 0), ((-0.2, 1), 0), ((1, 1), 1), ((1.8, 0.3), 1),

@@ -9,14 +9,14 @@ import subprocess
 import sys
 import tempfile
 
-import usda
-from usda import lobe
-
 if __name__ == "__main__":
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
     import checkout
 
     checkout.enter()
+
+import usda  # noqa: E402
+from usda import lobe  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SKY = os.path.join(HERE, "scenes", "textures", "sky.exr")

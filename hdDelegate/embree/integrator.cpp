@@ -99,7 +99,7 @@ bool Integrator::advance(Path& path, const AovTarget& target, TraceCounters& cou
     // The camera's first hit counts most, and its vertex is paid for.
     path.lightSamples = path.fromCamera() ? _lightSamples : 1;
 
-    const bool goesOn = caught                ? catchLight(path, point, hit, target, counters)
+    const bool goesOn = caught                ? shadeCatcher(path, point, hit, target, counters)
                         : program.disperses() ? disperse(path, point, hit, width, target, counters)
                                               : scatter(path, point, hit, width, target, counters);
     path.coneWidth = width;
@@ -165,8 +165,8 @@ void Integrator::prepare(Path& path, const SurfacePoint& point, Bsdf& bsdf,
 
 /// Mattes, and catchers of shadows and reflections: what the camera sees of them is put over a
 /// picture that shows them already. The path may go on by reflection.
-bool Integrator::catchLight(Path& path, const SurfacePoint& point, const Hit& hit,
-                            const AovTarget& target, TraceCounters& counters) const {
+bool Integrator::shadeCatcher(Path& path, const SurfacePoint& point, const Hit& hit,
+                              const AovTarget& target, TraceCounters& counters) const {
     Bsdf bsdf;
     setUpLobes(point, bsdf);
     prepare(path, point, bsdf, target);

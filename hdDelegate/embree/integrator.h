@@ -34,8 +34,8 @@ private:
     bool advance(Path& path, const AovTarget& target, TraceCounters& counters) const;
     Step find(Path& path, Hit& hit, TraceCounters& counters) const;
     Step meet(Path& path, SurfacePoint& point, const Hit& hit, bool caught) const;
-    bool catchLight(Path& path, const SurfacePoint& point, const Hit& hit, const AovTarget& target,
-                    TraceCounters& counters) const;
+    bool shadeCatcher(Path& path, const SurfacePoint& point, const Hit& hit,
+                      const AovTarget& target, TraceCounters& counters) const;
     bool scatter(Path& path, const SurfacePoint& point, const Hit& hit, float width,
                  const AovTarget& target, TraceCounters& counters) const;
     bool disperse(Path& path, SurfacePoint& point, const Hit& hit, float width,

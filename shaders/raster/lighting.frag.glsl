@@ -7,7 +7,7 @@
 #include "shaders/raster/shadows.glsl"
 #include "shaders/raster/glow.glsl"
 layout(location = 0) out vec4 outColor;
-// The data that a first look is smoothed by, see firstLook.frag.glsl.
+// The data that a preview is smoothed by, see smoothPreview.frag.glsl.
 layout(location = 1) out vec4 outNoisy;  // light that neighbours find by other samples
 layout(location = 2) out vec4 outGuide;  // how light the material is; w: prim, 0 where nothing is smoothed
 layout(location = 3) out vec4 outPlace;
@@ -22,12 +22,12 @@ const float lightTrust = 8.0;
 // Less than the cells of the sky's maps are wide; as RasterLights has it. 1 - cosine of half the angle.
 const float NARROW_SUN = 0.003;
 
-// Of first looks: noise is better than what all pixels have wrong alike.
-bool isFirstLook() {
+// Of previews: noise is better than what all pixels have wrong alike.
+bool isPreview() {
     return sharedEvery > 1;
 }
 float trustOf(int kind) {
-    return isFirstLook() && (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) ? 1.0 : lightTrust;
+    return isPreview() && (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) ? 1.0 : lightTrust;
 }
 
 // That each pixel takes of a light.
@@ -139,7 +139,7 @@ vec3 along(MaterialSample s) {
             continue; // see skyLight()
 #endif
             float texel = 4.0 * PI / max(domeTexels, 1.0);
-            float sharper = isFirstLook() ? 256.0 : passesTaken;
+            float sharper = isPreview() ? 256.0 : passesTaken;
             float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * sharper * texel, 1e-20));
             lod = clamp(lod, 0.0, float(domeLevel));
             density = samplesOf(l) * domePdf(l, s.wi, lod);
@@ -194,7 +194,7 @@ void main() {
 #endif
     // Neighbours take other samples of what is between firstShared and lightsTaken.
     int turn = (int(gl_FragCoord.x) + 3 * int(gl_FragCoord.y) + passIndex) % sharedEvery;
-    int every = isFirstLook() ? 1 : 0, own = (lightsTaken - firstShared) / sharedEvery;
+    int every = isPreview() ? 1 : 0, own = (lightsTaken - firstShared) / sharedEvery;
 #ifdef MANY_LIGHTS
     own = lightsChosen;
     vec2 inCells = randomAt(uvec2(gl_FragCoord.xy), uint(passIndex), 50u);
@@ -239,7 +239,7 @@ void main() {
 #endif
     color += noisy;
 #ifndef MATERIAL_TRANSMITS
-    if (isFirstLook()) {
+    if (isPreview()) {
         outNoisy = vec4(noisy * exposure, 0.0);
         outGuide = vec4(guide, float(drawInfo.y + 1));
         outPlace = vec4(point.position, 1.0);

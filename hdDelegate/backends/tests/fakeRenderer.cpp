@@ -1,7 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/backends/tests/fakeRenderer.h"
 
+#include "hdDelegate/film/filmSource.h"
+
 namespace patina {
+
+namespace {
+
+/// A film that stands for a device.
+struct FromFilm : FilmSource {
+    explicit FromFilm(const Film& film) : film(film) {}
+    bool has(AovId aov) const override { return aov == AovId::color || aov == AovId::alpha; }
+    bool read(AovId aov, const PixelForm& form, void* bytes) const override {
+        const bool color = aov == AovId::color;
+        const std::vector<float> values = film.resolve(color ? "color" : "alpha");
+        const int own = color ? 3 : 1;
+        auto* to = static_cast<float*>(bytes);
+        for (size_t i = 0; i < values.size() / size_t(own); ++i)
+            for (int k = 0; k < form.components; ++k)
+                *to++ = k < own ? values[i * size_t(own) + size_t(k)] : 1.0f;
+        return true;
+    }
+    const Film& film;
+};
+
+} // namespace
 
 void FakeRenderer::start(std::shared_ptr<Scene>, const std::string&, const RenderSettings& settings,
                          std::shared_ptr<Film> film) {
@@ -43,7 +66,10 @@ void FakeRenderer::run() {
             p.samplesDone = pass;
             p.converged = pass >= _settings.samples;
         }
-        if (_listener) _listener(*_film, p);
+        Film device;
+        const FromFilm source(*_film);
+        if (_plan.onDevice) device.resetTo(&source, _settings.width, _settings.height, aovs);
+        if (_listener) _listener(_plan.onDevice ? device : *_film, p);
         std::unique_lock<std::mutex> lock(_mutex);
         _progress = p;
         _changed.wait(lock, [&] { return !_pause || _stop; });

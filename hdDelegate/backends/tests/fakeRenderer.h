@@ -23,6 +23,7 @@ public:
         int failAfter = -1; ///< passes; -1: never
         bool deviceFails = true;
         int millisecondsPerPass = 0;
+        bool onDevice = false; ///< the listener's film has a source
     };
 
     explicit FakeRenderer(Plan plan) : _plan(std::move(plan)) { _progress.backend = _plan.backend; }

@@ -32,23 +32,32 @@ struct Session {
     std::vector<float> depths;
     std::vector<RenderProgress> reported;
 
-    explicit Session(int quickFails = -1, int quickWait = 0) {
+    std::vector<bool> onDevice;
+    std::atomic<bool> listening{false};
+
+    explicit Session(int quickFails = -1, int quickWait = 0, bool device = false) {
         settings.width = 70;
         settings.height = 50;
         settings.samples = 12;
         settings.aovs = {"depth"};
         auto a = std::make_unique<FakeRenderer>(
-            FakeRenderer::Plan{"raster", direct, quickFails, true, quickWait});
+            FakeRenderer::Plan{"raster", direct, quickFails, true, quickWait, device});
         auto b = std::make_unique<FakeRenderer>(FakeRenderer::Plan{"slow", whole, -1, true, 10});
         quick = a.get();
         slow = b.get();
         renderer = std::make_unique<InteractiveRenderer>(std::move(a), std::move(b));
+        renderer->letImagesStay(device);
         renderer->setListener([this](const Film& f, const RenderProgress& p) {
+            EXPECT_FALSE(listening.exchange(true)) << "by two threads";
+            onDevice.push_back(f.source() != nullptr);
             if (!p.failed) {
-                shown.push_back(pictureOf(f));
-                depths.push_back(f.resolve("depth")[0]);
+                Film copy;
+                copy.copyFrom(f);
+                shown.push_back(pictureOf(copy));
+                depths.push_back(copy.resolve("depth")[0]);
             }
             reported.push_back(p);
+            listening = false;
         });
     }
 
@@ -92,6 +101,30 @@ TEST(Interactive, TheQuickImageComesFirstAndTheSlowOneLastWithoutAJump) {
     EXPECT_EQ(s.depths.front(), 1.0f);
     EXPECT_EQ(s.depths.back(), 2.0f);
     EXPECT_TRUE(std::is_sorted(s.depths.begin(), s.depths.end())) << "AOVs went back";
+}
+
+TEST(Interactive, ImagesOnADeviceAreShownUntilThereAreSamples) {
+    Session s(-1, 3, true);
+    s.render();
+    ASSERT_GT(s.shown.size(), 3u);
+    EXPECT_TRUE(s.onDevice.front());
+    EXPECT_FALSE(s.onDevice.back());
+    EXPECT_TRUE(std::is_sorted(s.onDevice.rbegin(), s.onDevice.rend())) << "they came again";
+    std::mt19937 random;
+    EXPECT_EQ(s.shown[0].pixels[0], glm::vec4(direct(0, 0, random), 1.0f));
+    for (size_t i = 1; i < s.shown.size(); ++i)
+        EXPECT_LE(largestStep(s.shown[i - 1], s.shown[i]),
+                  InteractiveRenderer::largestChange * 1.001f)
+            << i;
+    EXPECT_EQ(s.shown.back().pixels, s.reference().pixels);
+}
+
+TEST(Interactive, APairEndsWhereTheDeviceFailsAfterAnImage) {
+    Session s(1, 3, true);
+    s.render();
+    EXPECT_TRUE(s.onDevice.front());
+    EXPECT_TRUE(s.reported.back().converged);
+    EXPECT_EQ(s.shown.back().pixels, s.reference().pixels);
 }
 
 TEST(Interactive, CamerasThatOnlyRaysShowAreTracedFromTheStart) {

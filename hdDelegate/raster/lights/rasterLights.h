@@ -57,7 +57,7 @@ public:
     uint32_t seed() const { return _seed; }
     /// Every pass has SampledLights::cells then, with empty lists where no light is at a place.
     bool pixelsChoose() const { return _pixelsChoose; }
-    /// Whether every material takes samples of domes: first looks are no part of the other methods.
+    /// Whether every material takes samples of domes: previews are no part of the other methods.
     bool samplesDomes() const {
         return _domeMethods.size() == _domeMethods.count("sampled") || !_hasDome;
     }

@@ -3,7 +3,7 @@
 
 #include "hdDelegate/raster/gl/deviceError.h"
 #include "hdDelegate/raster/gl/glContext.h"
-#include "hdDelegate/raster/passes/rasterLook.h"
+#include "hdDelegate/raster/passes/previewPasses.h"
 
 #include <algorithm>
 
@@ -49,9 +49,9 @@ void RasterImage::add(const GlTexture& color, const GlTexture* difference,
     if (sample.pass == 0) _hasFirst = first;
     _negative = negative;
     // A film counts the mean without the first image for as many passes as there were with it.
-    const float whole = float(RasterLook::smoothed);
+    const float whole = float(PreviewPasses::smoothed);
     const float weight =
-        _hasFirst && _passes >= RasterLook::smoothed ? (whole - 1.0f) / whole : 1.0f;
+        _hasFirst && _passes >= PreviewPasses::smoothed ? (whole - 1.0f) / whole : 1.0f;
     if (!first) _weight += weight;
     ++_passes;
     (first ? _firstTarget : _sumTarget).bind();
@@ -147,10 +147,10 @@ void RasterImage::drawInto(const GlFramebuffer& framebuffer, AovId aov,
     if (id) {
         gl.Uniform1i(3, glm::floatBitsToInt(form.nothing));
     } else {
-        gl.Uniform4f(2, _weight, _hasFirst ? 0.0f : RasterLook::share(_passes),
+        gl.Uniform4f(2, _weight, _hasFirst ? 0.0f : PreviewPasses::share(_passes),
                      !_hasFirst    ? 0.0f
                      : _passes < 2 ? 1.0f
-                                   : RasterLook::shareOfFirst(_passes),
+                                   : PreviewPasses::shareOfFirst(_passes),
                      0.0f);
         const vec4 other = aov == AovId::color ? form.background : vec4(form.nothing);
         gl.Uniform4f(3, other.x, other.y, other.z, other.w);

@@ -28,7 +28,7 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     _height = height;
     _border = border;
     return _seen.resize(width, height, _depth) && _colorTarget.complete() &&
-           _look.resize(_color, _depth);
+           _preview.resize(_color, _depth);
 }
 
 const FilmSource& RasterPasses::beginImage(const GlContext& context,
@@ -84,7 +84,7 @@ bool RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisibl
     _refraction->keep(_color, _depth);
     _refraction->beginBacks();
     backs.draw(_surfaces.vertexArray(), 0, backs.size(), true);
-    _look.target().bind();
+    _preview.target().bind();
     _refraction->bind();
     _surfaces.draw(scene, visible, RasterSurfaces::Transmitting, &filters);
     return true;
@@ -104,22 +104,22 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                         const RasterSample& sample, Film& film) {
     film.allowNegative(lights.takeAway());
     // A volume is lit by all of a pass's lights, each of which takes long.
-    const bool look = sample.pass < uint32_t(RasterLook::passes) && scene.volumes().empty() &&
-                      lights.samplesDomes();
-    const LookSampler sampler(lights, scene.emitters(), _seen.bounds(), shadowMapSize,
-                              std::max(_width, _height), sample.pass);
+    const bool preview = sample.pass < uint32_t(PreviewPasses::passes) && scene.volumes().empty() &&
+                         lights.samplesDomes();
+    const PreviewSampler sampler(lights, scene.emitters(), _seen.bounds(), shadowMapSize,
+                                 std::max(_width, _height), sample.pass);
     const int cells = RasterCasters::skyCells(scene), most = RasterCasters::mostMaps(scene);
-    SampledLights sampled = look ? sampler.sampleLook(cells, most) : sampler.sample(most);
+    SampledLights sampled = preview ? sampler.samplePreview(cells, most) : sampler.sample(most);
     bool first = false;
-    if (sample.pass == 0 && look && !sampled.many)
+    if (sample.pass == 0 && preview && !sampled.many)
         if (SampledLights some = sampler.sampleFirst(cells); some.taken > 0) {
             sampled = std::move(some);
             first = true;
         }
-    drawImage(scene, lights, domes, camera, sample, sampled, look);
+    drawImage(scene, lights, domes, camera, sample, sampled, preview);
     GlTimer& timer = _surfaces.timer;
     if (film.source() && _image) {
-        _image->add(_color, look ? &_look.differenceImage() : nullptr, sample, first,
+        _image->add(_color, preview ? &_preview.differenceImage() : nullptr, sample, first,
                     film.allowsNegative());
         return timer.collect();
     }
@@ -127,12 +127,13 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     std::vector<vec4> pixels;
     _surfaces.download.read(_color, pixels);
     timer.collect();
-    _look.add(pixels, sample, look, first, _window, _surfaces.download, film);
+    _preview.add(pixels, sample, preview, first, _window, _surfaces.download, film);
 }
 
 void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& lights,
                              const RasterDomes& domes, const RasterCamera& camera,
-                             const RasterSample& sample, const SampledLights& sampled, bool look) {
+                             const RasterSample& sample, const SampledLights& sampled,
+                             bool preview) {
     const uint32_t pass = sample.pass;
     static_assert(LightSampler::maxTaken * sizeof(GpuLight) <= 63232, "see isEnough()");
     std::vector<GpuLight> taken(sampled.lights.begin(), sampled.lights.begin() + sampled.taken);
@@ -143,7 +144,7 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
                                         scene.seenMax(), _border);
     RasterPassBlock b(scene, view);
     b.lightsTaken = sampled.taken;
-    b.bsdfSamples = look && lights.needsSky() ? RasterLook::bsdfSamples : bsdfSamples;
+    b.bsdfSamples = preview && lights.needsSky() ? PreviewPasses::bsdfSamples : bsdfSamples;
     b.passIndex = int(pass);
     b.passSeed = int(lights.seed());
     b.domeTexels = 1.0f;
@@ -191,14 +192,14 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     const float none[4] = {0, 0, 0, 0}, far = 1.0f;
     gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_COLOR, 0, none);
     gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_DEPTH, 0, &far);
-    if (look) _look.clear();
+    if (preview) _preview.clear();
     _background.draw(sampled, view, _color.width(), _color.height());
     gl.DepthFunc(GL_LESS);
     const RasterVisible visible = scene.visible(view.worldToClip);
     {
         const RasterClipping clipping(b);
         _surfaces.drawDepths(scene, visible);
-        _look.target().bind();
+        _preview.target().bind();
         _surfaces.draw(scene, visible, RasterSurfaces::Solid, &lights.filters());
     }
     if (!scene.splats().empty())
@@ -210,9 +211,9 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
         transmits = drawTransmitting(scene, visible, lights.filters());
     }
     if (transmits) drawSplats(scene, true);
-    if (look) _look.smooth();
-    if (look && !scene.splats().empty()) {
-        _look.difference().bind();
+    if (preview) _preview.smooth();
+    if (preview && !scene.splats().empty()) {
+        _preview.difference().bind();
         _splatting.draw(RasterSplatting::Over::AnyFactorsAlone);
     }
     {
@@ -222,9 +223,9 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
         gl.BlendFunc(GL_ONE, GL_SRC1_COLOR);
         _colorTarget.bind();
         _surfaces.draw(scene, visible, RasterSurfaces::ColoredPresence, &lights.filters());
-        if (look) {
+        if (preview) {
             gl.BlendFunc(GL_ZERO, GL_SRC1_COLOR);
-            _look.difference().bind();
+            _preview.difference().bind();
             _surfaces.draw(scene, visible, RasterSurfaces::ColoredPresence, &lights.filters());
         }
         _colorTarget.bind();

@@ -4,7 +4,7 @@
 #include "hdDelegate/raster/lights/rasterDomes.h"
 #include "hdDelegate/raster/passes/rasterBackground.h"
 #include "hdDelegate/raster/passes/rasterImage.h"
-#include "hdDelegate/raster/passes/rasterLook.h"
+#include "hdDelegate/raster/passes/previewPasses.h"
 #include "hdDelegate/raster/passes/rasterRefraction.h"
 #include "hdDelegate/raster/passes/rasterSeen.h"
 #include "hdDelegate/raster/shadows/rasterCasters.h"
@@ -49,7 +49,7 @@ public:
                   uint32_t taken, const std::function<void(uint32_t)>& moveTo);
     /// Passes that have to be drawn again to continue a film of `taken`.
     static uint32_t passesToRepeat(uint32_t taken) {
-        return taken < RasterLook::smoothed ? taken : 0;
+        return taken < PreviewPasses::smoothed ? taken : 0;
     }
 
     GlTimer& timer() { return _surfaces.timer; } ///< of all that was drawn
@@ -66,12 +66,12 @@ private:
     void needRefraction();
     void drawImage(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
                    const RasterCamera& camera, const RasterSample& sample,
-                   const SampledLights& sampled, bool look);
+                   const SampledLights& sampled, bool preview);
 
     RasterSurfaces _surfaces;
     RasterBackground _background;
     RasterCasters _casters{_surfaces.vertexArray()};
-    RasterLook _look;
+    PreviewPasses _preview;
     RasterSplatting _splatting;
     RasterSeen _seen{_surfaces, _splatting};
     RasterManyLights _manyLights;

@@ -18,7 +18,7 @@ struct SampledLights {
     int found = 0, firstSampled = 0, firstShared = 0, sharedEvery = 1;
     /// Where pixels choose among the lights from firstShared on: of those, by their numbers.
     std::vector<LightEstimate> estimates;
-    bool many = false; ///< of a first look: all lights have as many samples as help
+    bool many = false; ///< of a preview: all lights have as many samples as help
 };
 
 /// What one pass takes of the lights: one sample of each (more of domes). All pixels share the

@@ -16,7 +16,7 @@ public:
 
     /// Cells of the sky that a pass draws: all of a small scene. A large one gets them by and by,
     /// and one whose casters let light pass, too, since their materials are evaluated for every
-    /// texel. As many maps may be drawn for a first look.
+    /// texel. As many maps may be drawn for a preview.
     static int skyCells(const RasterScene& scene);
     /// Shadow maps of a pass, where pixels choose among all lights that have some: fewer where
     /// there is much to draw into each; a call takes as long as some hundred triangles. Volumes are

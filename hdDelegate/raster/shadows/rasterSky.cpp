@@ -46,7 +46,7 @@ std::vector<RasterSky::Task> RasterSky::begin(uint32_t pass, uint32_t seed,
     const bool missing =
         std::any_of(_drawn.begin(), _drawn.end(), [](const SkyRows& c) { return c.layer < 0; });
     std::vector<Task> out;
-    // The first image lives by them: see LookSampler::sampleFirst().
+    // The first image lives by them: see PreviewSampler::sampleFirst().
     const int wanted = pass == 0 ? 2 * maximum : missing ? maximum : std::min(maximum, 2);
     const int count = std::clamp(wanted, 1, cells);
     for (int n = 0; n < count; ++n) {

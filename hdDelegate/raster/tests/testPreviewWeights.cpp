@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/samples/lookWeights.h"
+#include "hdDelegate/raster/samples/previewWeights.h"
 
 #include <gtest/gtest.h>
 
@@ -37,13 +37,13 @@ vec3 irradiance(const std::vector<DomeSample>& samples, const std::vector<vec3>&
 
 } // namespace
 
-TEST(LookWeights, FewLightPlanesAsManyDo) {
+TEST(PreviewWeights, FewLightPlanesAsManyDo) {
     const std::vector<vec3> sides = {{0, 1, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}, {-1, 0, 0}};
     double before = 0.0, after = 0.0;
     for (unsigned seed = 0; seed < 20; ++seed) {
         const std::vector<DomeSample> all = drawn(512, seed);
         const std::vector<DomeSample> few(all.begin(), all.begin() + 32);
-        const std::vector<vec3> plain(few.size(), vec3(1.0f)), factors = lookWeights(few, all);
+        const std::vector<vec3> plain(few.size(), vec3(1.0f)), factors = previewWeights(few, all);
         ASSERT_EQ(factors.size(), few.size());
         for (const vec3& up : sides) {
             const vec3 truth = irradiance(all, std::vector<vec3>(all.size(), vec3(1.0f)), up);
@@ -57,16 +57,16 @@ TEST(LookWeights, FewLightPlanesAsManyDo) {
     EXPECT_LT(after, before / 4.0);
 }
 
-TEST(LookWeights, AllStayAsTheyAreWhereNothingIsMissingOrKnown) {
+TEST(PreviewWeights, AllStayAsTheyAreWhereNothingIsMissingOrKnown) {
     const std::vector<DomeSample> all = drawn(32, 1);
-    for (const vec3& factor : lookWeights(all, all))
+    for (const vec3& factor : previewWeights(all, all))
         EXPECT_EQ(factor, vec3(1.0f));
     std::vector<DomeSample> black(64);
     for (DomeSample& s : black)
         s.direction = vec3(0, 1, 0);
-    for (const vec3& factor : lookWeights({black.begin(), black.begin() + 32}, black))
+    for (const vec3& factor : previewWeights({black.begin(), black.begin() + 32}, black))
         EXPECT_EQ(factor, vec3(1.0f));
     std::vector<DomeSample> one(64, {vec3(0, 1, 0), vec3(1.0f)});
-    for (const vec3& factor : lookWeights({one.begin(), one.begin() + 32}, one))
+    for (const vec3& factor : previewWeights({one.begin(), one.begin() + 32}, one))
         EXPECT_NEAR(factor.x, 1.0f, 1e-6f);
 }

@@ -16,7 +16,7 @@ struct DomeSample {
 /// mean has the spherical harmonics up to degree 2 of the mean of all, which are nearly all that
 /// diffuse surfaces tell apart (Ramamoorthi and Hanrahan 2001). Not below 0.2 nor above 5.
 /// @returns one for each of `few`; 1 where there are too few to choose from
-std::vector<glm::vec3> lookWeights(const std::vector<DomeSample>& few,
-                                   const std::vector<DomeSample>& all);
+std::vector<glm::vec3> previewWeights(const std::vector<DomeSample>& few,
+                                      const std::vector<DomeSample>& all);
 
 } // namespace patina

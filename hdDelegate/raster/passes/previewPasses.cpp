@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/passes/rasterLook.h"
+#include "hdDelegate/raster/passes/previewPasses.h"
 
 #include "hdDelegate/parallel.h"
-#include "hdDelegate/raster/samples/lookWeights.h"
+#include "hdDelegate/raster/samples/previewWeights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ constexpr float sharpSun = 3.4e-4f;
 
 } // namespace
 
-struct LookSampler::Parts {
+struct PreviewSampler::Parts {
     SampledLights out;
     std::vector<GpuLight> looked, shared, pool;
 
@@ -45,7 +45,7 @@ struct LookSampler::Parts {
 
 /// As many as there is a use for; 1 where all are alike.
 /// @param pooled at most, of a dome
-int LookSampler::samplesOf(const Source& s, int pooled) const {
+int PreviewSampler::samplesOf(const Source& s, int pooled) const {
     if (s.kind == Source::Dome) return _lights.domeSamples() > 0 ? pooled : 1;
     const bool one = s.kind == Source::Distant
                          ? !(s.fixed.versine > sharpSun)
@@ -53,7 +53,7 @@ int LookSampler::samplesOf(const Source& s, int pooled) const {
     return one || pooled / 2 < every ? 1 : pooled / 2;
 }
 
-void LookSampler::add(size_t number, int samples, int mapped, int maximum, Parts& parts) const {
+void PreviewSampler::add(size_t number, int samples, int mapped, int maximum, Parts& parts) const {
     const Source& s = _sources[number];
     std::vector<GpuLight>&looked = parts.looked, &shared = parts.shared, &pool = parts.pool;
     ShadowPlan& shadows = parts.out.shadows;
@@ -80,7 +80,7 @@ void LookSampler::add(size_t number, int samples, int mapped, int maximum, Parts
             // The light that samples of diffuse BSDFs leave to them: see fromLight() in
             // lighting.frag.glsl.
             const float own = float(samples / every) * g.density;
-            const float diffuse = float(RasterLook::bsdfSamples) * 0.2f;
+            const float diffuse = float(PreviewPasses::bsdfSamples) * 0.2f;
             const float share = own * own / std::max(own * own + diffuse * diffuse, 1e-20f);
             to.push_back({g.sampled, g.radiance * (share / g.density)});
         }
@@ -90,7 +90,7 @@ void LookSampler::add(size_t number, int samples, int mapped, int maximum, Parts
     if (all.size() > size_t(samples)) all.resize(size_t(samples));
     all.resize(all.size() / every * every);
     if (dome) {
-        const std::vector<vec3> factors = lookWeights(toSamples(), many);
+        const std::vector<vec3> factors = previewWeights(toSamples(), many);
         for (size_t k = 0; k < all.size(); ++k)
             all[k].second.radiance *= factors[k];
     }
@@ -143,7 +143,7 @@ void LookSampler::add(size_t number, int samples, int mapped, int maximum, Parts
     if (s.kind != Source::Line) looked.push_back(g);
 }
 
-SampledLights LookSampler::sampleLook(int maximum, int most) const {
+SampledLights PreviewSampler::samplePreview(int maximum, int most) const {
     const auto asInAllPasses = [&](int maps) {
         SampledLights out = sample(maps);
         out.sharedEvery = every;
@@ -185,7 +185,7 @@ SampledLights LookSampler::sampleLook(int maximum, int most) const {
     return parts.join();
 }
 
-SampledLights LookSampler::sampleFirst(int maximum) const {
+SampledLights PreviewSampler::sampleFirst(int maximum) const {
     maximum = std::min(maximum, int(ShadowPlan::maxSmallMaps));
     int lights = 0, single = 0, pooled = 0; // maps for one sample of each light
     for (const Source& s : _sources) {
@@ -214,7 +214,7 @@ SampledLights LookSampler::sampleFirst(int maximum) const {
     return parts.join();
 }
 
-bool RasterLook::resize(const GlTexture& color, const GlTexture& depth) {
+bool PreviewPasses::resize(const GlTexture& color, const GlTexture& depth) {
     const auto make = [&](GLenum format) {
         return GlTexture(GL_TEXTURE_2D, format, color.width(), color.height());
     };
@@ -230,14 +230,14 @@ bool RasterLook::resize(const GlTexture& color, const GlTexture& depth) {
     return _target.complete() && _differenceTarget.complete();
 }
 
-void RasterLook::clear() const {
+void PreviewPasses::clear() const {
     const float none[4] = {0, 0, 0, 0};
     for (GLint i = 1; i <= 4; ++i)
         gl.ClearNamedFramebufferfv(_target.id(), GL_COLOR, i, none);
     gl.ClearNamedFramebufferfv(_differenceTarget.id(), GL_COLOR, 0, none);
 }
 
-void RasterLook::smooth() const {
+void PreviewPasses::smooth() const {
     gl.Disable(GL_DEPTH_TEST);
     _noisy.bind(21);
     _guide.bind(22);
@@ -249,12 +249,12 @@ void RasterLook::smooth() const {
     gl.Enable(GL_DEPTH_TEST);
 }
 
-void RasterLook::add(std::vector<vec4>& pixels, const RasterSample& sample, bool look, bool first,
-                     const int* window, GlDownload& download, Film& film) {
+void PreviewPasses::add(std::vector<vec4>& pixels, const RasterSample& sample, bool preview,
+                        bool first, const int* window, GlDownload& download, Film& film) {
     if (sample.pass == 0 || sample.pass >= smoothed) _first.clear();
     if (!_first.empty()) return mixFirst(pixels, sample, window, film);
     std::vector<vec4> difference;
-    if (look) download.read(_difference, difference);
+    if (preview) download.read(_difference, difference);
     if (!first) {
         addSplats(pixels, sample, window, film);
         return addSmoothing(difference, sample, window, film);
@@ -271,8 +271,8 @@ void RasterLook::add(std::vector<vec4>& pixels, const RasterSample& sample, bool
 }
 
 /// Mixes the first image with the mean of the passes after it, by less from pass to pass.
-void RasterLook::mixFirst(std::vector<vec4>& pixels, const RasterSample& sample, const int* window,
-                          Film& film) {
+void PreviewPasses::mixFirst(std::vector<vec4>& pixels, const RasterSample& sample,
+                             const int* window, Film& film) {
     const uint32_t passes = sample.pass + 1;
     const float share = shareOfFirst(passes);
     const int width = film.width();
@@ -288,8 +288,8 @@ void RasterLook::mixFirst(std::vector<vec4>& pixels, const RasterSample& sample,
 
 /// Brings the film's share of what smoothing does to that of one pass more.
 /// @param difference that smoothing makes to the pass, if any; overwritten
-void RasterLook::addSmoothing(std::vector<vec4>& difference, const RasterSample& sample,
-                              const int* window, Film& film) {
+void PreviewPasses::addSmoothing(std::vector<vec4>& difference, const RasterSample& sample,
+                                 const int* window, Film& film) {
     const int width = film.width(), height = film.height();
     if (sample.pass == 0) _smoothing.assign(size_t(width) * size_t(height), vec4(0.0f));
     if (sample.pass >= smoothed || _smoothing.empty()) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/raster/samples/lookWeights.h"
+#include "hdDelegate/raster/samples/previewWeights.h"
 
 #include <algorithm>
 #include <array>
@@ -48,8 +48,8 @@ Vector solve(std::array<Vector, count> a, Vector b) {
 
 } // namespace
 
-std::vector<glm::vec3> lookWeights(const std::vector<DomeSample>& few,
-                                   const std::vector<DomeSample>& all) {
+std::vector<glm::vec3> previewWeights(const std::vector<DomeSample>& few,
+                                      const std::vector<DomeSample>& all) {
     std::vector<glm::vec3> out(few.size(), glm::vec3(1.0f));
     if (few.size() < 2 * count || all.size() <= few.size()) return out;
     for (int c = 0; c < 3; ++c) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A first look: pixels find light by different samples, so each takes the mean of what its neighbours on the
+// A preview: pixels find light by different samples, so each takes the mean of what its neighbours on the
 // same surface find, beside how light they are themselves. Gives the difference that this makes.
 #include "shaders/compat/glsl.glsl"
 #include "shaders/raster/passBlock.glsl"

@@ -14,8 +14,8 @@
 
 namespace patina {
 
-/// What a pass of a first look takes of the lights.
-class LookSampler : public LightSampler {
+/// What a pass of a preview takes of the lights.
+class PreviewSampler : public LightSampler {
 public:
     using LightSampler::LightSampler;
 
@@ -24,7 +24,7 @@ public:
     /// @param maximum shadow maps that may be drawn; where they do not suffice, lights are as in
     /// sample()
     /// @param most as in sample()
-    SampledLights sampleLook(int maximum, int most) const;
+    SampledLights samplePreview(int maximum, int most) const;
     /// For the first image where maps are too dear for that: light by as many samples, shadows of
     /// domes by the cells of the sky, and of other lights by the maps of few of their samples. It
     /// is not right in the mean where there are shadows, so nothing of it may stay.
@@ -39,11 +39,11 @@ private:
 };
 
 /// First looks: the first passes, in which neighbouring pixels use different samples of the lights,
-/// and the result is smoothed over the surface (shaders/raster/firstLook.frag.glsl). Ordinary
+/// and the result is smoothed over the surface (shaders/raster/smoothPreview.frag.glsl). Ordinary
 /// passes, which converge, follow. The film holds the plain means, plus a share of the change that
 /// smoothing makes. That share falls to 0, since smoothing is wrong where light or surface change
 /// from pixel to pixel.
-class RasterLook {
+class PreviewPasses {
 public:
     static constexpr int passes = 8;
     static constexpr uint32_t smoothed = 16; ///< passes after which nothing is
@@ -62,10 +62,10 @@ public:
 
     /// Adds a pass to a film.
     /// @param pixels of the pass; overwritten
-    /// @param look whether the pass is one of those that are smoothed
+    /// @param preview whether the pass is one of those that are smoothed
     /// @param first it is a sampleFirst(), which shows until the mean of later passes is better
     /// @param window pixels of the film: xmin, ymin, xmax, ymax, inclusive
-    void add(std::vector<vec4>& pixels, const RasterSample& sample, bool look, bool first,
+    void add(std::vector<vec4>& pixels, const RasterSample& sample, bool preview, bool first,
              const int* window, GlDownload& download, Film& film);
 
     /// The share of what smoothing does that a film of so many passes has.
@@ -86,7 +86,7 @@ private:
     void addSmoothing(std::vector<vec4>& difference, const RasterSample& sample, const int* window,
                       Film& film);
 
-    std::unique_ptr<GlProgram> _program = GlProgram::own("background", "firstLook");
+    std::unique_ptr<GlProgram> _program = GlProgram::own("background", "smoothPreview");
     GlTexture _noisy, _guide, _place, _normal, _difference;
     GlFramebuffer _target, _differenceTarget;
     // By pixel of the film:

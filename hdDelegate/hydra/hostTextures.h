@@ -44,7 +44,7 @@ private:
     mutable std::mutex _mutex;
     Hgi* _hgi = nullptr;
     bool _refused = false; ///< the context cannot be shared
-    std::string _why;
+    std::string _why = "the host names no Hgi";
     std::shared_ptr<HostDevice> _device;
     std::map<const void*, HgiTextureHandle> _textures;
 };

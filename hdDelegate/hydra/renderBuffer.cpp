@@ -56,7 +56,7 @@ HdPatinaRenderBuffer* HdPatinaRenderBuffer::known(const HdRenderBuffer* buffer) 
 }
 
 void HdPatinaRenderBuffer::leaveDevice(const HdPatinaHostTextures& textures) {
-    std::vector<HdPatinaPixels> images; // go when nothing is locked
+    std::vector<std::shared_ptr<DeviceImage>> images; // go when nothing is locked
     const std::lock_guard<std::mutex> all(registry().mutex);
     for (const auto& [key, buffer] : registry().buffers) {
         if (buffer->_textures.get() != &textures) continue;
@@ -124,7 +124,7 @@ void* HdPatinaRenderBuffer::Map() {
     if (_bytesAreOld) {
         ++_mappedInRow;
         bool read = false;
-        runIsolated([&] { read = _image.device->read(_bytes.data()); });
+        runIsolated([&] { read = _image->read(_bytes.data()); });
         if (!read)
             TF_RUNTIME_ERROR("render buffer %s: the device gives no pixels", GetId().GetText());
     }
@@ -149,8 +149,8 @@ bool HdPatinaRenderBuffer::take(HdPatinaPixels& image) {
     if (_mappers > 0) return false;
     if (image.device) {
         if (_bytesAreOld) _mappedInRow = 0;
-        std::swap(_image.device, image.device);
-        _image.isDepth = image.isDepth;
+        std::swap(_image, image.device);
+        _isDepth = image.isDepth;
         _bytesAreOld = true;
         return true;
     }
@@ -160,7 +160,7 @@ bool HdPatinaRenderBuffer::take(HdPatinaPixels& image) {
 }
 
 void HdPatinaRenderBuffer::forgetImage() {
-    _image = {};
+    _image.reset();
     _bytesAreOld = false;
     _resource = HgiTextureHandle();
     _textures->forget(this);
@@ -168,10 +168,9 @@ void HdPatinaRenderBuffer::forgetImage() {
 
 void HdPatinaRenderBuffer::Resolve() {
     const std::lock_guard<std::mutex> lock(_mutex);
-    if (!_image.device) return;
-    _resource = _textures->of(this, _width, _height, _format, _image.isDepth);
-    if (_resource && !_image.device->copyTo(_resource->GetRawResource()))
-        _resource = HgiTextureHandle();
+    if (!_image) return;
+    _resource = _textures->of(this, _width, _height, _format, _isDepth);
+    if (_resource && !_image->copyTo(_resource->GetRawResource())) _resource = HgiTextureHandle();
 }
 
 bool HdPatinaRenderBuffer::staysOnDevice() const {

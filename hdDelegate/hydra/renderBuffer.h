@@ -73,8 +73,9 @@ private:
     HdFormat _format = HdFormatInvalid;
     std::shared_ptr<HdPatinaHostTextures> _textures;
     std::vector<uint8_t> _bytes;
-    HdPatinaPixels _image;             ///< on the device; its bytes are never used
+    std::shared_ptr<DeviceImage> _image; ///< on the host's device, or null
     int _mappedInRow = 0;              ///< images on the device that were mapped, one after another
+    bool _isDepth = false;             ///< the image, in a texture of depths
     bool _bytesAreOld = false;         ///< of an image before that on the device
     HgiTextureHandle _resource;        ///< of the last Resolve()
     std::vector<uint8_t> _mappedBytes; ///< of before, and perhaps read by a host still

@@ -47,8 +47,8 @@ def test_shows_what_is_in_memory(tmp_path, backend, aov, context):
     engine(stage, memory, *same, "--image", "mapped", context=context)
     by_memory = engine(stage, before, *same, context=context, PATINA_GL_FAULT="sharing:1")
     assert by_memory["statistics"]["patina:imagesOnDevice"] == 0
-    # A pair shows no such image where the path tracer is the quicker one.
-    assert report["statistics"]["patina:imagesOnDevice"] >= (backend == "raster")
+    if backend == "raster":  # a pair shows no such image where the path tracer is the quicker one: see testBackends
+        assert report["statistics"]["patina:imagesOnDevice"] == report["statistics"]["patina:imagesShown"] >= 1
     assert len(np.unique(pixels(texture))) > 100
     # The last image of a pair is the path tracer's, whose samples do not depend on what is shown before.
     assert np.array_equal(pixels(texture), pixels(memory)) and np.array_equal(pixels(texture), pixels(before))

@@ -14,6 +14,13 @@ void mark(GLsync& fence) {
     gl.Flush(); // what another context waits for has to be under way
 }
 
+/// Those of the host, of which OpenGL keeps one of each kind. A lost context has one for ever.
+void forgetErrors() {
+    constexpr int kinds = 8;
+    for (int i = 0; i < kinds && gl.GetError() != GL_NO_ERROR;)
+        ++i;
+}
+
 void wait(GLsync fence) {
     if (fence) gl.WaitSync(fence, 0, GL_TIMEOUT_IGNORED);
 }
@@ -58,9 +65,7 @@ void HostImage::setDrawn() {
 bool HostImage::copyTo(uint64_t texture) {
     const std::lock_guard<std::mutex> lock(_mutex);
     const bool known = texture == _copiedTo; // that it fits was seen
-    if (!known)
-        while (gl.GetError() != GL_NO_ERROR) {
-        } // of the host
+    if (!known) forgetErrors();
     wait(_drawn);
     gl.CopyImageSubData(_texture.id(), GL_TEXTURE_2D, 0, 0, 0, 0, GLuint(texture), GL_TEXTURE_2D, 0,
                         0, 0, 0, _texture.width(), _texture.height(), 1);
@@ -75,6 +80,7 @@ bool HostImage::read(void* bytes) {
     bool fine = false;
     const bool used = _host->use([&] {
         const PixelTransfer pixels(_format, _components);
+        forgetErrors();
         GLint alignment = 4, buffer = 0;
         gl.GetIntegerv(GL_PACK_ALIGNMENT, &alignment);
         gl.GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &buffer);

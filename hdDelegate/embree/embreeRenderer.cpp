@@ -21,6 +21,7 @@ void EmbreeRenderer::publish(const TileSchedule& schedule) {
     report([&](RenderProgress& progress) {
         reportSamples(progress, outlook.taken, outlook.needed, schedule.samplesDone());
         progress.noise = outlook.error;
+        if (outlook.denoised >= 0.0) progress.statistics["denoisedError"] = outlook.denoised;
         progress.statistics["rays"] = double(_rays + _shadowRays);
         progress.statistics["shadowRays"] = double(_shadowRays);
         progress.statistics["paths"] = double(_paths);
@@ -272,7 +273,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     Integrator integrator(*_embree, *_lights, rays, sampled, aovs);
     const std::unique_ptr<CausticCasters> glass = casters(sampled, camera, aovs);
     _photonPass.reset();
-    TileSchedule schedule(*_film, sampled);
+    TileSchedule schedule(*_film, sampled, glass != nullptr);
     beginSampling(schedule.outlook().taken);
     report(
         [&](RenderProgress& progress) { progress.noiseWanted = std::max(sampled.tolerance, 0.0); });
@@ -302,7 +303,9 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         if (!waitWhilePaused()) return;
         if (haveImage && outOfTime()) break;
     }
-    if (!stopped()) publish(schedule);
+    if (stopped()) return;
+    schedule.lookDenoised();
+    publish(schedule);
 }
 
 } // namespace patina

@@ -35,7 +35,7 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
 }
 
 void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const {
-    Sampler sampler(uint32_t(x), uint32_t(y), _settings.seed, index);
+    Sampler sampler = _writer.sampler(x, y, _settings.seed, index);
     const vec4 uFilm = sampler.next4();
     const float uTime = sampler.next2().x;
     const vec2 offset = _filter.sample(vec2(uFilm));

@@ -15,6 +15,9 @@ public:
 
     const std::vector<AovSpec>& aovs() const { return _aovs; }
     const LightPathAovs& lightPaths() const { return _lightPaths; }
+    /// Random numbers of a sample. Where the film has half of the samples apart, both halves have
+    /// numbers of their own.
+    Sampler sampler(int x, int y, uint32_t seed, uint32_t index) const;
 
     /// AOVs and guides get what they show of a vertex.
     void show(Path& path, const SurfacePoint& point, const Bsdf& bsdf,
@@ -27,13 +30,20 @@ public:
     void writeGrey(float seen, float depth, const AovTarget& target) const;
 
 private:
-    /// Of every sample, so that means fade at outlines as the colour does.
-    void addGuides(const vec3& albedo, const vec3& normal, const AovTarget& target) const;
+    /// Guides are of every sample, so that means fade at outlines as the colour does.
+    void add(const vec3& color, float alpha, const vec3& albedo, const vec3& normal,
+             const AovTarget& target) const;
+
+    /// What the denoiser asks for: places in the film, or -1.
+    struct Denoising {
+        int color = -1, albedo = -1, normal = -1;
+        void add(Film& film, int x, int y, const vec3& c, const vec3& a, const vec3& n) const;
+    };
 
     const std::vector<AovSpec> _aovs;
     const CameraRays& _camera;
     const LightPathAovs _lightPaths;
-    int _albedo = -1, _normal = -1; ///< places of the denoiser's guides in the film, or -1
+    Denoising _all, _half;
 };
 
 } // namespace patina

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/tileSchedule.h"
 
+#include "hdDelegate/film/denoiser.h"
+
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <utility>
 
 namespace patina {
 
-TileSchedule::TileSchedule(const Film& film, const RenderSettings& settings)
+TileSchedule::TileSchedule(const Film& film, const RenderSettings& settings, bool photons)
     : _film(film), _begin(std::max(0, settings.sampleBegin)),
       _samples(std::max(1, settings.samples)), _minSamples(std::max(2, settings.minSamples)),
       _tolerance(_begin > 0 ? 0.0 : settings.tolerance),
       _isWhole(settings.tileParts == 1 && settings.tilePart == 0),
-      _tiles(tilesOf(film.width(), film.height(), settings.dataWindow)) {
+      _tiles(tilesOf(film.width(), film.height(), settings.dataWindow)), _threads(settings.threads),
+      _hasHalves(_tolerance > 0.0 && _isWhole && !photons && hasHalves(film) &&
+                 denoiserMissing().empty()) {
     if (settings.sampleEnd > 0) _samples = std::min(_samples, settings.sampleEnd);
     if (settings.tileParts != 1 || settings.tilePart != 0)
         _tiles = tilesOfPart(_tiles, settings.tilePart, settings.tileParts);
@@ -56,7 +61,16 @@ bool TileSchedule::isDone() const {
         }
         sums += errorOf(tile, done);
     }
-    return relativeError(sums) <= _tolerance;
+    if (relativeError(sums) <= _tolerance) return true;
+    // Filters take their time: they run where tiles are looked at, and at no end of a span beside.
+    return _hasHalves && isErrorStep(samples) && lookDenoised() <= _tolerance;
+}
+
+double TileSchedule::lookDenoised() const {
+    const double taken = samplesTaken();
+    if (_hasHalves && taken != std::exchange(_denoisedAt, taken))
+        _denoised = denoisedError(_film, _threads);
+    return _denoised;
 }
 
 int TileSchedule::target(int tile) const {
@@ -94,6 +108,17 @@ int TileSchedule::samplesDone() const {
     return std::max(0, fewest - _begin);
 }
 
+double TileSchedule::samplesTaken() const {
+    double samples = 0.0, pixels = 0.0;
+    for (size_t i = 0; i < _tiles.size(); ++i) {
+        const Tile& t = _tiles[i];
+        const double area = double(t.x1 - t.x0) * double(t.y1 - t.y0);
+        samples += area * std::max(0, count(int(i)) - _begin);
+        pixels += area;
+    }
+    return pixels > 0.0 ? samples / pixels : 0.0;
+}
+
 TileSchedule::Outlook TileSchedule::outlook() const {
     Outlook found;
     struct Part {
@@ -112,11 +137,10 @@ TileSchedule::Outlook TileSchedule::outlook() const {
         parts.push_back({area, double(done), isLookedAt ? relativeError(errorOf(tile, done)) : -1.0,
                          target(tile) > 0});
         pixels += area;
-        found.taken += area * std::max(0, done - _begin);
         most = std::max(most, double(done));
     }
     if (!(pixels > 0.0)) return found;
-    found.taken /= pixels;
+    found.taken = samplesTaken();
     const bool isKnown = sums.pixels > 0.5 * pixels;
     if (isKnown) found.error = relativeError(sums);
 
@@ -153,6 +177,11 @@ TileSchedule::Outlook TileSchedule::outlook() const {
     }
     for (const Part& part : parts)
         found.needed += part.pixels * (samplesAt(part, end) - part.samples) / pixels;
+    if (_denoised > 0.0) {
+        found.denoised = _denoised;
+        const double enough = _denoisedAt * std::pow(_denoised / _tolerance, 2.0);
+        found.needed = std::clamp(enough - found.taken, 0.0, found.needed);
+    }
     return found;
 }
 

@@ -19,9 +19,13 @@ namespace patina {
 /// frame does not know the other tiles, nor one that begins later the samples before it. It goes on
 /// until each of its tiles is within the tolerance, and the whole decides when parts are merged
 /// (film/partial.h).
+///
+/// Where the film has halves for the denoiser, the whole is also done when its colour would be
+/// within the tolerance after denoising (film/denoiser.h).
 class TileSchedule {
 public:
-    TileSchedule(const Film& film, const RenderSettings& settings);
+    /// @param photons both halves of the samples share these: they do not tell of each other then
+    TileSchedule(const Film& film, const RenderSettings& settings, bool photons = false);
 
     const std::vector<Tile>& tiles() const { return _tiles; }
     /// The sample count that a tile should reach next; 0 when it has enough. One thread may ask for
@@ -40,8 +44,12 @@ public:
         double taken = 0.0;  ///< samples, mean over the pixels
         double needed = 0.0; ///< likewise, of those that are left
         double error = -1.0; ///< relative error by noise so far; below 0: not looked at
+        double denoised = -1.0; ///< likewise of the denoised colour
     };
     Outlook outlook() const;
+    /// Looks at the error of the denoised colour, where there are halves.
+    /// @throws std::runtime_error as denoise()
+    double lookDenoised() const;
 
     /// Samples that all pixels of a tile have.
     int count(int tile) const;
@@ -56,13 +64,18 @@ private:
     const ErrorSums& errorOf(int tile, int samples) const;
     bool isEnough(int tile, int samples) const;
     bool isDone() const;
+    double samplesTaken() const;
 
     const Film& _film;
     int _begin, _samples, _minSamples;
     double _tolerance;
     bool _isWhole; ///< all tiles of the image, from the first sample on
     std::vector<Tile> _tiles;
+    int _threads;
+    bool _hasHalves;
     mutable std::vector<ErrorCheck> _errorChecks; ///< beside _tiles
+    mutable double _denoisedAt = 0.0;             ///< samplesTaken() of the last look
+    mutable double _denoised = -1.0;
 };
 
 } // namespace patina

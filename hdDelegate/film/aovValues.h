@@ -47,6 +47,9 @@ template <class Point> bool aovValue(AovId id, const Point& p, float out[4]) {
     case AovId::albedo: return p.albedo(out);
     case AovId::denoisingAlbedo: return !Point::denoisingOfPaths && p.albedo(out);
     case AovId::denoisingNormal: return !Point::denoisingOfPaths && put(p.normal());
+    case AovId::denoisingHalfColor:
+    case AovId::denoisingHalfAlbedo:
+    case AovId::denoisingHalfNormal: return false; // of paths alone
     case AovId::primvars: return p.primvar(out);
     case AovId::primId: return putId(p.primId());
     case AovId::instanceId: return putId(p.instanceId());

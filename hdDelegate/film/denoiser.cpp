@@ -164,31 +164,40 @@ std::string denoiserMissing() {
     return library()->missing;
 }
 
-void denoise(Film& film, int threads, bool ofLight) {
+std::vector<std::vector<float>> denoised(std::vector<NoisyImage> images, int threads) {
     const std::shared_ptr<const Library> found = library();
     if (!found->missing.empty()) throw std::runtime_error(found->missing);
-    const int width = film.width(), height = film.height();
-    if (width < 1 || height < 1) throw std::runtime_error("there is no image to denoise");
+    Device device(*found, threads);
+    std::vector<std::vector<float>> results;
+    for (NoisyImage& image : images) {
+        if (image.width < 1 || image.height < 1)
+            throw std::runtime_error("there is no image to denoise");
+        for (float& value : image.albedo)
+            value = std::clamp(value, 0.0f, 1.0f);
+        results.emplace_back(image.color.size());
+        std::vector<Device::Image> buffers = {{"color", image.color}, {"output", results.back()}};
+        std::vector<const char*> flags = {"hdr"};
+        if (!image.albedo.empty() && !image.normal.empty()) {
+            buffers.push_back({"albedo", image.albedo});
+            buffers.push_back({"normal", image.normal});
+            if (image.samples >= samplesOfCleanGuides) flags.push_back("cleanAux");
+        }
+        device.filter(buffers, flags, image.width, image.height);
+    }
+    return results;
+}
 
-    std::vector<float> albedo = film.resolve(denoisingAlbedoAov);
-    std::vector<float> normal = film.resolve(denoisingNormalAov);
-    for (float& value : albedo)
-        value = std::clamp(value, 0.0f, 1.0f);
-    const bool guided = !albedo.empty() && !normal.empty();
-    std::vector<const char*> flags = {"hdr"};
-    if (guided && meanSamples(film) >= samplesOfCleanGuides) flags.push_back("cleanAux");
+void denoise(Film& film, int threads, bool ofLight) {
     std::vector<std::string> aovs = {"color"};
     for (const AovSpec& spec : film.aovs())
         if (ofLight && (!spec.paths.empty() || spec.id == AovId::shadow)) aovs.push_back(spec.name);
-    Device device(*found, threads);
-    std::vector<std::vector<float>> results;
-    for (const std::string& aov : aovs) {
-        std::vector<float> noisy = film.resolve(film.denoised(aov) ? aov + ".noisy" : aov);
-        results.emplace_back(noisy.size());
-        std::vector<Device::Image> images = {{"color", noisy}, {"output", results.back()}};
-        if (guided) images.push_back({"albedo", albedo}), images.push_back({"normal", normal});
-        device.filter(images, flags, width, height);
-    }
+    std::vector<NoisyImage> images;
+    for (const std::string& aov : aovs)
+        images.push_back({film.width(), film.height(),
+                          film.resolve(film.denoised(aov) ? aov + ".noisy" : aov),
+                          film.resolve(denoisingAlbedoAov), film.resolve(denoisingNormalAov),
+                          meanSamples(film)});
+    std::vector<std::vector<float>> results = denoised(std::move(images), threads);
     for (size_t i = 0; i < aovs.size(); ++i)
         film.setDenoised(std::move(results[i]), aovs[i]);
 }

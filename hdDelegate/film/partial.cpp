@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -81,30 +80,43 @@ void PartialErrors::add(const Tile& tile, int samples, const ErrorSums& sums) {
     _tiles[{tile.x0, tile.y0}][samples] = sums;
 }
 
-int PartialErrors::samplesOfWhole(double tolerance, int minSamples) const {
-    std::set<int> counts;
+std::map<int, ErrorSums> PartialErrors::wholes(int minSamples) const {
+    std::map<int, ErrorSums> found;
     int last = 0;
     for (const auto& tile : _tiles)
         for (const auto& [samples, sums] : tile.second) {
             if (samples >= std::max(2, minSamples) && isImageErrorStep(samples))
-                counts.insert(samples);
+                found[samples] = ErrorSums();
             last = std::max(last, samples);
         }
-    for (const int samples : counts) {
-        if (samples == last) break;
-        ErrorSums all;
+    found.erase(last);
+    for (auto whole = found.begin(); whole != found.end();) {
+        const int samples = whole->first;
         bool isKnown = true;
         for (const auto& tile : _tiles) {
-            auto found = tile.second.find(samples);
-            if (found == tile.second.end()) {
-                found = std::prev(tile.second.end()); // it stopped before
-                isKnown = isKnown && found->first < samples;
+            auto told = tile.second.find(samples);
+            if (told == tile.second.end()) {
+                told = std::prev(tile.second.end()); // it stopped before
+                isKnown = isKnown && told->first < samples;
             }
-            all += found->second;
+            whole->second += told->second;
         }
-        if (isKnown && relativeError(all) <= tolerance) return samples;
+        whole = isKnown ? std::next(whole) : found.erase(whole);
     }
+    return found;
+}
+
+int PartialErrors::samplesOfWhole(double tolerance, int minSamples) const {
+    for (const auto& [samples, sums] : wholes(minSamples))
+        if (relativeError(sums) <= tolerance) return samples;
     return 0;
+}
+
+std::vector<int> PartialErrors::stepsOfWhole(int minSamples) const {
+    std::vector<int> steps;
+    for (const auto& [samples, sums] : wholes(minSamples))
+        if (isErrorStep(samples)) steps.push_back(samples);
+    return steps;
 }
 
 PartialWriter::PartialWriter(const std::string& file, const std::string& description,

@@ -48,8 +48,11 @@ public:
     /// did not know the others. As TileSchedule has it.
     /// @returns 0 where no tile went on
     int samplesOfWhole(double tolerance, int minSamples) const;
+    /// @returns the counts before the last one at which that image had its denoised error looked at
+    std::vector<int> stepsOfWhole(int minSamples) const;
 
 private:
+    std::map<int, ErrorSums> wholes(int minSamples) const; ///< by count
     std::map<std::pair<int, int>, std::map<int, ErrorSums>> _tiles; ///< by corner, then by count
 };
 

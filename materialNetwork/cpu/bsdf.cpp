@@ -248,6 +248,13 @@ glm::vec3 Bsdf::sampledAlbedo() const {
     return sum / float(albedoSamples);
 }
 
+glm::vec3 Bsdf::likelyAlbedo() const {
+    glm::vec3 sum(0.0f);
+    for (int i = 0; i < _lobeCount; ++i)
+        sum += _lobes[i].weight * _lobes[i].albedo;
+    return sum;
+}
+
 glm::vec3 Bsdf::albedo() const {
     if (_stochastic) return sampledAlbedo();
     glm::vec3 sum(0.0f);

@@ -109,6 +109,9 @@ public:
     /// estimate by a few samples when stochastic()
     glm::vec3 albedo() const;
 
+    /// @returns about albedo(), without noise: what lobes are chosen by
+    glm::vec3 likelyAlbedo() const;
+
     /// @returns whether a lobe has no formula. Then eval() gives random values whose mean is right,
     ///     and densities that are never 0 where the value is not. Such a density may weigh
     ///     strategies against each other, but must not divide. sample() therefore keeps these lobes

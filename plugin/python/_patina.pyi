@@ -361,6 +361,10 @@ class PartialErrors:
         """
         The count at which the image rendered at once was done; 0: no tile went on after it.
         """
+    def steps_of_whole(self, min_samples: int) -> list[int]:
+        """
+        Counts before the last one at which that image had its denoised error looked at.
+        """
 class Renderer:
     """
     Renders a scene into a film, in the background.
@@ -516,6 +520,10 @@ def denoise(film: Film, threads: int = 0, aovs: bool = False) -> None:
     """
     Replaces the film's colour by what Open Image Denoise makes of it, led by the AOVs denoisingAlbedo and denoisingNormal where both are there; the noisy one is color.noisy then. With `aovs` likewise those of light. RuntimeError says in one line why not.
     """
+def denoised_error(film: Film, threads: int = 0) -> float:
+    """
+    Film.relative_error() of the colour that denoise() leaves, at most: from halves of the samples (AOVs denoisingHalfColor, denoisingHalfAlbedo, denoisingHalfNormal), each of which tells how far the other is off when denoised. Below 0 without them. RuntimeError says in one line why not.
+    """
 def denoiser_missing() -> str:
     """
     Why images cannot be denoised here, in one line; empty where they can.
@@ -547,6 +555,10 @@ def ignored_light_filter_inputs() -> dict[str, typing.Any]:
 def instruction_set() -> str:
     """
     The arithmetic of this build, in words: renders of two machines have equal bits where build and instruction set are equal.
+    """
+def keep_noisy(film: Film) -> None:
+    """
+    In place of denoise(): colour and color.noisy are both the means.
     """
 def light_filter_inputs() -> list[typing.Any]:
     """

@@ -305,6 +305,24 @@ void bindFilm(py::module_& m) {
         "Replaces the film's colour by what Open Image Denoise makes of it, led by the AOVs "
         "denoisingAlbedo and denoisingNormal where both are there; the noisy one is color.noisy "
         "then. With `aovs` likewise those of light. RuntimeError says in one line why not.");
+    m.def(
+        "denoised_error",
+        [](const Film& film, int threads) {
+            mustRest(film);
+            return denoisedError(film, threads);
+        },
+        py::arg("film"), py::arg("threads") = 0, py::call_guard<py::gil_scoped_release>(),
+        "Film.relative_error() of the colour that denoise() leaves, at most: from halves of the "
+        "samples (AOVs denoisingHalfColor, denoisingHalfAlbedo, denoisingHalfNormal), each of "
+        "which tells how far the other is off when denoised. Below 0 without them. RuntimeError "
+        "says in one line why not.");
+    m.def(
+        "keep_noisy",
+        [](Film& film) {
+            mustRest(film);
+            film.setDenoised(film.resolve(film.denoised() ? "color.noisy" : "color"));
+        },
+        py::arg("film"), "In place of denoise(): colour and color.noisy are both the means.");
     m.def("check_output", &checkOutput, py::arg("path"),
           "RuntimeError says early why a file could not be written; its folder is not touched.");
 

@@ -184,7 +184,7 @@ def test_renders_without_numbers_have_no_errors(tmp_path):
     row = {**dict.fromkeys(sceneResults.COLUMNS, ""), "stage": "a", "backend": "raster", "seconds": 1.0, "samples": 4.0}
     sceneResults.write_csv([sceneResults.StageResult("a", rows=[row])], table)
     found, = sceneResults.read_csv(table)
-    found.rows[0]["tolerance"] = 0.5
+    found.rows[0].update(tolerance=0.5, told=0.1)
     assert found.rows[0]["relative"] is None and "<td>-</td>" in scenePage._tolerances(found)[-2]
 
 

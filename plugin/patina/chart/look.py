@@ -15,7 +15,7 @@ BLUE, ORANGE, GREEN, PURPLE, BROWN, BLACK = "#0967ed", "#a36704", "#19825f", "#9
 COLOURS = (BLUE, ORANGE, GREEN, PURPLE, BROWN, BLACK)
 DARK = {PAPER: "#1b1c1f", INK: "#e7e8ea", DIM: "#a4a9b1", GRID: "#34373c", FRAME: "#50545b", TRUTH: "#63676e", FRONT: "#6d5c1a",
         BLUE: "#6c98fe", ORANGE: "#e95b37", GREEN: "#1cffa4", PURPLE: "#e7418f", BROWN: "#ffd925", BLACK: "#ececff"}
-BACKENDS = {"embree": BLUE, "raster": ORANGE}
+BACKENDS = {"embree": BLUE, "denoised": GREEN, "raster": ORANGE}
 CHAR = 6.1  # width of a letter of 11 pixels' height, about
 
 

@@ -9,7 +9,7 @@ from patina.chart.sceneResults import NAMES
 from patina.cli import outputs
 
 COLOURS = look.BACKENDS
-KINDS = {"embree": "circle", "raster": "square"}
+KINDS = {"embree": "circle", "denoised": "circle", "raster": "square"}
 
 
 def plots(result, foot=""):

@@ -8,7 +8,7 @@ import sys
 from patina import inputs
 from patina.chart import machine, sceneCharts, sceneLadder, scenePage, sceneResults
 from patina.chart.sceneRenders import BACKENDS, DEFAULT_WIDTH, WORDS
-from patina.cli import compiled, imageMetrics, methods, outputs, overrides, recordFlags
+from patina.cli import compiled, denoiser, imageMetrics, methods, outputs, overrides, recordFlags
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
 
@@ -33,6 +33,9 @@ def add_arguments(parser):
     group.add_argument("--threads", type=recordFlags._count, default=0, metavar="N", help="threads (default: all cores)")
     group.add_argument("--seed", type=recordFlags._seed, default=0, metavar="N", help="seed of the first render (default: 0)")
     group.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE", help=overrides.SET_HELP)
+    group.add_argument("--denoise", action="store_true",
+                       help="also the path tracer's images as Open Image Denoise cleans them; those to a tolerance end when "
+                            "they are within it")
     methods.add_flag(group)
     group.add_argument("--quiet", "-q", action="store_true", help="no progress")
 
@@ -57,6 +60,8 @@ def run(arguments):
         raise UsageError("patina chart: --reference is of one stage")
     chosen = methods.parse(a.method)
     overrides.parse(a.set)
+    if a.denoise:
+        denoiser.prepare(compiled.load())
     outputs.make_folder(a.out)
     command = shown(shlex.join(["patina", *sys.argv[1:]]))
     for stage in a.stages:
@@ -134,14 +139,14 @@ def _write(results, folder, here, command, seed):
 
 def listing(result):
     """A stage's rows and findings as text, for a terminal."""
-    lines = [result.stage, f"  {'back end':<13}{'samples':>8}{'tolerance':>11}{'seconds':>10}{'in all':>9}{'relMSE':>11}"
+    lines = [result.stage, f"  {'back end':<15}{'samples':>8}{'tolerance':>11}{'seconds':>10}{'in all':>9}{'relMSE':>11}"
                            f"{'FLIP':>8}{'bias':>10}"]
     for row in result.rows:
         tolerance = f"{row['tolerance']:g}{'' if row['toleranceMet'] == 'yes' else '!'}" if row["tolerance"] else ""
         flip = "-" if row["flip"] is None else f"{row['flip']:.4f}"
         bias = "-" if row["meanError"] is None else f"{100 * row['meanError']:+.2f} %"
         error = "-" if row["relMSE"] is None else f"{row['relMSE']:.3g}"
-        lines.append(f"  {WORDS[row['backend']]:<13}{row['samples']:>8.4g}{tolerance:>11}{row['seconds']:>10.3g}"
+        lines.append(f"  {WORDS[row['backend']]:<15}{row['samples']:>8.4g}{tolerance:>11}{row['seconds']:>10.3g}"
                      f"{row['secondsInAll']:>9.3g}{error:>11}{flip:>8}{bias:>10}")
     for measure, found in result.crossovers.items():
         lines.append(f"  by {sceneResults.NAMES[measure]}: {found['text']}")

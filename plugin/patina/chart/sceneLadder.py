@@ -5,7 +5,7 @@ import time
 from dataclasses import dataclass, field
 
 from patina.chart import machine, sceneMeasures, sceneReference
-from patina.chart.sceneRenders import BACKENDS, WORDS, OutOfTime, StageRenders
+from patina.chart.sceneRenders import BACKENDS, DENOISED, WORDS, OutOfTime, StageRenders
 from patina.cli.errors import CommandError
 
 FACTOR = 4          # from one count of samples to the next
@@ -69,6 +69,8 @@ def climb(path, arguments, methods, truth, folder, say):
     deadline = begin + arguments.seconds if arguments.seconds > 0.0 else None
     ladder = Ladder(StageRenders(path, arguments, deadline))
     backends = list(BACKENDS) if arguments.backend == "both" else [arguments.backend]
+    if arguments.denoise and "embree" in backends:
+        backends.insert(1, DENOISED)
     climber = _Climber(ladder, methods, truth, folder, say)
     try:
         for backend in list(backends):

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from patina.experiment import LUMINANCE
-from patina.cli import compiled, openStage, overrides
+from patina.cli import compiled, denoiser, openStage, overrides
 from patina.cli.errors import CommandError
 
 BACKENDS = ("embree", "raster")
-WORDS = {"embree": "path tracer", "raster": "rasterizer"}
+DENOISED = "denoised"  # the path tracer's images, which count as those of a back end
+WORDS = {"embree": "path tracer", DENOISED: "denoised paths", "raster": "rasterizer"}
 DEFAULT_WIDTH = 256
 MAX_PIXELS = 1 << 24
 
@@ -28,6 +29,7 @@ class Render:
     samples: float       # per pixel, mean
     maximum: float       # of any pixel
     noise: float         # relMSE of its own noise, by the variance of its pixels' luminance
+    told: float = -1.0   # its error as a tolerance means it, by its own samples; below 0: not known
 
 
 class StageRenders:
@@ -75,7 +77,10 @@ class StageRenders:
         """:param partial: when the time is over, keep the samples that are there
         :raises OutOfTime: when the time is over, and there is no sample or `partial` is not asked for
         :raises CommandError: where the back end is not there or the render fails"""
-        renderer = self._renderer(backend)
+        denoised = backend == DENOISED
+        renderer = self._renderer("embree" if denoised else backend)
+        if denoised:
+            settings = dict(settings, aovs=denoiser.aovs({"tolerance": -1.0, **settings}, "embree"))
         film = self.module.Film()
         begin, used = time.perf_counter(), time.process_time()
         renderer.start(self.scene, self.info.camera, settings, film)
@@ -86,14 +91,20 @@ class StageRenders:
         state = renderer.progress()
         if state["failed"]:
             raise CommandError(f"{WORDS[backend]}: {state['error']}")
-        if state["backend"] != backend:
+        if not denoised and state["backend"] != backend:
             self._lost(backend)
         if not ended and not (partial and state["samplesDone"]):
             raise OutOfTime
+        told, more = film.relative_error(shared=backend == "raster"), 0.0
+        if denoised:
+            told = state["statistics"].get("denoisedError", -1.0)
+            begin = time.perf_counter()
+            denoiser.run(self.module, film, self.arguments.threads)
+            more = time.perf_counter() - begin
         counts = film.resolve("sampleCount")
         image = np.array(film.resolve("color"), dtype=np.float32)
-        return Render(image, state["secondsRendering"] if ended else wall, wall, used / max(wall, 1e-9), float(counts.mean()),
-                      float(counts.max()), _noise(film, image))
+        return Render(image, more + (state["secondsRendering"] if ended else wall), more + wall, used / max(wall, 1e-9),
+                      float(counts.mean()), float(counts.max()), _noise(film, image), told)
 
     def _renderer(self, backend):
         if backend in self.missing:

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rows and findings of a stage's renders: what the CSV, the charts and the page show."""
+import statistics
 from dataclasses import dataclass, field
 
 from patina import experiment
 from patina.chart import sceneMeasures
-from patina.chart.sceneRenders import WORDS
+from patina.chart.sceneRenders import BACKENDS, WORDS
 
 COLUMNS = ("stage", "backend", "samples", "tolerance", "toleranceMet", "repeats", "seed", "seconds", "secondsInAll", "cores",
            "relMSE", "rmse", "flip", "meanError", "relative", "relMSEDirect", "rmseDirect", "flipDirect", "meanErrorDirect")
@@ -60,7 +61,7 @@ def _row(name, ladder, rung, seed):
     row = {"stage": name, "backend": rung.backend, "samples": rung.samples, "tolerance": rung.tolerance or "",
            "toleranceMet": ("yes" if rung.met else "no") if rung.tolerance else "", "repeats": len(rung.renders),
            "seed": seed, "seconds": rung.seconds, "secondsInAll": ladder.seconds_in_all(rung),
-           "cores": rung.busy}
+           "cores": rung.busy, "told": statistics.median(r.told for r in rung.renders)}
 
     def against(reference):
         return sceneMeasures.averaged([sceneMeasures.errors(r.image, reference.image, with_flip=i == 0)
@@ -96,7 +97,7 @@ def _slopes(ladder, backend):
 
 
 def _crossover(rows, measure):
-    points = {b: [(r["seconds"], r[measure]) for r in rows if r["backend"] == b and r[measure]] for b in WORDS}
+    points = {b: [(r["seconds"], r[measure]) for r in rows if r["backend"] == b and r[measure]] for b in BACKENDS}
     if not all(points.values()):
         return None
     found = sceneMeasures.crossover(points["embree"], points["raster"])

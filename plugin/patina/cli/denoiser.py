@@ -6,6 +6,7 @@ import os
 from patina.cli.errors import CommandError
 
 GUIDES = ("denoisingAlbedo", "denoisingNormal")  # AOVs that lead it
+HALVES = ("denoisingHalfColor", "denoisingHalfAlbedo", "denoisingHalfNormal")  # and those that tell how far off it is
 NOISY = "color.noisy"  # what it started from, once a film is denoised
 
 
@@ -20,6 +21,13 @@ def prepare(module):
         raise CommandError(f"--denoise: {missing}; `pip install pyoidn` has it, or PATINA_OIDN_LIBRARY names the library")
 
 
+def aovs(settings, backend):
+    """:param settings: of the render
+    :returns: AOVs that it needs to be denoised. Halves tell nothing of photons that they share"""
+    tells = settings["tolerance"] > 0.0 and backend == "embree" and settings["methods"].get("caustics") != "photons"
+    return GUIDES + (HALVES if tells else ())
+
+
 def run(module, film, threads=0, aovs=False):
     """:param aovs: of light, too
     :raises CommandError: in one line; the film is as before"""
@@ -27,6 +35,20 @@ def run(module, film, threads=0, aovs=False):
         module.denoise(film, threads, aovs)
     except RuntimeError as error:
         raise CommandError(f"--denoise: {error}") from None
+
+
+def run_where_it_helps(module, film, numbers, threads=0, aovs=False):
+    """Leaves an image as it is whose means are nearer to their limit than the denoiser would come.
+
+    :param numbers: statistics of the frame
+    :returns: None, or what was decided, in words
+    :raises CommandError: as run() does"""
+    left, clean = numbers.get("estimatedError"), numbers.get("denoisedError")
+    if left is None or clean is None or clean <= left:
+        return run(module, film, threads, aovs)
+    module.keep_noisy(film)
+    return (f"{numbers['image']}: not denoised, since its noise of {100.0 * left:.2g} % is less than the error of "
+            f"{100.0 * clean:.2g} % that the denoiser would leave")
 
 
 def takes_away(film):

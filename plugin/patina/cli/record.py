@@ -119,8 +119,7 @@ class _Job:
         self.statistics.begin_frame(shot.frame, shot.images)
         info = self._info(shot)
         self._check_outputs(shot)  # once more: now it is known which textures are read
-        for note in self.statistics.note(info.notes + self._left_over(shot.image)):
-            Progress("", self.arguments.quiet).say(note)
+        self._say_notes(info.notes + self._left_over(shot.image))
         self._check_warnings()
         settings = self._settings(shot, info)
         film = self._film(shot, settings, info)
@@ -145,11 +144,17 @@ class _Job:
         elif not self.arguments.quiet:
             Progress("").say(verbose.line(self.statistics.frames()[-1], self.arguments.part and self.arguments.partial))
 
+    def _say_notes(self, notes):
+        for note in self.statistics.note(notes):
+            Progress("", self.arguments.quiet).say(note)
+
     def _denoise(self, film):
         with self.statistics.phase("denoise"):
             if denoiser.takes_away(film):
                 self.statistics.warn("", "denoise", "pixelsBelowZero")
-            denoiser.run(self.module, film, self.arguments.threads, self.arguments.denoiseAovs)
+            left = denoiser.run_where_it_helps(self.module, film, self.statistics.current(), self.arguments.threads,
+                                               self.arguments.denoiseAovs)
+            self._say_notes([left] if left else [])
 
     @property
     def _has_checkpoint(self):
@@ -232,8 +237,8 @@ class _Job:
         settings = dict(self.settings, **shot.settings)
         if self.levels:
             settings["tolerance"] = self.tolerance  # levels have taken the rest
-        wanted = dict.fromkeys([*shot.aovs(), *(denoiser.GUIDES if self.arguments.denoise else ()),
-                                *(reports.AOVS if self.arguments.report else ())])
+        guides = denoiser.aovs(settings, self.arguments.backend) if self.arguments.denoise else ()
+        wanted = dict.fromkeys([*shot.aovs(), *guides, *(reports.AOVS if self.arguments.report else ())])
         camera = self.scene.camera(info.camera)
         size = shots.size_of(shot, camera, settings["pixelAspectRatio"])
         shots.place(settings, size, camera, functools.partial(self.statistics.warn, shot.prim))

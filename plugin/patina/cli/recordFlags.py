@@ -175,8 +175,9 @@ def settings_of(arguments):
     settings = {name: getattr(arguments, name) for name in settingFlags.names()}
     endless = arguments.tolerance > 0.0 or arguments.seconds > 0.0
     settings["samples"] = arguments.samples or (MAX_SAMPLES if endless else DEFAULT_SAMPLES)
-    settings["aovs"] = list(dict.fromkeys(aovs_of(arguments) + list(denoiser.GUIDES if arguments.denoise else ())))
     settings["methods"] = methods.parse(arguments.method)
+    guides = denoiser.aovs(settings, arguments.backend) if arguments.denoise else ()
+    settings["aovs"] = list(dict.fromkeys([*aovs_of(arguments), *guides]))
     settings["deep"] = bool(arguments.deep)
     _check_display(arguments)
     if arguments.dataWindow:

@@ -27,7 +27,7 @@ def line(frame, file=None):
     samples = f"{frame['samplesPerPixel']:.4g} sample" + "s" * (frame["samplesPerPixel"] != 1.0)
     text = f"{file or ', '.join(frame['images'])}: {samples} in {sum(frame['seconds'].values()):.3g} s"
     if "estimatedError" in frame:
-        text += f", noise {100.0 * frame['estimatedError']:.2g} %"
+        text += f", noise {100.0 * frame['estimatedError']:.2g} %{_denoised(frame)}"
         scene = frame.get("plan", {}).get("scene", {}).values()
         bias = frame.get("predictedError", 0.0) + sum(choice["error"] for choice in scene)
         if bias:
@@ -35,11 +35,15 @@ def line(frame, file=None):
     return text
 
 
+def _denoised(frame):
+    return f", denoised {100.0 * frame['denoisedError']:.2g} % at most" if "denoisedError" in frame else ""
+
+
 def _more(name, frame):
     if name == "render":
         seconds, rays = frame["seconds"]["render"], frame.get("rays", 0)
         speed = f", {rays / seconds / 1e6:.3g} million rays per second" if rays and seconds > 0.0 else ""
-        error = f", noise {100.0 * frame['estimatedError']:.2g} %" if "estimatedError" in frame else ""
+        error = f", noise {100.0 * frame['estimatedError']:.2g} %{_denoised(frame)}" if "estimatedError" in frame else ""
         return f"  {frame['samplesPerPixel']:.4g} samples per pixel of {frame['width']} x {frame['height']}{error}{speed}"
     if name == "build" and "bytes" in frame:
         return f"  {frame.get('trianglesStored', 0)} triangles, {memory.text(frame['bytes'])} of geometry"

@@ -27,16 +27,22 @@ def _merge(module, parts, image, threads):
     arguments.image, arguments.threads, arguments.denoise = image, threads, first.denoise
     if arguments.denoise:
         denoiser.prepare(module)
-    errors = module.PartialErrors() if first.noise > 0.0 else None
+    errors, limit = module.PartialErrors() if first.noise > 0.0 else None, 0
     film, reports = _film(module, parts, 0, errors)
     if errors:  # the whole was done before tiles that did not know it
         limit = errors.samples_of_whole(first.noise, int(first.settings["minSamples"]))
         if limit:
             film, reports = _film(module, parts, limit, None)
+    if errors and arguments.denoise:
+        film = _within_denoised(module, parts, threads, errors, limit) or film
     merged = _MergedStatistics(arguments, first.frame, image, reports)
     merged.rendered(_state(reports), film)
     if arguments.denoise:
-        denoiser.run(module, film, threads)
+        error = module.denoised_error(film, threads)
+        if error >= 0.0:
+            merged.current()["denoisedError"] = error
+        left = denoiser.run_where_it_helps(module, film, merged.current(), threads)
+        merged.note([left] if left else [])
     try:
         module.write_images(film, image, first.options,
                             merged.metadata(arguments, first.settings, first.camera))
@@ -44,6 +50,20 @@ def _merge(module, parts, image, threads):
         raise CommandError(str(error)) from error
     merged.end_frame()
     return merged
+
+
+def _within_denoised(module, parts, threads, errors, limit):
+    """:param limit: the count at which it was done by its means; 0: at none
+    :returns: the film at the count at which the image rendered at once was done, since it would be within the tolerance
+        when denoised; None where it never was"""
+    first = parts.first
+    for samples in errors.steps_of_whole(int(first.settings["minSamples"])):
+        if 0 < limit <= samples:
+            break
+        film = _film(module, parts, samples, None)[0]
+        if 0.0 <= module.denoised_error(film, threads) <= first.noise:
+            return film
+    return None
 
 
 def _film(module, parts, samples, errors):

@@ -24,9 +24,9 @@ struct Halves {
             const size_t pixel = i / 3, width = size_t(film.width());
             const double n = film.sampleCount(int(pixel % width), int(pixel / width));
             const double before = std::ceil(n / 2.0);
-            second[i] = n < 2.0 ? first[i]
-                                : float((n * double(second[i]) - before * double(first[i])) /
-                                        (n - before));
+            second[i] =
+                n < 2.0 ? first[i]
+                        : float((n * double(second[i]) - before * double(first[i])) / (n - before));
         }
     }
 };

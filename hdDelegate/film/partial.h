@@ -52,7 +52,7 @@ public:
     std::vector<int> stepsOfWhole(int minSamples) const;
 
 private:
-    std::map<int, ErrorSums> wholes(int minSamples) const; ///< by count
+    std::map<int, ErrorSums> wholes(int minSamples) const;          ///< by count
     std::map<std::pair<int, int>, std::map<int, ErrorSums>> _tiles; ///< by corner, then by count
 };
 

@@ -3,12 +3,36 @@
 
 #include "hdDelegate/backends/backends.h"
 #include "hdDelegate/film/denoiser.h"
+#include "hdDelegate/film/relativeError.h"
 
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
 namespace patina {
+
+namespace {
+
+/// AOVs for the denoiser, as `patina record` asks for them: halves of the samples tell of
+/// its error, unless they share photons.
+std::vector<const char*> denoisingAovs(const RenderSettings& settings, const std::string& backend) {
+    std::vector<const char*> aovs = {denoisingAlbedoAov, denoisingNormalAov};
+    const auto caustics = settings.methods.find("caustics");
+    const bool sharesPhotons = caustics != settings.methods.end() && caustics->second == "photons";
+    if (settings.tolerance > 0.0 && backend == "embree" && !sharesPhotons)
+        aovs.insert(aovs.end(),
+                    {denoisingHalfColorAov, denoisingHalfAlbedoAov, denoisingHalfNormalAov});
+    return aovs;
+}
+
+/// Whether a finished image is nearer to its limit than the denoiser would bring it.
+bool areMeansNearer(const Film& film, const RenderProgress& progress) {
+    const auto told = progress.statistics.find("denoisedError");
+    return told != progress.statistics.end() &&
+           relativeError(film, 0, 0, film.width(), film.height()) < told->second;
+}
+
+} // namespace
 
 HdPatinaSession::HdPatinaSession(std::shared_ptr<Scene> scene)
     : _scene(std::move(scene)), _film(std::make_shared<Film>()) {}
@@ -93,9 +117,9 @@ void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& s
     current->letImagesStay(settings.interactive);
     RenderSettings asked = settings;
     if (settings.denoise)
-        for (const char* guide : {denoisingAlbedoAov, denoisingNormalAov})
-            if (std::find(asked.aovs.begin(), asked.aovs.end(), guide) == asked.aovs.end())
-                asked.aovs.push_back(guide);
+        for (const char* aov : denoisingAovs(settings, backend))
+            if (std::find(asked.aovs.begin(), asked.aovs.end(), aov) == asked.aovs.end())
+                asked.aovs.push_back(aov);
     try {
         current->start(_scene, camera, asked, _film);
     } catch (const std::exception& error) { // no thread is to be had
@@ -130,7 +154,9 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
             return; // a noisy image between clean ones would flicker
         Film clean;
         // Blocks of a first pass stay as they are: no filter mends them.
-        const bool denoised = _settings.denoise && count > 0 && denoiseCopy(film, clean);
+        const bool denoised = _settings.denoise && count > 0 &&
+                              !(frame->last && areMeansNearer(film, progress)) &&
+                              denoiseCopy(film, clean);
         {
             const std::lock_guard<std::mutex> lock(_mutex);
             frame->images.swap(_spare);

@@ -77,6 +77,28 @@ def test_guides_are_those_of_what_a_mirror_shows(tmp_path):
     np.testing.assert_allclose(normal, (0.0, -1.0, 0.0), atol=1e-5)
 
 
+# A camera that looks through a pane of clear glass at an orange wall: two faces, each of which mirrors 4 % of what it gets.
+GLASS = usda.stage(
+    usda.camera(focalLength=200, at=(0, 0, 10)),
+    usda.prim("DistantLight", "sun", turn=(-40, 0, 0)),
+    usda.prim("Cube", "pane", scale=(3, 3, 0.1), bind="clear"),
+    usda.mesh("wall", [(-20, -20, -5), (20, -20, -5), (20, 20, -5), (-20, 20, -5)], bind="matte"),
+    usda.lobe("clear", "dielectric_bsdf", ior=1.5, roughness=(0, 0), scatter_mode="RT"),
+    usda.lobe("matte", "oren_nayar_diffuse_bsdf", color=(0.8, 0.4, 0.1)))
+
+
+def test_guides_are_those_of_what_clear_glass_shows(tmp_path):
+    """And black where it mirrors nothing."""
+    (tmp_path / "glass.usda").write_text(GLASS)
+    record(tmp_path / "glass.usda", tmp_path / "a.exr", "-w", WIDTH, "--samples", "64", "--aov", "denoisingNormal",
+           "--aov", "denoisingAlbedo")
+    albedo, normal = guides(channels(tmp_path / "a.exr"))
+    # One plate lets (1 - r) / (1 + r) through, of which 4096 paths draw their share: four standard errors are 0.017.
+    through = (1 - 0.04) / (1 + 0.04)
+    np.testing.assert_allclose(albedo, np.multiply((0.8, 0.4, 0.1), through), atol=0.017)
+    np.testing.assert_allclose(normal, (0.0, 0.0, through), atol=0.017)
+
+
 def test_guides_fade_at_outlines(tmp_path):
     """Means over all samples of a pixel: where an outline goes through it, normals of both sides make a shorter one."""
     record(inProcess.scene("lightDome"), tmp_path / "a.exr", "-w", WIDTH, "--samples", "64", "--aov", "denoisingNormal",

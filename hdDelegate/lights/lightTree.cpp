@@ -7,61 +7,85 @@ namespace patina {
 
 namespace {
 
+template <class Lanes> Lanes atLeast(float least, const Lanes& v) {
+    return least < v ? v : least + Lanes{};
+}
+template <class Lanes> Lanes absolute(const Lanes& v) {
+    return v < 0.0f ? -v : v;
+}
+template <class Lanes> Lanes root(Lanes v) {
+    for (size_t i = 0; i < sizeof(Lanes) / sizeof(float); ++i)
+        v[i] = std::sqrt(v[i]);
+    return v;
+}
+
 // cos(max(0, a - b)) and its sine from those of a and b.
-float cosDifference(float sinA, float cosA, float sinB, float cosB) {
-    return cosA > cosB ? 1.0f : cosA * cosB + sinA * sinB;
+template <class Lanes>
+Lanes cosDifference(const Lanes& sinA, const Lanes& cosA, const Lanes& sinB, const Lanes& cosB) {
+    return cosA > cosB ? 1.0f + Lanes{} : cosA * cosB + sinA * sinB;
 }
-float sinDifference(float sinA, float cosA, float sinB, float cosB) {
-    return cosA > cosB ? 0.0f : sinA * cosB - cosA * sinB;
+template <class Lanes>
+Lanes sinDifference(const Lanes& sinA, const Lanes& cosA, const Lanes& sinB, const Lanes& cosB) {
+    return cosA > cosB ? Lanes{} : sinA * cosB - cosA * sinB;
 }
-float sineOf(float cosine) {
-    return std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
+template <class Lanes> Lanes sineOf(const Lanes& cosine) {
+    return root(atLeast(0.0f, 1.0f - cosine * cosine));
 }
 
 } // namespace
 
-float LightTree::importance(const Node& node, const vec3& point, const vec3& normal,
-                            bool twoSided) {
-    const vec3 center = 0.5f * (node.low + node.high), extent = node.high - node.low;
-    const float radius2 = 0.25f * glm::dot(extent, extent);
-    const vec3 v = point - center;
-    const float d2 = glm::dot(v, v);
-    // Closer than its radius a cluster could be anywhere around.
-    if (d2 <= radius2 * 1.0001f || !(d2 > 0.0f)) return node.intensity / std::max(radius2, 1e-30f);
-    const vec3 w = v / std::sqrt(d2);
-    const float sinAround = std::sqrt(radius2 / d2);
-    const float cosAround = std::sqrt(std::max(0.0f, 1.0f - radius2 / d2));
-
-    float cosW = glm::dot(node.axis, w);
-    if (node.twoSided) cosW = std::abs(cosW);
-    const float sinW = sineOf(cosW);
-    const float cosX = cosDifference(sinW, cosW, node.sinSpread, node.cosSpread);
-    const float sinX = sinDifference(sinW, cosW, node.sinSpread, node.cosSpread);
-    const float cosLeaving = cosDifference(sinX, cosX, sinAround, cosAround);
-    if (cosLeaving < node.cosReach - 1e-4f) return 0.0f;
-
-    float cosArriving = 1.0f;
-    if (normal != vec3(0.0f)) {
-        float cosI = -glm::dot(w, normal);
-        if (twoSided) cosI = std::abs(cosI);
-        cosArriving = cosDifference(sineOf(cosI), cosI, sinAround, cosAround);
-        if (cosArriving <= 0.0f) return 0.0f;
+LightTree::Lanes LightTree::importances(const Node& node, const vec3& point, const vec3& normal,
+                                        bool twoSided) {
+    Lanes v[3], radius2 = {}, d2 = {};
+    for (int k = 0; k < 3; ++k) {
+        const Lanes extent = node.high[k] - node.low[k];
+        v[k] = point[k] - 0.5f * (node.low[k] + node.high[k]);
+        radius2 += extent * extent;
+        d2 += v[k] * v[k];
     }
-    return node.intensity * std::max(cosLeaving, 1e-3f) * cosArriving / d2;
+    radius2 *= 0.25f;
+    const Lanes distance = root(d2);
+    Lanes cosW = {}, cosI = {};
+    for (int k = 0; k < 3; ++k) {
+        const Lanes w = v[k] / distance;
+        cosW += node.axis[k] * w;
+        cosI -= normal[k] * w;
+    }
+    const Lanes share = radius2 / d2;
+    const Lanes sinAround = root(share), cosAround = root(atLeast(0.0f, 1.0f - share));
+
+    cosW = node.twoSided ? absolute(cosW) : cosW;
+    const Lanes sinW = sineOf(cosW);
+    const Lanes cosX = cosDifference(sinW, cosW, node.sinSpread, node.cosSpread);
+    const Lanes sinX = sinDifference(sinW, cosW, node.sinSpread, node.cosSpread);
+    const Lanes cosLeaving = cosDifference(sinX, cosX, sinAround, cosAround);
+
+    Lanes cosArriving = 1.0f + Lanes{};
+    if (normal != vec3(0.0f)) {
+        if (twoSided) cosI = absolute(cosI);
+        cosArriving = atLeast(0.0f, cosDifference(sineOf(cosI), cosI, sinAround, cosAround));
+    }
+    const Lanes apart = node.intensity * atLeast(1e-3f, cosLeaving) * cosArriving / d2;
+    const Lanes seen = cosLeaving < node.cosReach - 1e-4f ? Lanes{} : apart;
+    // Closer than its radius a cluster could be anywhere around.
+    const Mask isAround = (d2 <= radius2 * 1.0001f) | (d2 <= 0.0f);
+    return isAround ? node.intensity / atLeast(1e-30f, radius2) : seen;
 }
 
 LightTreeLeaf LightTree::asLeaf() const {
     LightTreeLeaf leaf;
     if (empty()) return leaf;
-    const Node& root = _nodes[0];
-    leaf.low = root.low;
-    leaf.high = root.high;
-    leaf.axis = root.axis;
-    leaf.spread = std::atan2(root.sinSpread, root.cosSpread);
-    leaf.reach = std::acos(root.cosReach);
-    leaf.intensity = root.intensity;
-    leaf.twoSided = root.twoSided;
-    leaf.hittable = root.hittable;
+    const Node& all = _nodes[0];
+    for (int k = 0; k < 3; ++k) {
+        leaf.low[k] = all.low[k][0];
+        leaf.high[k] = all.high[k][0];
+        leaf.axis[k] = all.axis[k][0];
+    }
+    leaf.spread = std::atan2(all.sinSpread[0], all.cosSpread[0]);
+    leaf.reach = std::acos(all.cosReach[0]);
+    leaf.intensity = all.intensity[0];
+    leaf.twoSided = all.twoSided[0];
+    leaf.hittable = all.hittable[0];
     return leaf;
 }
 
@@ -70,38 +94,39 @@ int LightTree::choose(const vec3& point, const vec3& normal, bool twoSided, floa
     probability = 0.0f;
     if (empty()) return -1;
     float p = 1.0f;
-    int32_t index = 0;
-    while (_nodes[index].left >= 0) {
-        const Node& node = _nodes[index];
-        const float a = importance(_nodes[node.left], point, normal, twoSided);
-        const float b = importance(_nodes[node.right], point, normal, twoSided);
-        if (!(a + b > 0.0f)) return -1;
-        const float pa = a / (a + b);
-        if (u < pa) {
-            index = node.left;
-            u = std::min(u / pa, 0x1.fffffep-1f);
-            p *= pa;
-        } else {
-            index = node.right;
-            const float pb = b / (a + b);
-            u = std::min((u - pa) / std::max(1.0f - pa, 1e-30f), 0x1.fffffep-1f);
-            p *= pb;
-            if (!(pb > 0.0f)) return -1;
+    int32_t child = _nodes[0].children[0];
+    while (child >= 0) {
+        const Node& node = _nodes[size_t(child)];
+        const Lanes shares = importances(node, point, normal, twoSided);
+        const float total = sum(shares);
+        if (!canShare(total)) return -1;
+        float left = u * total;
+        int chosen = -1;
+        for (int lane = 0; lane < width; ++lane) {
+            if (!(shares[lane] > 0.0f)) continue;
+            if (chosen >= 0) left -= shares[chosen];
+            chosen = lane;
+            if (left < shares[lane]) break;
         }
+        u = std::clamp(left / shares[chosen], 0.0f, 0x1.fffffep-1f);
+        p *= shares[chosen] / total;
+        child = node.children[chosen];
     }
     probability = p;
-    return int(_nodes[index].right);
+    return int(~child);
 }
 
 float LightTree::probability(int id, const vec3& point, const vec3& normal, bool twoSided) const {
-    if (id < 0 || size_t(id) >= _leafOf.size() || _leafOf[id] < 0) return 0.0f;
+    if (id < 0 || size_t(id) >= _leafOf.size() || _leafOf[size_t(id)] < 0) return 0.0f;
     float p = 1.0f;
-    for (int32_t index = _leafOf[id]; _nodes[index].parent >= 0; index = _nodes[index].parent) {
-        const Node& parent = _nodes[_nodes[index].parent];
-        const float a = importance(_nodes[parent.left], point, normal, twoSided);
-        const float b = importance(_nodes[parent.right], point, normal, twoSided);
-        if (!(a + b > 0.0f)) return 0.0f;
-        p *= (index == parent.left ? a : b) / (a + b);
+    int32_t at = _leafOf[size_t(id)];
+    while (at >= width) { // not of the root, whose one child is all
+        const Node& node = _nodes[size_t(at / width)];
+        const Lanes shares = importances(node, point, normal, twoSided);
+        const float total = sum(shares);
+        if (!canShare(total)) return 0.0f;
+        p *= shares[at % width] / total;
+        at = node.parent;
     }
     return p;
 }

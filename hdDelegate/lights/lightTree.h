@@ -32,18 +32,18 @@ DirectionCone unite(const DirectionCone& a, const DirectionCone& b);
 /// Chooses among many lights in proportion to an estimate of what each gives to a point (Conty
 /// Estevez and Kulla 2018, Importance Sampling of Many Lights with Adaptive Tree Splitting; one
 /// random number picks one light). Building takes O(n log n), choosing O(log n). The tree serves
-/// as the bounding volumes for rays, too.
+/// as the bounding volumes for rays, too. A node has up to four children, which are looked at
+/// together, in lanes of one register.
 class LightTree {
 public:
     LightTree() = default;
     explicit LightTree(const std::vector<LightTreeLeaf>& leaves);
 
     bool empty() const { return _nodes.empty(); }
-    size_t nodeCount() const { return _nodes.size(); }
 
     /// Estimate of the irradiance from all lights at a point; 0 only when there is none.
     float importance(const vec3& point, const vec3& normal, bool twoSided) const {
-        return empty() ? 0.0f : importance(_nodes[0], point, normal, twoSided);
+        return empty() ? 0.0f : importances(_nodes[0], point, normal, twoSided)[0];
     }
 
     /// All of its lights as one: a leaf for a tree above it.
@@ -63,19 +63,28 @@ public:
                                          const float& far, const Visit& visit) const;
 
 private:
-    struct Node {
-        vec3 low, high, axis;
-        float cosSpread, sinSpread, cosReach;
-        float intensity;
-        int32_t left = -1, right = -1; ///< right is the id of the light in a leaf (left < 0)
-        int32_t parent = -1;
-        bool twoSided = false, hittable = false;
-    };
+    static constexpr int width = 4;
+    typedef float Lanes __attribute__((vector_size(4 * width)));
+    typedef int32_t Mask __attribute__((vector_size(4 * width))); ///< of each lane all bits or none
 
-    static float importance(const Node& node, const vec3& point, const vec3& normal, bool twoSided);
+    /// What is known of each child; lanes without one have no intensity. The root's one child is
+    /// all.
+    struct Node {
+        Lanes low[3] = {}, high[3] = {}, axis[3] = {};
+        Lanes cosSpread = {}, sinSpread = {}, cosReach = {}, intensity = {};
+        Mask twoSided = {}, hittable = {};
+        int32_t children[width] = {}; ///< a node; below 0: ~id of a light
+        int32_t parent = -1;          ///< a node and one of its lanes, as place() has it
+    };
+    static int32_t place(int32_t node, int lane) { return width * node + lane; }
+
+    static Lanes importances(const Node& node, const vec3& point, const vec3& normal,
+                             bool twoSided);
+    static float sum(const Lanes& v) { return v[0] + v[1] + v[2] + v[3]; }
+    static bool canShare(float total) { return total > 0.0f && total < INFINITY; }
 
     std::vector<Node> _nodes;
-    std::vector<int32_t> _leafOf; ///< node of each id, or -1
+    std::vector<int32_t> _leafOf; ///< place of each id, or -1
 };
 
 template <class Visit> void LightTree::visitRay(const vec3& origin, const vec3& direction,
@@ -87,34 +96,29 @@ template <class Visit> void LightTree::visitRay(const vec3& origin, const vec3& 
     int32_t stack[64];
     int size = 0;
     stack[size++] = 0;
-    while (size > 0 || !deep.empty()) {
-        int32_t index;
-        if (!deep.empty()) {
-            index = deep.back();
+    while (size > 0) {
+        const Node& node = _nodes[size_t(stack[--size])];
+        if (size == 0 && !deep.empty()) {
+            stack[size++] = deep.back();
             deep.pop_back();
-        } else {
-            index = stack[--size];
         }
-        const Node& node = _nodes[index];
-        if (!node.hittable) continue;
-        float t0 = near, t1 = far;
+        Lanes t0 = near + Lanes{}, t1 = far + Lanes{};
         for (int k = 0; k < 3; ++k) {
-            const float a = (node.low[k] - origin[k]) * inverse[k];
-            const float b = (node.high[k] - origin[k]) * inverse[k];
-            // NaN (a ray in the plane of a flat box) leaves the interval as it is. No fmin and
-            // fmax: they are calls.
-            const float first = (b < a ? b : a) * (1.0f - 1e-6f);
-            const float last = (a > b ? a : b) * (1.0f + 1e-6f);
+            const Lanes a = (node.low[k] - origin[k]) * inverse[k];
+            const Lanes b = (node.high[k] - origin[k]) * inverse[k];
+            // NaN (a ray in the plane of a flat box) leaves the interval as it is.
+            const Lanes first = (b < a ? b : a) * (1.0f - 1e-6f);
+            const Lanes last = (a > b ? a : b) * (1.0f + 1e-6f);
             t0 = first > t0 ? first : t0;
             t1 = last < t1 ? last : t1;
         }
-        if (t0 > t1) continue;
-        if (node.left < 0) {
-            visit(int(node.right));
-            continue;
-        }
-        for (const int32_t child : {node.left, node.right}) {
-            if (size < 64)
+        const Mask met = (t0 <= t1) & node.hittable;
+        for (int lane = 0; lane < width; ++lane) {
+            if (!met[lane]) continue;
+            const int32_t child = node.children[lane];
+            if (child < 0)
+                visit(int(~child));
+            else if (size < 64)
                 stack[size++] = child;
             else
                 deep.push_back(child);

@@ -100,6 +100,12 @@ Split bestSplit(const std::vector<LightTreeLeaf>& leaves, const std::vector<int>
     return best;
 }
 
+/// A tree of two children, of which the one of four is made.
+struct Pair {
+    Cluster all;
+    int32_t left = -1, right = -1; ///< right is the id of the light in a leaf (left < 0)
+};
+
 } // namespace
 
 DirectionCone unite(const DirectionCone& a, const DirectionCone& b) {
@@ -128,13 +134,10 @@ DirectionCone unite(const DirectionCone& a, const DirectionCone& b) {
     return result;
 }
 
-LightTree::LightTree(const std::vector<LightTreeLeaf>& leaves) {
-    if (leaves.empty()) return;
-    int largestId = 0;
-    for (const LightTreeLeaf& leaf : leaves)
-        largestId = std::max(largestId, leaf.id);
-    _leafOf.assign(size_t(largestId) + 1, -1);
-    _nodes.reserve(2 * leaves.size() - 1);
+/// @returns the root first
+static std::vector<Pair> pairsOf(const std::vector<LightTreeLeaf>& leaves) {
+    std::vector<Pair> pairs;
+    pairs.reserve(2 * leaves.size() - 1);
     std::vector<int> order(leaves.size());
     for (size_t i = 0; i < order.size(); ++i)
         order[i] = int(i);
@@ -148,37 +151,25 @@ LightTree::LightTree(const std::vector<LightTreeLeaf>& leaves) {
     while (!tasks.empty()) {
         const Task task = tasks.back();
         tasks.pop_back();
-        Cluster all;
+        Pair pair;
         vec3 low(INFINITY), high(-INFINITY); // of the centres
         for (int i = task.begin; i < task.end; ++i) {
             const LightTreeLeaf& leaf = leaves[order[i]];
-            all.add(clusterOf(leaf));
+            pair.all.add(clusterOf(leaf));
             const vec3 center = 0.5f * (leaf.low + leaf.high);
             low = glm::min(low, center);
             high = glm::max(high, center);
         }
-        const int32_t index = int32_t(_nodes.size());
-        Node node;
-        node.low = all.low;
-        node.high = all.high;
-        node.axis = all.cone.axis;
-        node.cosSpread = std::cos(all.cone.spread);
-        node.sinSpread = std::sin(all.cone.spread);
-        node.cosReach = std::cos(all.cone.reach);
-        node.intensity = all.intensity;
-        node.parent = task.parent;
-        node.twoSided = all.twoSided;
-        node.hittable = all.hittable;
+        const int32_t index = int32_t(pairs.size());
         if (task.parent >= 0)
-            (task.isLeft ? _nodes[task.parent].left : _nodes[task.parent].right) = index;
+            (task.isLeft ? pairs[task.parent].left : pairs[task.parent].right) = index;
         if (task.end - task.begin == 1) {
-            node.right = leaves[order[task.begin]].id;
-            _leafOf[node.right] = index;
-            _nodes.push_back(node);
+            pair.right = leaves[order[task.begin]].id;
+            pairs.push_back(pair);
             continue;
         }
-        node.left = 0; // an inner node; the children write themselves in
-        _nodes.push_back(node);
+        pair.left = 0; // an inner node; the children write themselves in
+        pairs.push_back(pair);
         const Split split = bestSplit(leaves, order, task.begin, task.end, low, high);
         int middle = (task.begin + task.end) / 2;
         if (split.axis >= 0) {
@@ -193,6 +184,71 @@ LightTree::LightTree(const std::vector<LightTreeLeaf>& leaves) {
         if (middle <= task.begin || middle >= task.end) middle = (task.begin + task.end) / 2;
         tasks.push_back({middle, task.end, index, false});
         tasks.push_back({task.begin, middle, index, true});
+    }
+    return pairs;
+}
+
+LightTree::LightTree(const std::vector<LightTreeLeaf>& leaves) {
+    if (leaves.empty()) return;
+    int largestId = 0;
+    for (const LightTreeLeaf& leaf : leaves)
+        largestId = std::max(largestId, leaf.id);
+    _leafOf.assign(size_t(largestId) + 1, -1);
+    const std::vector<Pair> pairs = pairsOf(leaves);
+
+    struct Task {
+        int32_t at;                  ///< place() of what follows
+        std::array<int32_t, 4> held; ///< pairs that it has below it
+        int count;
+    };
+    static_assert(width == 4, "as many as a task holds");
+    std::vector<Task> tasks = {{-1, {0}, 1}};
+    while (!tasks.empty()) {
+        const Task task = tasks.back();
+        tasks.pop_back();
+        const int32_t index = int32_t(_nodes.size());
+        if (task.at >= 0) _nodes[size_t(task.at / width)].children[task.at % width] = index;
+        Node node;
+        node.parent = task.at;
+        for (int lane = 0; lane < task.count; ++lane) {
+            const Pair& pair = pairs[size_t(task.held[size_t(lane)])];
+            const Cluster& all = pair.all;
+            for (int k = 0; k < 3; ++k) {
+                node.low[k][lane] = all.low[k];
+                node.high[k][lane] = all.high[k];
+                node.axis[k][lane] = all.cone.axis[k];
+            }
+            node.cosSpread[lane] = std::cos(all.cone.spread);
+            node.sinSpread[lane] = std::sin(all.cone.spread);
+            node.cosReach[lane] = std::cos(all.cone.reach);
+            node.intensity[lane] = all.intensity;
+            node.twoSided[lane] = all.twoSided ? -1 : 0;
+            node.hittable[lane] = all.hittable ? -1 : 0;
+            if (pair.left < 0) {
+                node.children[lane] = ~pair.right;
+                _leafOf[size_t(pair.right)] = place(index, lane);
+                continue;
+            }
+            // The brightest of those below are taken apart, which are asked for most.
+            Task next = {place(index, lane), {pair.left, pair.right}, 2};
+            while (next.count < width) {
+                int brightest = -1;
+                for (int i = 0; i < next.count; ++i) {
+                    const Pair& held = pairs[size_t(next.held[size_t(i)])];
+                    if (held.left >= 0 &&
+                        (brightest < 0 ||
+                         held.all.intensity >
+                             pairs[size_t(next.held[size_t(brightest)])].all.intensity))
+                        brightest = i;
+                }
+                if (brightest < 0) break;
+                const Pair& apart = pairs[size_t(next.held[size_t(brightest)])];
+                next.held[size_t(brightest)] = apart.left;
+                next.held[size_t(next.count++)] = apart.right;
+            }
+            tasks.push_back(next);
+        }
+        _nodes.push_back(node);
     }
 }
 

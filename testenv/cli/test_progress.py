@@ -29,6 +29,7 @@ def test_with_a_tolerance_it_says_how_far_the_noise_is(monkeypatch):
     assert shown(monkeypatch, **state) == (
         "shot.exr:  25 %  noise 12 %, 10 % is asked for  533.7 samples  1:15 min left\n")
     assert "noise" not in shown(monkeypatch, **{**state, "noise": -1.0}), "nobody has looked yet"
+    assert "denoised error 5 %, 10 % is" in shown(monkeypatch, **state, statistics={"denoisedError": 0.05})
 
 
 def stepped(monkeypatch, stream):

@@ -20,9 +20,12 @@ def _clock(seconds):
 
 
 def _noise(state):
-    """:returns: the noise reached and that which ends the render, where a tolerance asks for one"""
-    wanted, reached = state.get("noiseWanted", 0.0), state.get("noise", -1.0)
-    return f"noise {100 * reached:.2g} %, {100 * wanted:.2g} % is asked for  " if wanted > 0.0 and reached >= 0.0 else ""
+    """:returns: the noise reached, or the denoised image's error, and that which ends the render, where a tolerance asks for
+        one"""
+    wanted, reached, what = state.get("noiseWanted", 0.0), state.get("noise", -1.0), "noise"
+    if "denoisedError" in state.get("statistics", {}):
+        reached, what = state["statistics"]["denoisedError"], "denoised error"
+    return f"{what} {100 * reached:.2g} %, {100 * wanted:.2g} % is asked for  " if wanted > 0.0 and reached >= 0.0 else ""
 
 
 class Progress:

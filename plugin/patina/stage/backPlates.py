@@ -5,6 +5,7 @@ Cameras see them. They light nothing, cast no shadow, and are in no reflection.
 """
 import os
 
+import _patina
 import numpy as np
 from pxr import Gf
 
@@ -18,11 +19,10 @@ _ONLY_CAMERAS = {"patina:visibility:indirect": False, "patina:visibility:shadow"
 _ALPHAS = {1: ("float", None), 2: ("vector2", 1), 4: ("color4", 3)}  # by channels: type of the node, channel
 
 
-def emit(context, cameras, chosen, module):
+def emit(context, cameras, chosen):
     """Draws the plates that the camera of the picture shows.
 
-    :param cameras: list of Found
-    :param module: `_patina`"""
+    :param cameras: list of Found"""
     for found in cameras:
         for schema in found.prim.GetAppliedSchemas():
             if not schema.startswith("BackPlateAPI:"):
@@ -30,10 +30,10 @@ def emit(context, cameras, chosen, module):
             name = schema.partition(":")[2]
             seen = get(found.prim, f"backPlate:{name}:plateVisibility", context.time, "solo")
             if seen == "all" or seen == "solo" and found is chosen:
-                _emit(context, found, f"backPlate:{name}:", f"{found.path}/{name}", module)
+                _emit(context, found, f"backPlate:{name}:", f"{found.path}/{name}")
 
 
-def _emit(context, found, prefix, path, module):
+def _emit(context, found, prefix, path):
     prim = found.prim
     size = np.array([number(context, prim, side + "Aperture", fallback) * _APERTURE_UNIT
                      for side, fallback in (("horizontal", 20.955), ("vertical", 15.2908))])
@@ -56,14 +56,14 @@ def _emit(context, found, prefix, path, module):
     context.edit.set_mesh(
         path, points=points, face_vertex_counts=np.array([4], np.int32), face_vertex_indices=np.arange(4, dtype=np.int32),
         double_sided=True, transform=transform_of(context, prim, None, lambda offset: place),
-        material=_material(context, prim, prefix, path + "/material", module), primvars=[("st", "vertex", _ST, None)],
+        material=_material(context, prim, prefix, path + "/material"), primvars=[("st", "vertex", _ST, None)],
         **{**fields, "marks": {**fields.get("marks", {}), **_ONLY_CAMERAS}})
     context.count("backPlates")
 
 
-def _material(context, prim, prefix, path, module):
+def _material(context, prim, prefix, path):
     """:returns: path of a material that glows as the plate says"""
-    network = module.Network(path)
+    network = _patina.Network(path)
     surface = path + "/surface"
     network.add_node(surface, "ND_surface_unlit")
     picture = _picture(context, prim, prefix + "image")
@@ -75,7 +75,7 @@ def _material(context, prim, prefix, path, module):
         network.set_input(surface, "emission_color", "color3", (0.0, 0.0, 0.0))
     alpha = _picture(context, prim, prefix + "alpha:image")
     if alpha:
-        channels = len(module.read_image(alpha).channels)
+        channels = len(_patina.read_image(alpha).channels)
         if channels in _ALPHAS:
             type_, index = _ALPHAS[channels]
             opacity = _image(network, path + "/alpha", type_, alpha, "raw")

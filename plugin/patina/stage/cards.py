@@ -2,6 +2,7 @@
 """Models that stand as cards: textured sides of their extents, a cross of three planes, or pictures where they were taken."""
 import os
 
+import _patina
 import numpy as np
 
 from . import assets
@@ -73,7 +74,7 @@ def quad_of_picture(metadata):
     return points
 
 
-def emit(context, found, low, high, common, color, module):
+def emit(context, found, low, high, common, color):
     """:param common: fields of the meshes: group, transform"""
     prim = found.prim
     geometry = get(prim, "model:cardGeometry", context.time, "cross")
@@ -85,21 +86,21 @@ def emit(context, found, low, high, common, color, module):
         points = quad(face, low, high, geometry != "box")
         if geometry == "fromTexture":
             try:
-                points = quad_of_picture(module.read_image(file).metadata)
+                points = quad_of_picture(_patina.read_image(file).metadata)
             except RuntimeError as error:
                 context.warn(prim.GetPath(), "model:cardTexture" + face, "cardLeftOut", error)
                 continue
         context.edit.set_mesh(
             path, points=points, face_vertex_counts=np.array([4], np.int32),
             face_vertex_indices=np.arange(4, dtype=np.int32), double_sided=True,
-            material=_material(context, path + "/material", file, module) if file else "",
+            material=_material(context, path + "/material", file) if file else "",
             primvars=[("st", "vertex", _ST, None), ("displayColor", "constant", np.array([color], np.float32))],
             **common)
 
 
-def _material(context, path, file, module):
+def _material(context, path, file):
     """As UsdImaging makes it. :returns: path of a material that shows a picture and cuts out where it is transparent"""
-    network = module.Network(path)
+    network = _patina.Network(path)
     network.add_node(path + "/surface", "UsdPreviewSurface")
     network.add_node(path + "/texture", "UsdUVTexture")
     network.add_node(path + "/st", "UsdPrimvarReader_float2")

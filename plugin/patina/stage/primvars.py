@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Primvars as arrays."""
+import _patina
 import numpy as np
 from pxr import UsdGeom
 
@@ -84,8 +85,6 @@ def in_rendering_space(context, prim, attribute, values):
     space, rendering = context.color_spaces.space_of(attribute), context.options.rendering_color_space
     if not space and not (rendering and attribute.GetRoleName() == "Color"):
         return values
-    import _patina
-
     converted = _patina.colors_to_rendering(values, space, rendering)
     if converted is None:
         context.warn(prim.GetPath(), attribute.GetName(), "valuesSpaceUnknown", space)

@@ -208,8 +208,8 @@ def test_materials_alone_are_read_past_broken_ones(tmp_path, statements, monkeyp
     stage, warnings = Usd.Stage.Open(str(tmp_path / "stage.usda")), []
     assert [path for path, _ in read_materials(stage, warnings)] == ["/m", "/n"] and not warnings
 
-    def fails(context, prim, path, module, own=readMaterials.network_of):
-        return own(context, prim, path, module) if path == "/n" else {}["x"]
+    def fails(context, prim, path, own=readMaterials.network_of):
+        return own(context, prim, path) if path == "/n" else {}["x"]
 
     monkeypatch.setattr(readMaterials, "network_of", fails)
     assert [path for path, _ in read_materials(stage, warnings)] == ["/n"]

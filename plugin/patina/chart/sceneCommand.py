@@ -11,6 +11,7 @@ from patina.chart.sceneRenders import BACKENDS, DEFAULT_WIDTH, WORDS
 from patina.cli import compiled, imageMetrics, methods, outputs, overrides, recordFlags
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
+from patina.cli.usd import reader
 
 DEFAULT_SAMPLES, DEFAULT_TOLERANCES = 64, "0.05,0.01"
 
@@ -102,9 +103,7 @@ def _chart(stage, arguments, chosen, progress):
 
 def failures():
     """:returns: errors that end one stage of several"""
-    from patina.stage import StageError
-
-    return CommandError, StageError, UsageError, RuntimeError, OSError, MemoryError
+    return CommandError, reader.StageError, UsageError, RuntimeError, OSError, MemoryError
 
 
 def problem_of(error):

@@ -8,6 +8,7 @@ import numpy as np
 from patina.experiment import LUMINANCE
 from patina.cli import compiled, openStage, overrides
 from patina.cli.errors import CommandError
+from patina.cli.usd import reader
 
 BACKENDS = ("embree", "raster")
 WORDS = {"embree": "path tracer", "raster": "rasterizer"}
@@ -34,8 +35,6 @@ class StageRenders:
     """:raises CommandError, StageError: where the stage cannot be read"""
 
     def __init__(self, path, arguments, deadline=None):
-        from patina import stage as reader
-
         self.module = compiled.load()
         self.arguments, self.deadline = arguments, deadline
         begin = time.perf_counter()

@@ -5,6 +5,7 @@ import os
 from patina import inputs
 from patina.cli import compiled, openStage, overrides
 from patina.cli.errors import CommandError
+from patina.cli.usd import reader
 from patina.library import catalog
 
 MATERIAL_HELP = ("FILE[:/prim/path] of a stage, FILE.mtlx[:name], or library:NAME of Patina's own (patina view --library shows "
@@ -72,8 +73,6 @@ def _of_document(file, warnings):
 
 
 def _of_stage(file, set_texts, warnings):
-    from patina import stage as reader
-
     stage = openStage.open_stage(file)
     overrides.apply(stage, set_texts)
     return reader.read_materials(stage, warnings)

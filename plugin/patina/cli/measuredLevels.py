@@ -10,10 +10,9 @@ import dataclasses
 import math
 
 import numpy as np
-from pxr import Usd
 
+from patina.cli.usd import Usd, reader
 from patina.experiment import LUMINANCE, relative_error
-from patina.stage import levels, read_stage
 
 SHARE = 0.1  # of a tolerance, for the errors of all roots together
 _SAMPLES = 2**18  # of a level, where 16 or fewer of a pixel are as many
@@ -37,7 +36,7 @@ def choose(module, stage, options, size_of, tolerance):
     :param tolerance: more than 0
     :returns: (list of Roots whose levels may be chosen, the tolerance that is left for everything else)"""
     with module.Scene().edit() as edit:  # what there is to warn of, the picture's own reading tells
-        camera, found = levels.roots(stage, edit, options)
+        camera, found = reader.levels.roots(stage, edit, options)
     options = dataclasses.replace(options, camera=camera)
     roots = []
     for path, (names, truth, bounds) in found.items():
@@ -76,8 +75,8 @@ def _draw(module, stage, options, path, bounds, size_of):
     alone.ExpandPopulationMask()  # materials and skeletons
     scene, film = module.Scene(), module.Film()
     with scene.edit() as edit:
-        info = read_stage(alone, edit, dataclasses.replace(options, levels={root: 0}, headlight=True,
-                                                          shutter=(0.0, 0.0)))
+        info = reader.read_stage(alone, edit, dataclasses.replace(options, levels={root: 0}, headlight=True,
+                                                                 shutter=(0.0, 0.0)))
     camera = scene.camera(info.camera)
     width, height = size_of(camera)
     settings = {"width": width, "height": height, "samples": 16, "maxDepth": 2, "seed": 1, "checkpointSeconds": 0.0}

@@ -21,11 +21,12 @@ import dataclasses
 import functools
 import os
 
-from patina.cli import (checkpoints, compiled, denoiser, frames, goOn, openStage, outputs, overrides, planText,
-                        recordFlags, renderSettings, reports, shots, snapshots, statistics, verbose)
+from patina.cli import (checkpoints, compiled, denoiser, frames, goOn, measuredLevels, openStage, outputs, overrides, planText,
+                        products, recordFlags, renderSettings, reports, shots, snapshots, statistics, verbose)
 from patina.cli.errors import CommandError, TemporaryError
 from patina.cli.interrupts import Endings, Interrupts
 from patina.cli.progress import Progress
+from patina.cli.usd import reader
 from patina.farm import partJob
 
 add_arguments = recordFlags.add_arguments
@@ -188,18 +189,14 @@ class _Job:
             return True
         if info.headlight or info.uses_camera or self.levels or camera not in info.cameras:
             return False
-        from patina.cli.products import prim_value
-
         prim = self.stage.GetPrimAtPath(camera)
-        return not blurs or all((prim_value(prim.GetAttribute("shutter:" + end), frame) or 0.0) == time
+        return not blurs or all((products.prim_value(prim.GetAttribute("shutter:" + end), frame) or 0.0) == time
                    for end, time in zip(("open", "close"), info.shutter))
 
     def _blurs(self, shot):
         return dict(self.settings, **shot.settings)["enableMotionBlur"]
 
     def _translate(self, shot):
-        from patina import stage as reader
-
         wanted = [aov for shot in self.shots for aov in shot.aovs()]
         options = reader.StageOptions(
             frame=shot.frame, purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
@@ -216,8 +213,6 @@ class _Job:
 
     def _measured(self, shot, options):
         """:returns: the options with levels of detail by their errors"""
-        from patina.cli import measuredLevels
-
         settings = dict(self.settings, **shot.settings)
         self.levels, self.tolerance = measuredLevels.choose(
             self.module, self.stage, options, lambda camera: shots.size_of(shot, camera, settings["pixelAspectRatio"]),

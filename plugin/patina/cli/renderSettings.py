@@ -7,6 +7,7 @@ import math
 
 from patina.cli import compiled, recordFlags, settingFlags
 from patina.cli.errors import CommandError
+from patina.cli.usd import Sdf, Usd, UsdRender
 
 STAGE = "stage"  # --settings stage: the one that the stage's own metadata names
 _BACKENDS = ("embree", "raster")
@@ -19,8 +20,6 @@ class SettingsPrim:
         """:param path: of the prim, or STAGE
         :param given: names of arguments that were typed
         :raises CommandError: where there is none"""
-        from pxr import Sdf, UsdRender
-
         if path == STAGE:
             found = UsdRender.Settings.GetStageRenderSettings(stage)
             if not found:
@@ -46,8 +45,6 @@ class SettingsPrim:
     def value(self, product, name, time=None):
         """:param product: a prim that may override it, or None
         :returns: of an attribute of UsdRenderSettingsBase"""
-        from pxr import Usd
-
         time = Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)
         attribute = (self._authoring(product, name) or self.prim).GetAttribute(name)
         return attribute.Get(time) if attribute else None
@@ -109,8 +106,6 @@ class SettingsPrim:
 def with_pass(arguments, stage):
     """:returns: the arguments with the settings that --renderPassPrimPath names by its renderSource
     :raises CommandError: where there is no such pass"""
-    from pxr import Sdf, UsdRender
-
     path = arguments.renderPassPrimPath
     if not path:
         return arguments

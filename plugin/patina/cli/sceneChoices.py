@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Choices for a stage as a whole, by asking the back end itself, which builds the scene and samples one pixel of it."""
-from patina.cli import compiled, openStage, overrides
+from patina.cli import compiled, measuredLevels, openStage, overrides
 from patina.cli.errors import CommandError
+from patina.cli.usd import reader
 
 WIDTH = 960
 
@@ -13,15 +14,11 @@ def of_stage(file, set_texts, forced, tolerance, backend, measure_levels=False):
     :returns: list of choices as Renderer.progress() tells them, material path -> plan as this back end draws it, and
         measuredLevels.Roots
     """
-    from patina import stage as reader
-
     module = compiled.load()
     stage = openStage.open_stage(file)
     overrides.apply(stage, set_texts)
     scene, options, levels = module.Scene(), reader.StageOptions(), []
     if measure_levels:
-        from patina.cli import measuredLevels
-
         levels, tolerance = measuredLevels.choose(module, stage, options, _size, tolerance)
         options.levels = {root.path: root.chosen for root in levels}
     with scene.edit() as edit:

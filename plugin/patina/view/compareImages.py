@@ -2,7 +2,8 @@
 """The path-traced pictures of --compare: each material on the first shape, or on every one, from the first camera."""
 import numpy as np
 
-from patina.cli import compiled
+from patina.cli import compiled, openStage, overrides
+from patina.cli.usd import reader
 from patina.view import images, reference, stageScene
 
 
@@ -12,9 +13,6 @@ def lit_scene(file, set_texts=()):
     scene = module.Scene()
     if not file:
         return scene
-    from patina import stage as reader
-    from patina.cli import openStage, overrides
-
     stage = openStage.open_stage(file)
     overrides.apply(stage, set_texts)
     with scene.edit() as edit:

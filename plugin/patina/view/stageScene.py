@@ -5,6 +5,7 @@ import numpy as np
 from patina import messages
 from patina.cli import compiled, openStage, overrides
 from patina.cli.errors import CommandError
+from patina.cli.usd import reader
 
 MAX_SHAPES = 4
 MAX_ENVIRONMENTS = 16  # domes; each is a texture of the page
@@ -13,8 +14,6 @@ MAX_LIGHTS = 256  # each is a row of a texture, a folder of the panel, and work 
 
 class StageScene:
     def __init__(self, file, set_texts):
-        from patina import stage as reader
-
         self.file = file
         stage = openStage.open_stage(file)
         overrides.apply(stage, set_texts)

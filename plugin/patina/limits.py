@@ -4,14 +4,16 @@ import argparse
 import functools
 import sys
 
+from patina.cli import rows
+from patina.cli.compiled import _patina
+from patina.cli.errors import UsageError
+
 _TABLE = "base/limits.def"
 
 
 @functools.lru_cache(maxsize=None)
 def table():
     """:returns: dict of name -> (default, least value, largest value, "unit: of what")"""
-    from patina.cli import rows
-
     return {row.values[0]: (*map(int, row.values[1:4]), row.text(4)) for row in rows.read(_TABLE, "LIMIT")}
 
 
@@ -53,9 +55,6 @@ def apply(texts):
 
     :param texts: NAME=VALUE of each
     :raises UsageError: where one is none"""
-    from patina.cli import compiled
-    from patina.cli.errors import UsageError
-
     wanted = {}
     for text in texts:
         name, equals, number = text.partition("=")
@@ -66,6 +65,6 @@ def apply(texts):
             raise UsageError(f"patina: --limit {text}: {name} is from {table()[name][1]} to {table()[name][2]}")
     if not wanted and "_patina" not in sys.modules:
         return
-    problem = compiled.load().set_limits(wanted)
+    problem = _patina.set_limits(wanted)
     if problem:
         raise UsageError(f"patina: --limit: {problem}")

@@ -8,7 +8,8 @@ import sys
 from patina import inputs
 from patina.chart import machine, sceneCharts, sceneLadder, scenePage, sceneResults
 from patina.chart.sceneRenders import BACKENDS, DEFAULT_WIDTH, WORDS
-from patina.cli import compiled, imageMetrics, methods, outputs, overrides, recordFlags
+from patina.cli import imageMetrics, methods, outputs, overrides, recordFlags
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
 from patina.cli.usd import reader
@@ -118,7 +119,7 @@ def shown(text, keep=""):
 
 def truth(chosen):
     """Methods of the reference: those that change what a material means, not how exactly it is computed."""
-    measured = {row["point"] for row in compiled.load().method_table()}
+    measured = {row["point"] for row in _patina.method_table()}
     return {point: name for point, name in chosen.items() if point not in measured}
 
 

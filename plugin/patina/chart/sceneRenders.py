@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from patina.experiment import LUMINANCE
-from patina.cli import compiled, openStage, overrides
+from patina.cli import openStage, overrides
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.cli.usd import reader
 
@@ -35,12 +36,11 @@ class StageRenders:
     """:raises CommandError, StageError: where the stage cannot be read"""
 
     def __init__(self, path, arguments, deadline=None):
-        self.module = compiled.load()
         self.arguments, self.deadline = arguments, deadline
         begin = time.perf_counter()
         self.stage = openStage.open_stage(path)
         overrides.apply(self.stage, arguments.set)
-        self.scene = self.module.Scene()
+        self.scene = _patina.Scene()
         with self.scene.edit() as edit:
             self.info = reader.read_stage(self.stage, edit, reader.StageOptions(camera=arguments.camera))
         self.seconds_to_read = time.perf_counter() - begin
@@ -75,7 +75,7 @@ class StageRenders:
         :raises OutOfTime: when the time is over, and there is no sample or `partial` is not asked for
         :raises CommandError: where the back end is not there or the render fails"""
         renderer = self._renderer(backend)
-        film = self.module.Film()
+        film = _patina.Film()
         begin, used = time.perf_counter(), time.process_time()
         renderer.start(self.scene, self.info.camera, settings, film)
         ended = renderer.wait(-1.0 if self.deadline is None else max(0.0, self.left()))
@@ -98,9 +98,9 @@ class StageRenders:
         if backend in self.missing:
             raise CommandError(self.missing[backend])
         if backend not in self.renderers:
-            made = self.module.make_renderer(backend)
+            made = _patina.make_renderer(backend)
             if made.progress()["backend"] != backend:
-                made.start(self.scene, self.info.camera, self.settings(1, 0), self.module.Film())
+                made.start(self.scene, self.info.camera, self.settings(1, 0), _patina.Film())
                 made.stop()
                 self._lost(backend)
             self.renderers[backend] = made

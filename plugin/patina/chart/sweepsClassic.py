@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Classic lobes at grazing angles: Ward, Cook and Torrance's V-cavities, Phong and Blinn."""
+from math import erf
+
 import numpy as np
 
 from patina.chart import probes
@@ -35,7 +37,6 @@ def smith_beckmann(cos_o, cos_i, alpha):
     h = (o + i) / np.linalg.norm(o + i)
     tan2 = (h[0] / h[1]) ** 2
     d = np.exp(-tan2 / alpha ** 2) / (np.pi * alpha ** 2 * h[1] ** 4)
-    from math import erf
     def smith(c):
         a = c / (alpha * np.sqrt(max(1.0 - c * c, 1e-12)))
         return 0.5 * (erf(a) - 1.0 + np.exp(-a * a) / (a * np.sqrt(np.pi)))

@@ -4,7 +4,7 @@ import numpy as np
 
 from patina.chart import probes
 from patina.chart.sweeps import Sweep, always
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 
 
 def _tangent_unguarded(tangent):
@@ -90,7 +90,7 @@ def _mirrored(count):
 
 def _no_number(count):
     """A tangent that is no number, from a pattern, as a mesh without texture coordinates gives it."""
-    patina, x = compiled.load(), list(np.linspace(0.05, 0.95, count))
+    patina, x = _patina, list(np.linspace(0.05, 0.95, count))
     network = patina.Network("/sweep")
     for name, kind in (("huge", "ND_multiply_vector3"), ("none", "ND_subtract_vector3"), ("bsdf", "ND_conductor_bsdf"),
                        ("surface", "ND_surface")):

@@ -9,7 +9,8 @@ import tempfile
 import numpy as np
 
 from patina.chart.sweeps import Sweep, always
-from patina.cli import compiled
+from patina.cli import main
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 
 WIDTH, SIDE = 48, 32
@@ -95,27 +96,24 @@ def irradiance(sky, order=None):
 
 def render(sky, bsdf, backend, samples, *arguments):
     """:returns: red of the middle row"""
-    from patina.cli import main
-
     with tempfile.TemporaryDirectory() as folder:
         stage, texture, image = (os.path.join(folder, name) for name in ("ball.usda", "sky.exr", "image.exr"))
-        compiled.load().write_image(texture, np.ascontiguousarray(sky, np.float32))
+        _patina.write_image(texture, np.ascontiguousarray(sky, np.float32))
         with open(stage, "w", encoding="utf-8") as file:
             file.write(STAGE % {"sky": texture, "bsdf": bsdf, "aperture": 60.0 / WIDTH})
         code = main.main(["record", stage, image, "--quiet", "--backend", backend, "--samples", str(samples), "-w", str(WIDTH),
                           "--maxDepth", "1", *arguments])
         if code != 0:
             raise CommandError(f"the ball of the atlas does not render with {backend}")
-        found = compiled.load().read_image(image)
+        found = _patina.read_image(image)
         pixels = np.array(found.pixels)
         return pixels[pixels.shape[0] // 2, 1:-1, found.channels.index("R")].astype(float)
 
 
 def has_raster():
     """:returns: whether the rasterizer runs here"""
-    patina = compiled.load()
     try:
-        patina.RasterProbe(patina.display_color_network())
+        _patina.RasterProbe(_patina.display_color_network())
     except (AttributeError, RuntimeError, TypeError):
         return False
     return True

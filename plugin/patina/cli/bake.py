@@ -17,7 +17,8 @@ import sys
 import numpy as np
 
 from patina import limits
-from patina.cli import bakeOutput, compiled, materials, outputs, statistics
+from patina.cli import bakeOutput, materials, outputs, statistics
+from patina.cli.compiled import _patina
 from patina.cli.bakeOutput import NORMALS
 from patina.cli.errors import CommandError, UsageError
 
@@ -54,7 +55,7 @@ def run(arguments):
     name, network = found[0]
     if not arguments.in_place:
         outputs.check(arguments.output, bakeOutput.EXTENSIONS)
-    translated = compiled.load().translate_material(network, arguments.to, warnings)
+    translated = _patina.translate_material(network, arguments.to, warnings)
     if translated.empty:
         raise CommandError(f"{arguments.material}: {warnings[-1]['message'] if warnings else 'nothing to bake'}")
     inputs = evaluate(translated, arguments.to, arguments.resolution, warnings)
@@ -67,9 +68,8 @@ def evaluate(network, target, resolution, warnings):
 
     :returns: name -> (type, number, text, tuple, or array of height x width x channels)
     """
-    module = compiled.load()
-    types = module.node_inputs(target)
-    defaults = module.node_defaults(target)
+    types = _patina.node_inputs(target)
+    defaults = _patina.node_defaults(target)
     surface = _surface(network)
     inputs = {}
     for name, value in surface["inputs"].items():
@@ -123,8 +123,7 @@ def _image(network, source, output, kind, resolution, warnings):
 
 def _probe(network, source, output, kind, sign):
     """Light is never negative, so a value is what it gives as light less what its negative gives."""
-    module = compiled.load()
-    copy = module.Network(network.path)
+    copy = _patina.Network(network.path)
     for node in network.nodes():
         copy.add_node(node["path"], node["id"])
         for name, value in node["inputs"].items():
@@ -144,7 +143,7 @@ def _probe(network, source, output, kind, sign):
     copy.add_node(top + "/surface", "ND_surface")
     copy.connect(top + "/surface", "edf", top + "/light")
     copy.set_terminal("surface", top + "/surface")
-    return module.MaterialProbe(copy)
+    return _patina.MaterialProbe(copy)
 
 
 def _constant(image, kind):

@@ -9,7 +9,8 @@ import numpy as np
 
 from patina import messages
 from patina.chart.png import display_values
-from patina.cli import compiled, materials, outputs, tryStage
+from patina.cli import materials, outputs, tryStage
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.cli.usd import Sdf, Usd, UsdShade, reader
 
@@ -189,7 +190,6 @@ def _export(layer, temporary, output):
 
 def _texture(arguments, textures, name, kind, image, warnings):
     """Writes an image. :returns: its file name beside the stage, and its colour space"""
-    module = compiled.load()
     color = kind == "color3"
     pixels = image
     if name in NORMALS:
@@ -203,7 +203,7 @@ def _texture(arguments, textures, name, kind, image, warnings):
         pixels = display_values(pixels)
     # sRGB is applied above, so that no display transform stands between a colour and its file.
     options = {"raw": True, "bits": 16 if name in NORMALS else 8} if png else {"half": True}
-    module.write_image(textures.add(name), np.ascontiguousarray(pixels, np.float32), options=options)
+    _patina.write_image(textures.add(name), np.ascontiguousarray(pixels, np.float32), options=options)
     return textures.name(name), "sRGB" if png and color else "raw"
 
 

@@ -24,7 +24,8 @@ import sys
 import numpy as np
 
 from patina import limits
-from patina.cli import compiled, materials, methods, outputs, statistics
+from patina.cli import materials, methods, outputs, statistics
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
 
 BATCH = 65536  # lines that are worked on at once
@@ -69,13 +70,12 @@ def run(arguments):
 
 
 def _probe(backend, network, chosen):
-    module = compiled.load()
     if backend == "embree":
-        return module.MaterialProbe(network, chosen)
-    if not hasattr(module, "RasterProbe"):
+        return _patina.MaterialProbe(network, chosen)
+    if not hasattr(_patina, "RasterProbe"):
         raise CommandError("this build has no rasterizer")
     try:
-        return module.RasterProbe(network, chosen)
+        return _patina.RasterProbe(network, chosen)
     except RuntimeError as error:
         raise CommandError(f"--backend raster: {error}") from error
 

@@ -23,7 +23,8 @@ import sys
 import numpy as np
 
 from patina import limits, significance
-from patina.cli import binnedDensity, causes, compiled, layers, materials, methods, outputs, statistics
+from patina.cli import binnedDensity, causes, layers, materials, methods, outputs, statistics
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
 
@@ -70,7 +71,7 @@ def run(arguments):
     try:
         for name, network in found:
             work.compiling(name)
-            probe = compiled.load().MaterialProbe(network, chosen)
+            probe = _patina.MaterialProbe(network, chosen)
             warnings += probe.warnings
             work.begin(_steps(probe, arguments))
             results.append((name, check(probe, arguments, work.step)))

@@ -9,6 +9,8 @@ import argparse
 import importlib
 import shlex
 
+from patina.cli import main
+
 SHELLS = ("bash", "zsh")
 
 
@@ -23,8 +25,6 @@ def run(arguments):
 def table():
     """:returns: command -> dict of flag -> (choices, text of --help), from the parsers that --help is made of; what stands
     first is listed under the command's own name"""
-    from patina.cli import main
-
     found = {}
     for name, module in main.COMMANDS.items():
         parser = argparse.ArgumentParser(prog=f"patina {name}")
@@ -68,8 +68,6 @@ complete -o bashdefault -o default -F _patina patina"""
 
 
 def _zsh(commands):
-    from patina.cli import main
-
     def listed(pairs):
         return " ".join(shlex.quote(f"{name}:{text}") for name, text in pairs)
 

@@ -16,7 +16,8 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 from patina import limits
-from patina.cli import causes, compiled, materials, methods, outputs, planText, recordFlags, sceneChoices, statistics
+from patina.cli import causes, materials, methods, outputs, planText, recordFlags, sceneChoices, statistics
+from patina.cli.compiled import _patina
 
 
 def add_arguments(parser):
@@ -39,16 +40,15 @@ def run(arguments):
     recordFlags.check_levels(arguments, "explain")
     found, warnings = materials.load(arguments.material, arguments.set, every=True)
     outputs.check_all([arguments.json])
-    module = compiled.load()
     chosen = methods.parse(arguments.method)
     tolerance = arguments.tolerance
     with ThreadPoolExecutor(os.cpu_count()) as pool:  # most of it is reading textures
-        plans = list(pool.map(lambda pair: (pair[0], module.plan_material(pair[1], chosen, tolerance)), found))
+        plans = list(pool.map(lambda pair: (pair[0], _patina.plan_material(pair[1], chosen, tolerance)), found))
     choices, lit, levels = _of_scene(arguments, chosen, tolerance)
     texts = []
     for (name, network), (_, plan) in zip(found, plans):
         planned = {choice["point"]: choice["method"] for choice in plan["choices"]}
-        texts.append((name, module.explain_material(network, warnings, dict(chosen, **planned))))
+        texts.append((name, _patina.explain_material(network, warnings, dict(chosen, **planned))))
     if arguments.json:
         outputs.write_json(arguments.json, {
             "materials": [{"name": name, "text": text, "plan": plan} for (name, text), (_, plan) in zip(texts, plans)],

@@ -6,8 +6,8 @@ lobes, until it leaves. Nothing lies between the layers and they are infinitely 
 import math
 
 import numpy as np
+from patina.cli.compiled import _patina
 
-from patina.cli import compiled
 
 ANGLES = (0.0, 45.0, 75.0)
 BOUNCES = 400  # at most; roulette ends walks long before
@@ -31,7 +31,7 @@ STACKS = {
 
 class _Builder:
     def __init__(self):
-        self.network = compiled.load().Network("/layers")
+        self.network = _patina.Network("/layers")
         self.count = 0
 
     def node(self, kind, inputs=(), sources=()):
@@ -55,7 +55,7 @@ class _Builder:
 
     def probe(self, bsdf, methods):
         self.network.set_terminal("surface", self.node("ND_surface", sources=[("bsdf", bsdf)]))
-        return compiled.load().MaterialProbe(self.network, methods)
+        return _patina.MaterialProbe(self.network, methods)
 
 
 def scaled(interfaces, base, methods):

@@ -3,7 +3,8 @@
 import os
 
 from patina import inputs
-from patina.cli import compiled, openStage, overrides
+from patina.cli import openStage, overrides
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.cli.usd import reader
 from patina.library import catalog
@@ -42,7 +43,7 @@ def load(text, set_texts=(), every=False):
     if not os.path.exists(file):
         raise CommandError(f"there is no file {file}")
     inputs.check_regular(file)
-    warnings = list(compiled.load().model_warnings())
+    warnings = list(_patina.model_warnings())
     found = _of_document(file, warnings) if is_document(file) else _of_stage(file, set_texts, warnings)
     if name:
         chosen = [pair for pair in found if pair[0] == name or pair[0].rpartition("/")[2] == name]
@@ -68,7 +69,7 @@ def _list(found):
 
 def _of_document(file, warnings):
     inputs.note_document(file)
-    networks = compiled.load().read_mtlx(file, warnings)
+    networks = _patina.read_mtlx(file, warnings)
     return [(network.path[len(file) + 1:], network) for network in networks]
 
 
@@ -86,6 +87,6 @@ def _override(network, set_texts):
             raise CommandError(f"--set {text}: write it as NODE.INPUT=VALUE")
         inputs[target] = value
     try:
-        return compiled.load().override_material(network, inputs)
+        return _patina.override_material(network, inputs)
     except ValueError as error:
         raise CommandError(f"--set: {error}") from error

@@ -3,7 +3,7 @@
 import math
 import re
 
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.usd import Gf, Sdf, Tf, Usd, UsdShade
 
@@ -76,7 +76,7 @@ def _defined_type(node, name):
     types = {"boolean": "bool", "integer": "int", "float": "float", "vector2": "float2", "vector3": "float3",
              "vector4": "float4", "color3": "color3f", "color4": "color4f", "matrix33": "matrix3d",
              "matrix44": "matrix4d", "string": "string", "filename": "asset"}
-    kind = compiled.load().node_inputs(node or "").get(name)
+    kind = _patina.node_inputs(node or "").get(name)
     return Sdf.ValueTypeNames.Find(types[kind]) if kind in types else None
 
 

@@ -7,7 +7,8 @@ may be somebody else's.
 import os
 from collections import OrderedDict
 
-from patina.cli import compiled, frames, recordFlags, rows, settingFlags, shot
+from patina.cli import frames, recordFlags, rows, settingFlags, shot
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.cli.usd import Usd, UsdRender
 
@@ -197,7 +198,7 @@ def _problem_of(aov):
     if "lpe:" not in aov:
         return ""
     try:
-        compiled.load().channels_of_aov(aov)
+        _patina.channels_of_aov(aov)
     except ValueError as error:
         return str(error)
     return ""

@@ -5,7 +5,8 @@ products with their AOVs (products.py), and render settings by the names `patina
 import argparse
 import math
 
-from patina.cli import compiled, recordFlags, settingFlags
+from patina.cli import recordFlags, settingFlags
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.cli.usd import Sdf, Usd, UsdRender
 
@@ -148,7 +149,7 @@ def applied(arguments, prim):
 
 
 def _rendering_space(merged, prim, name, value):
-    if compiled.load().rendering_space(str(value)) is None:
+    if _patina.rendering_space(str(value)) is None:
         prim.warn(prim.path, name, "renderingSpaceUnknown", value)
     else:
         merged.renderingColorSpace = str(value)
@@ -156,7 +157,7 @@ def _rendering_space(merged, prim, name, value):
 
 def _method(merged, prim, name, point, value):
     """A `patina:method:` attribute."""
-    problem = compiled.load().check_methods({point: str(value)})
+    problem = _patina.check_methods({point: str(value)})
     if problem:
         prim.warn(prim.path, name, "methodKept", problem)
     else:

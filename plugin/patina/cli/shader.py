@@ -15,9 +15,13 @@ A text describes one material, so --set is applied first. For a language with se
 """
 import sys
 
+import numpy as np
+
 from patina import limits
-from patina.cli import compiled, materials, methods, outputs, statistics
+from patina.cli import materials, methods, outputs, statistics
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
+from patina.shader import document, generators, own
 
 OWN = ("glsl", "essl")
 GENERATED = ("osl", "mdl", "msl")
@@ -78,8 +82,6 @@ def _check_usage(arguments):
 
 
 def _own(network, arguments, warnings):
-    from patina.shader import own
-
     text, material = own.shader(network, arguments.target, methods.parse(arguments.method), arguments.largest_texture)
     warnings += material["warnings"]
     if arguments.albedo_table:
@@ -92,22 +94,17 @@ def _own(network, arguments, warnings):
 
 
 def _write_table(path):
-    import numpy
-
-    module = compiled.load()
-    table = numpy.asarray(module.albedo_table(), numpy.float32)
+    table = np.asarray(_patina.albedo_table(), np.float32)
     rows = -(-table.size // 1024)
-    image = numpy.zeros((rows, 1024, 1), numpy.float32)
+    image = np.zeros((rows, 1024, 1), np.float32)
     image.reshape(-1)[:table.size] = table
     with outputs.Together() as files:
-        module.write_image(files.add(path), image)
+        _patina.write_image(files.add(path), image)
 
 
 def _of_document(name, network, arguments, warnings):
-    from patina.shader import document
-
     if arguments.form == "expanded":
-        network, found = compiled.load().expand_material(network)
+        network, found = _patina.expand_material(network)
         warnings += found
     try:
         text = document.document(network, name.rstrip("/").rpartition("/")[2], warnings)
@@ -117,8 +114,6 @@ def _of_document(name, network, arguments, warnings):
 
 
 def _generated(text, arguments, warnings):
-    from patina.shader import generators
-
     if not generators.installed():
         raise CommandError(f"--target {arguments.target}: MaterialX's generators are missing; `pip install materialx` has them")
     text = generators.harmless(text, warnings)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""OpenUSD and the reader of stages, loaded when something of them is first asked for: --help and wrong usage need none of it."""
+"""OpenUSD and the reader of stages, loaded when something of them is first asked for: --help and usage errors need neither."""
 import importlib
 
 

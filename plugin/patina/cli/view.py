@@ -11,6 +11,8 @@ import sys
 from patina import limits
 from patina.cli import materials, methods, outputs, statistics
 from patina.cli.errors import UsageError
+from patina.library import page
+from patina.view import build
 
 DEMOS = {"classic": "the classic reflectance models as steel and hematite, and the limits of each",
          "layers": "standard_surface with its layers switched on one by one"}
@@ -59,8 +61,6 @@ def run(arguments):
 
 
 def _library(arguments):
-    from patina.library import page
-
     if arguments.material or arguments.demo:
         raise UsageError("patina view: --library brings its own materials")
     outputs.check_all([arguments.output])
@@ -68,8 +68,6 @@ def _library(arguments):
 
 
 def _page(arguments):
-    from patina.view import build
-
     if arguments.demo:
         if arguments.material:
             raise UsageError("patina view: --demo brings its own materials")

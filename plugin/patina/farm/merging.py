@@ -5,40 +5,41 @@ import json
 
 from patina import messages
 from patina.cli import denoiser, planText, statistics
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.farm import partial
 
 
-def merge(module, parts, image, threads=0):
+def merge(parts, image, threads=0):
     """Merges all parts and writes the image.
 
     :param parts: parts.Parts without missing ones
     :returns: statistics.Statistics of the frame
     :raises CommandError: where a file is damaged or the image cannot be written"""
     try:
-        return _merge(module, parts, image, threads)
+        return _merge(parts, image, threads)
     except partial.FOREIGN as error:
         raise partial.foreign(parts.first.file) from error
 
 
-def _merge(module, parts, image, threads):
+def _merge(parts, image, threads):
     first = parts.first
     arguments = argparse.Namespace(**first.arguments)
     arguments.image, arguments.threads, arguments.denoise = image, threads, first.denoise
     if arguments.denoise:
-        denoiser.prepare(module)
-    errors = module.PartialErrors() if first.noise > 0.0 else None
-    film, reports = _film(module, parts, 0, errors)
+        denoiser.prepare(_patina)
+    errors = _patina.PartialErrors() if first.noise > 0.0 else None
+    film, reports = _film(parts, 0, errors)
     if errors:  # the whole was done before tiles that did not know it
         limit = errors.samples_of_whole(first.noise, int(first.settings["minSamples"]))
         if limit:
-            film, reports = _film(module, parts, limit, None)
+            film, reports = _film(parts, limit, None)
     merged = _MergedStatistics(arguments, first.frame, image, reports)
     merged.rendered(_state(reports), film)
     if arguments.denoise:
-        denoiser.run(module, film, threads)
+        denoiser.run(_patina, film, threads)
     try:
-        module.write_images(film, image, first.options,
+        _patina.write_images(film, image, first.options,
                             merged.metadata(arguments, first.settings, first.camera))
     except RuntimeError as error:
         raise CommandError(str(error)) from error
@@ -46,14 +47,14 @@ def _merge(module, parts, image, threads):
     return merged
 
 
-def _film(module, parts, samples, errors):
+def _film(parts, samples, errors):
     """:param samples: the most of a tile; 0: all
     :param errors: _patina.PartialErrors that is told those of the tiles, or None
     :returns: the film of all parts, and their reports"""
-    film, reports = module.Film(), []
+    film, reports = _patina.Film(), []
     for description in parts.in_order():
         try:
-            text = module.merge_partial(film, description.file, description.noise, int(description.settings["minSamples"]),
+            text = _patina.merge_partial(film, description.file, description.noise, int(description.settings["minSamples"]),
                                         samples, errors)
             reports.append(_report(text))
         except RuntimeError as error:

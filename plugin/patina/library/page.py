@@ -6,7 +6,6 @@ import re
 
 from patina import library, pagePolicy, report
 from patina.chart import png
-from patina.cli import statistics
 from patina.cli.progress import Progress
 from patina.library import catalog, pictures
 

@@ -13,11 +13,11 @@ patina.regression.plugin --patina-scenes FOLDER`. The tests need SciPy.
 import importlib.util
 import os
 import shlex
-import time
 import warnings
 
 import pytest
 
+from patina.cli.compiled import _patina
 from patina.regression.scenes import Folder, SceneError
 
 REPORTED = "patina stage"  # of a test's user properties, which pytest-xdist brings from its processes
@@ -214,7 +214,6 @@ class _Stage(pytest.Item):
 
 
 def _write(path, image):
-    from patina.cli import compiled
 
     os.makedirs(os.path.dirname(path), exist_ok=True)
-    compiled.load().write_image(path, image.astype("float32"))
+    _patina.write_image(path, image.astype("float32"))

@@ -6,6 +6,7 @@ import re
 
 from patina import pagePolicy, report
 from patina.cli import planText, shots
+from patina.cli.compiled import _patina
 from patina.report import pictures, sections
 from patina.view.page import as_json, finite
 
@@ -29,7 +30,7 @@ def document(job, film, shot, settings, info):
     window = settings.get("dataWindow") or (0, 0, film.width - 1, film.height - 1)
     if window[2] < window[0] or window[3] < window[1]:
         window = (0, 0, film.width - 1, film.height - 1)
-    data = {"layers": _layers(job.module, film, options, error, settings["aovs"]), "probe": pictures.probe(film, error),
+    data = {"layers": _layers(film, options, error, settings["aovs"]), "probe": pictures.probe(film, error),
             "colors": pictures.colormap(), "prims": job.scene.paths("geometry"), "origin": [0, 0]}
     for layer in data["layers"]:
         layer["label"] = LABELS.get(layer["name"], layer["name"])
@@ -45,11 +46,11 @@ def document(job, film, shot, settings, info):
     return re.sub("PATINA_(POLICY|TITLE|STYLE|BODY|DATA|SCRIPT)", lambda mark: parts[mark.group(1)], _web("report.html"))
 
 
-def _layers(module, film, options, error, aovs):
+def _layers(film, options, error, aovs):
     """:returns: list of pictures, those that say most first"""
     counts = film.resolve("sampleCount")
     unseen = counts <= 0
-    made = [{"name": "color", "uri": pictures.shown(module, film, options), "legend": None},
+    made = [{"name": "color", "uri": pictures.shown(film, options), "legend": None},
             pictures.heat("error", error, unit="%", log=True, missing=unseen),
             pictures.heat("sampleCount", counts.astype(float), missing=unseen)]
     names = list(dict.fromkeys(["albedo", "normal", "depth", "primId", *aovs]))
@@ -70,5 +71,5 @@ def _materials(job, most=60):
     for path in paths[:most]:
         plan = state["plans"].get(path)
         methods = dict(job.settings["methods"], **({c["point"]: c["method"] for c in plan["choices"]} if plan else {}))
-        found.append((path, plan, job.module.explain_material(job.scene.material(path), [], methods)))
+        found.append((path, plan, _patina.explain_material(job.scene.material(path), [], methods)))
     return found

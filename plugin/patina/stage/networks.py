@@ -78,7 +78,7 @@ class _Translation:
         for name in ("mtlx:light", "light"):
             output = material.GetOutput(name)
             sources = UsdShade.Utils.GetValueProducingAttributes(output, True) if output else []
-            if sources and not "surface" in self.network.terminals():
+            if sources and "surface" not in self.network.terminals():
                 self._terminal("surface", UsdShade.Shader(sources[0].GetPrim()), "out")
             elif sources:
                 self._warn(self.prim, output.GetFullName(), "materialLightIgnored")

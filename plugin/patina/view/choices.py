@@ -4,7 +4,7 @@ beforehand while there are few; what is left is shown as fixed, with the reason.
 import itertools
 import os
 
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.view import live
 
 MAX_PROGRAMS = 24  # of a material
@@ -60,12 +60,11 @@ def _plain(kind, value):
 
 def find(network, live_inputs):
     """:returns: the Choices and the Fixed inputs of the nodes below the surface, without the live ones"""
-    module = compiled.load()
     moved = {(i.node, i.name) for i in live_inputs}
     choices, fixed = [], []
     for node in live.reachable(network):
-        defaults, words = module.node_defaults(node["id"]), module.node_words(node["id"])
-        for name, kind in module.node_inputs(node["id"]).items():
+        defaults, words = _patina.node_defaults(node["id"]), _patina.node_words(node["id"])
+        for name, kind in _patina.node_inputs(node["id"]).items():
             if kind not in ("boolean", *_REASONS) or name in node["connections"] or (node["path"], name) in moved:
                 continue
             authored = node["inputs"].get(name)

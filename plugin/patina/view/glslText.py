@@ -2,7 +2,7 @@
 """The texts of the page's shaders."""
 import re
 
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.view import live
 
 MAX_UNIFORMS = 128  # WebGL2 promises 224 vectors; more values come by a texture
@@ -17,7 +17,7 @@ def lean(text):
 
 def library():
     """The GLSL that all pages share."""
-    load = compiled.load().shader_text
+    load = _patina.shader_text
     return {name: lean(load(f"shaders/web/{file}.glsl")) for name, file in (
         ("head", "head"), ("page", "page.frag"), ("surface", "surface.vert"),
         ("backdrop", "backdrop.frag"), ("backdropVertex", "backdrop.vert"))}

@@ -4,7 +4,7 @@ import math
 import os
 import re
 
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.cli.materials import is_document
 from patina.view import live
 
@@ -73,7 +73,7 @@ def whole_material(name, network, moved, folder):
     prims = [{"path": root, "spec": "def Material", "lines": lines}]
     for node in nodes:
         own = [f"uniform token info:id = {_quoted(node['id'])}"]
-        known = compiled.load().node_inputs(node["id"])
+        known = _patina.node_inputs(node["id"])
         for key, value in node["inputs"].items():
             if (node["path"], key) in open_inputs or value["type"] not in _TYPES or not _NAME.fullmatch(key):
                 continue

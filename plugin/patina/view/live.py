@@ -3,8 +3,8 @@
 authored value. So the text of the material keeps them open, the page hands in what its sliders say,
 and every other host, which has no such primvars, shows the material as authored."""
 import math
+from patina.cli.compiled import _patina
 
-from patina.cli import compiled
 
 PREFIX = "patinaLive"
 COMPONENTS = {"boolean": 1, "integer": 1, "float": 1, "vector2": 2, "vector3": 3, "vector4": 4, "color3": 3, "color4": 4}
@@ -34,7 +34,7 @@ def linear(value):
     :returns: its value, a colour's in linear Rec.709"""
     if not value["type"].startswith("color") or not value["color_space"]:
         return value["value"]
-    return compiled.load().color_to_rendering(value["value"], value["color_space"]) or value["value"]
+    return _patina.color_to_rendering(value["value"], value["color_space"]) or value["value"]
 
 
 def reachable(network):
@@ -54,10 +54,9 @@ def live_inputs(network, limit=LIMIT):
 
     :returns: list of LiveInput of the nodes below the surface, and how many there were beyond the limit
     """
-    module = compiled.load()
     found = []
     for node in reachable(network):
-        types, defaults = module.node_inputs(node["id"]), module.node_defaults(node["id"])
+        types, defaults = _patina.node_inputs(node["id"]), _patina.node_defaults(node["id"])
         for name, kind in types.items():
             if kind not in COMPONENTS or name in node["connections"]:
                 continue
@@ -76,7 +75,7 @@ def live_inputs(network, limit=LIMIT):
 
 def _without_warnings(network, found):
     """Leaves out what is told of only because it is open: inputs that are not shown, where they ask for nothing."""
-    compile_one = compiled.load().web_material
+    compile_one = _patina.web_material
 
     def told(changed):
         made = compile_one(changed, {}, 1)
@@ -108,7 +107,7 @@ def _without_plans(network, found):
     whole = [i for i, live_input in enumerate(found) if live_input.kind in ("boolean", "integer")]
     if not whole:
         return found
-    compile_one = compiled.load().web_material
+    compile_one = _patina.web_material
     calm = len(compile_one(network, {}, 1)["warnings"])
     made = compile_one(with_live(network, found, whole), {}, 1)
     names = {name for name, _ in made["primvars"]} if len(made["warnings"]) <= calm else set()
@@ -118,9 +117,8 @@ def _without_plans(network, found):
 
 def with_live(network, inputs, chosen):
     """A copy of the network with inputs[i] live for i in chosen; primvar PREFIX<i>."""
-    module = compiled.load()
     opened = {(inputs[i].node, inputs[i].name): i for i in chosen}
-    copy = module.Network(network.path)
+    copy = _patina.Network(network.path)
     for node in network.nodes():
         copy.add_node(node["path"], node["id"])
         for name, value in node["inputs"].items():

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A material as the page has it: two texts, its inputs, their controls."""
 from patina import messages
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.view import choices, controls, glslText, images, live, plan
 
@@ -80,10 +80,9 @@ def build(name, network, methods, textures):
     :param textures: a Textures, which gets those of the material
     :returns: dict for the page, the lobes that its texts use, and warnings as texts
     """
-    module = compiled.load()
 
     def compiler(forced):
-        return lambda changed, largest=1: module.web_material(changed, forced, largest)
+        return lambda changed, largest=1: _patina.web_material(changed, forced, largest)
 
     compile_one = compiler(methods)
     inputs, beyond, (made, lean, lobes, chosen) = _authored(name, network, compile_one, textures)

@@ -6,7 +6,7 @@ import tempfile
 
 import numpy as np
 
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 
 FOCAL_LENGTH = 50.0
@@ -36,7 +36,7 @@ def _camera(edit, camera, eye):
 def _dome(edit, folder, environment):
     """:param environment: dict of pixels (linear, top row first), radiance and toLocal"""
     file = os.path.join(folder, "environment.exr")
-    compiled.load().write_image(file, np.ascontiguousarray(environment["pixels"], np.float32))
+    _patina.write_image(file, np.ascontiguousarray(environment["pixels"], np.float32))
     transform = np.eye(4)
     # Columns of the way there are rows here; the way back is its transpose.
     transform[:3, :3] = np.array(environment["toLocal"]).reshape(3, 3).T
@@ -65,10 +65,9 @@ def render(network, mesh, to_world, environment, camera, eye, width, samples, ba
     :param more: further render settings
     :returns: float array (width, width, 3), top row first
     """
-    module = compiled.load()
-    scene = scene or module.Scene()
-    film, renderer = module.Film(), module.make_renderer(backend)
-    settings = dict(module.default_render_settings(), width=width, height=width, samples=samples, tolerance=-1.0,
+    scene = scene or _patina.Scene()
+    film, renderer = _patina.Film(), _patina.make_renderer(backend)
+    settings = dict(_patina.default_render_settings(), width=width, height=width, samples=samples, tolerance=-1.0,
                     filterRadius=0.5, **more)
     with tempfile.TemporaryDirectory() as folder:
         with scene.edit() as edit:

@@ -3,7 +3,8 @@
 import numpy as np
 
 from patina import messages
-from patina.cli import compiled, openStage, overrides
+from patina.cli import openStage, overrides
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.cli.usd import reader
 
@@ -17,11 +18,11 @@ class StageScene:
         self.file = file
         stage = openStage.open_stage(file)
         overrides.apply(stage, set_texts)
-        self.scene = compiled.load().Scene()
+        self.scene = _patina.Scene()
         with self.scene.edit() as edit:
             info = reader.read_stage(stage, edit, reader.StageOptions(headlight=False))
         self.z_up = info.up_axis == "Z"
-        found = compiled.load().web_lights(self.scene)
+        found = _patina.web_lights(self.scene)
         self.lights = [{"name": path.removesuffix("/light_of_mesh").rpartition("/")[2], "row": [float(x) for x in row]}
                        for path, row in found["lights"][:MAX_LIGHTS]]
         self.domes, self.light_table = found["domes"][:MAX_ENVIRONMENTS], found["table"]
@@ -37,7 +38,7 @@ class StageScene:
         :param wanted: prim paths; without any, the first prims that show one of the materials
         :returns: list of (name, mesh, columns of the transform)
         """
-        known = compiled.load().web_shapes(self.scene)
+        known = _patina.web_shapes(self.scene)
         paths = [path for path, _ in known]
         if wanted:
             for path in wanted:
@@ -49,7 +50,7 @@ class StageScene:
         made = []
         for path in chosen:
             try:
-                mesh = compiled.load().web_mesh(self.scene, path)
+                mesh = _patina.web_mesh(self.scene, path)
             except ValueError as error:
                 raise CommandError(f"--shape: {error}") from error
             made.append((path.rpartition("/")[2], _finished(mesh), list(mesh["toWorld"])))

@@ -3,8 +3,6 @@
 
 Cameras see them. They light nothing, cast no shadow, and are in no reflection.
 """
-import os
-
 import _patina
 import numpy as np
 from pxr import Gf
@@ -66,14 +64,14 @@ def _material(context, prim, prefix, path):
     network = _patina.Network(path)
     surface = path + "/surface"
     network.add_node(surface, "ND_surface_unlit")
-    picture = _picture(context, prim, prefix + "image")
+    picture = assets.existing(context, prim, prefix + "image", "backPlateFileMissing")
     if picture:
         color = _image(network, path + "/image", "color3", picture,
                        context.color_spaces.space_of(prim.GetAttribute(prefix + "image"), reads_colors=True) or "auto")
         network.connect(surface, "emission_color", _graded(context, prim, prefix + "luma:", network, color))
     else:
         network.set_input(surface, "emission_color", "color3", (0.0, 0.0, 0.0))
-    alpha = _picture(context, prim, prefix + "alpha:image")
+    alpha = assets.existing(context, prim, prefix + "alpha:image", "backPlateFileMissing")
     if alpha:
         channels = len(_patina.read_image(alpha).channels)
         if channels in _ALPHAS:
@@ -90,16 +88,6 @@ def _material(context, prim, prefix, path):
     network.set_terminal("surface", surface)
     context.edit.set_material(path, network)
     return path
-
-
-def _picture(context, prim, name):
-    """:returns: a file that is there, or ''"""
-    attribute = prim.GetAttribute(name)
-    file = assets.resolve(context, attribute) if attribute and attribute.HasAuthoredValue() else ""
-    if file and not os.path.exists(file):
-        context.warn(prim.GetPath(), name, "backPlateFileMissing", file)
-        return ""
-    return file
 
 
 def _image(network, path, type_, file, space):

@@ -9,7 +9,7 @@ import numpy as np
 from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdRender, UsdUtils
 
 from . import assets, compat, kinds, marks
-from .context import array, get, number, shown
+from .context import array_of, get, number, shown
 from .errors import StageError, one_line
 from .state import Found, State, Walked
 from .transforms import matrix_at, transform_of
@@ -149,7 +149,7 @@ def emit(context, found):
     except (TypeError, ValueError):
         context.warn(prim.GetPath(), "clippingRange", "clippingRangeUnusable")
         near, far = 1.0, 1e6
-    planes = array(context, prim, "clippingPlanes", get(prim, "clippingPlanes", time), 4)
+    planes = array_of(context, prim, "clippingPlanes", 4)
     opens, closes = context.shutter
     transform = transform_of(context, prim, None)
     matrices = transform[1] if isinstance(transform, tuple) else [transform]

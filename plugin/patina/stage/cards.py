@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 """Models that stand as cards: textured sides of their extents, a cross of three planes, or pictures where they were taken."""
-import os
-
 import _patina
 import numpy as np
 
@@ -21,14 +19,7 @@ _ST = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], np.float32)
 def faces_of(context, prim, geometry):
     """:param geometry: cross, box or fromTexture
     :returns: dict from face to texture (empty for none), of the faces that are drawn"""
-    textures = {}
-    for face in _FACES:
-        attribute = prim.GetAttribute("model:cardTexture" + face)
-        file = assets.resolve(context, attribute) if attribute and attribute.HasAuthoredValue() else ""
-        if file and not os.path.exists(file):
-            context.warn(prim.GetPath(), "model:cardTexture" + face, "cardFileMissing", file)
-            file = ""
-        textures[face] = file
+    textures = {face: assets.existing(context, prim, "model:cardTexture" + face, "cardFileMissing") for face in _FACES}
     if geometry == "fromTexture":
         return {face: file for face, file in textures.items() if file}
     if any(textures.values()):
@@ -79,8 +70,7 @@ def emit(context, found, low, high, common, color):
     prim = found.prim
     geometry = get(prim, "model:cardGeometry", context.time, "cross")
     if geometry not in ("cross", "box", "fromTexture"):
-        context.warn(prim.GetPath(), "model:cardGeometry",
-                     "cardGeometryUnknown", shown(geometry))
+        context.warn(prim.GetPath(), "model:cardGeometry", "cardGeometryUnknown", shown(geometry))
     for face, file in faces_of(context, prim, geometry).items():
         path = f"{found.path}/card{face}"
         points = quad(face, low, high, geometry != "box")

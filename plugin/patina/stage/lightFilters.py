@@ -5,7 +5,7 @@ import numpy as np
 from pxr import UsdGeom
 
 from . import assets
-from .context import number, shown, vector
+from .context import number, shown, targets, vector
 from .transforms import transform_of
 
 _PREFIXES = ("inputs:ri:lightFilter:", "inputs:", "ri:lightFilter:", "")
@@ -17,10 +17,8 @@ _IGNORED = {name: idle.split() for names, idle in _patina.ignored_light_filter_i
 
 def of(context, light, group):
     """:returns: what set_light() takes as `filters`; one that cannot be used is left out with a warning"""
-    if not light.HasRelationship("light:filters"):
-        return []
     filters = []
-    for path in light.GetRelationship("light:filters").GetForwardedTargets():
+    for path in targets(light, "light:filters"):
         prim = context.stage.GetPrimAtPath(path)
         if not prim:
             context.warn(light.GetPath(), "light:filters", "filterMissing", path)

@@ -5,7 +5,7 @@ import numpy as np
 from pxr import Gf, UsdGeom, UsdLux, UsdShade
 
 from . import assets, kinds, lightFilters, portals
-from .context import number, shown, vector
+from .context import get, number, shown, targets, vector
 from .networks import network_of_light
 from .primvars import text
 from .transforms import transform_of
@@ -36,7 +36,7 @@ def emit(context, found, linking):
         fields["geometry"] = found.path if is_mesh else _geometry_of(context, prim, group)
         if not fields["geometry"]:
             return
-        mode = _plain(context, prim, "light:materialSyncMode") or _TINTS
+        mode = get(prim, "light:materialSyncMode", context.time) or _TINTS
         fields["material_sync_mode"] = str(shown(mode))
         if is_mesh and _input(context, prim, "intensity", authored=True) is None:
             fields["intensity"] = 1.0
@@ -50,7 +50,7 @@ def glow_of(context, prim):
     """:returns: what lights others of the glow of a volume that is a light, over what its material gives off"""
     fields = {}
     _read_inputs(context, prim, "volume", fields)
-    mode = _plain(context, prim, "light:materialSyncMode")
+    mode = get(prim, "light:materialSyncMode", context.time)
     radiance = _patina.light_radiance(**fields)
     if mode not in (None, _TINTS) or min(radiance) < 0.0 or not np.isfinite(radiance).all():
         context.warn(prim.GetPath(), "light:materialSyncMode", "volumeLightIgnored")
@@ -133,11 +133,6 @@ def _source_of(attribute):
     return sources[0] if is_input else attribute
 
 
-def _plain(context, prim, name):
-    attribute = prim.GetAttribute(name)
-    return attribute.Get(context.time) if attribute else None
-
-
 def _is_shaped(prim):
     """:returns: whether the ShapingAPI is applied, or authored on stages older than that rule"""
     names = [name for group, name, _, _ in _INPUTS if group == "Shaping"]
@@ -178,7 +173,7 @@ def _dome_pole(context, prim):
     up axis; a DomeLight stands on +Y until its own transform says otherwise"""
     if "DomeLight_1" not in kinds.schemas_of(prim):
         return None
-    pole = _plain(context, prim, "poleAxis") or "scene"
+    pole = get(prim, "poleAxis", context.time) or "scene"
     if pole == "scene":
         pole = UsdGeom.GetStageUpAxis(context.stage)
     if pole != "Z":
@@ -188,8 +183,7 @@ def _dome_pole(context, prim):
 
 
 def _geometry_of(context, prim, group):
-    targets = prim.GetRelationship("geometry").GetForwardedTargets() if prim.HasRelationship("geometry") else []
-    target = context.stage.GetPrimAtPath(targets[0]) if targets else None
+    target = next(map(context.stage.GetPrimAtPath, targets(prim, "geometry")), None)
     if not target or not target.IsA(UsdGeom.Mesh):
         context.warn(prim.GetPath(), "geometry", "lightNamesNoMesh")
         return ""

@@ -6,8 +6,7 @@ from pxr import UsdGeom
 
 from .context import get
 
-# Not for shading: they drive skinning.
-_IGNORED = ("skel:",)
+_IGNORED = "skel:"  # not for shading: they drive skinning
 # What a mesh has as many of as values.
 _COUNTED = {"uniform": "faceVertexCounts", "varying": "points", "vertex": "points", "faceVarying": "faceVertexIndices"}
 INTERPOLATIONS = ("constant", "uniform", "varying", "vertex", "faceVarying")
@@ -39,8 +38,7 @@ def read_primvar(context, primvar, prim):
     size = primvar.GetElementSize()
     if size > 1 and not _fits_only_singly(context, prim, values, size, indices, interpolation):
         if len(values) % size:
-            context.warn(prim.GetPath(), "primvars:" + name,
-                         "elementSizeUnfit", len(values), size)
+            context.warn(prim.GetPath(), "primvars:" + name, "elementSizeUnfit", len(values), size)
             return None
         values = values.reshape(len(values) // size, -1)
     if values[0:1].size > 16:

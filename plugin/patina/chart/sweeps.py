@@ -77,8 +77,3 @@ class Sweep:
 def always(method, x):
     """:returns: `chosen` of a method that is used throughout"""
     return [method] * len(x)
-
-
-def beyond(x, switch, below, above):
-    """:returns: `chosen` where x < switch takes one method and the rest another"""
-    return [below if value < switch else above for value in x]

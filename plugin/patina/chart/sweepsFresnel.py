@@ -5,7 +5,6 @@ import numpy as np
 from patina.chart import probes
 from patina.chart.sweeps import Sweep, always
 
-GOLD = ((0.18, 0.42, 1.37), (3.42, 2.35, 1.77))
 ALUMINIUM = ((1.5, 0.98, 0.6), (7.6, 6.6, 5.4))
 
 

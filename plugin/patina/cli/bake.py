@@ -12,7 +12,6 @@ OUT.usda may not be a file that the command reads, unless --in-place is given. T
 replaced in that file, and everything else in it stays.
 """
 import os
-import sys
 
 import numpy as np
 
@@ -60,7 +59,7 @@ def run(arguments):
         raise CommandError(f"{arguments.material}: {warnings[-1]['message'] if warnings else 'nothing to bake'}")
     inputs = evaluate(translated, arguments.to, arguments.resolution, warnings)
     bakeOutput.write(arguments, name, inputs, warnings)
-    statistics.report(warnings, sys.stderr, json=False)
+    statistics.report(warnings, json=False)
 
 
 def evaluate(network, target, resolution, warnings):

@@ -12,7 +12,7 @@ from patina.chart.png import display_values
 from patina.cli import materials, outputs, tryStage
 from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
-from patina.cli.usd import Sdf, Usd, UsdShade, reader
+from patina.cli.usd import TYPES, Sdf, Usd, UsdShade, reader
 
 EXTENSIONS = (".usda", ".usdc", ".usd")
 # Vectors that are directions.
@@ -208,10 +208,7 @@ def _texture(arguments, textures, name, kind, image, warnings):
 
 
 def _sdf(kind):
-    return {"float": Sdf.ValueTypeNames.Float, "color3": Sdf.ValueTypeNames.Color3f,
-            "vector2": Sdf.ValueTypeNames.Float2, "vector3": Sdf.ValueTypeNames.Float3,
-            "integer": Sdf.ValueTypeNames.Int, "boolean": Sdf.ValueTypeNames.Bool,
-            "string": Sdf.ValueTypeNames.String}[kind]
+    return Sdf.ValueTypeNames.Find(TYPES[kind])
 
 
 def _plain(kind, value):

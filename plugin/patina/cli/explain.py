@@ -12,21 +12,15 @@ For a whole stage with a tolerance it also builds the scene and prints the choic
 """
 import dataclasses
 import os
-import sys
 from concurrent.futures import ThreadPoolExecutor
 
-from patina import limits
 from patina.cli import causes, materials, methods, outputs, planText, recordFlags, sceneChoices, statistics
 from patina.cli.compiled import _patina
 
 
 def add_arguments(parser):
-    parser.add_argument("material", metavar="STAGE|MATERIAL", help=materials.MATERIAL_HELP.replace(
-        "the only material", "every material"))
-    parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
-                        help="change an input before (repeatable)")
-    limits.add_flag(parser)
-    methods.add_flag(parser)
+    parser.add_argument("material", metavar="STAGE|MATERIAL", help=materials.EVERY_HELP)
+    materials.add_flags(parser)
     recordFlags.add_tolerance_flag(parser)
     recordFlags.add_levels_flag(parser)
     parser.add_argument("--backend", default="embree", choices=["embree", "raster"],
@@ -73,7 +67,7 @@ def run(arguments):
     if several and not arguments.verbose:
         one = causes.printable(f"{arguments.material}:{texts[0][0]}")
         print(f"\n--verbose shows all of them in full, {one} one")
-    statistics.report(warnings, sys.stderr)
+    statistics.report(warnings)
 
 
 def _of_scene(arguments, chosen, tolerance):

@@ -132,11 +132,6 @@ def rows(methods, count, seed):
                    "noise": error.tolist()}
 
 
-def report(methods, count, seed):
-    """:returns: list of all rows"""
-    return list(rows(methods, count, seed))
-
-
 def line(row):
     """:returns: a row as text, of the channel where layers are furthest from the walk"""
     errors = [a - b for a, b in zip(row["scaled"], row["walk"])]

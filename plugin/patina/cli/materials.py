@@ -2,8 +2,8 @@
 """MATERIAL arguments: FILE[:/prim/path] of a stage, FILE.mtlx[:name], or library:NAME."""
 import os
 
-from patina import inputs
-from patina.cli import openStage, overrides
+from patina import inputs, limits
+from patina.cli import methods, openStage, overrides
 from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.cli.usd import reader
@@ -11,6 +11,15 @@ from patina.library import catalog
 
 MATERIAL_HELP = ("FILE[:/prim/path] of a stage, FILE.mtlx[:name], or library:NAME of Patina's own (patina view --library shows "
                  "them); without a path or name: the only material of the file")
+EVERY_HELP = MATERIAL_HELP.replace("the only material", "every material")
+
+
+def add_flags(parser):
+    """Those that change what a material is, and how it is computed."""
+    parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
+                        help="change an input before (repeatable)")
+    limits.add_flag(parser)
+    methods.add_flag(parser)
 
 
 def split(text):

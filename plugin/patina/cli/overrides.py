@@ -5,7 +5,7 @@ import re
 
 from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
-from patina.cli.usd import Gf, Sdf, Tf, Usd, UsdShade
+from patina.cli.usd import TYPES, Gf, Sdf, Tf, Usd, UsdShade
 
 SET_HELP = ("change an input (repeatable). PRIM is the path of a shader, light, material or any other prim; for a "
             "material the inputs are those of its surface shader. VALUE is 0.5 or 1,0,0 or text; what the input was "
@@ -73,11 +73,8 @@ def _attribute(prim, name):
 
 def _defined_type(node, name):
     """:returns: the Sdf type of an input that is not authored, by the node's definition; or None"""
-    types = {"boolean": "bool", "integer": "int", "float": "float", "vector2": "float2", "vector3": "float3",
-             "vector4": "float4", "color3": "color3f", "color4": "color4f", "matrix33": "matrix3d",
-             "matrix44": "matrix4d", "string": "string", "filename": "asset"}
     kind = _patina.node_inputs(node or "").get(name)
-    return Sdf.ValueTypeNames.Find(types[kind]) if kind in types else None
+    return Sdf.ValueTypeNames.Find(TYPES[kind]) if kind in TYPES else None
 
 
 def _value(type_name, text, target):

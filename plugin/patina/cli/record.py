@@ -324,7 +324,7 @@ class _Job:
         self._report(warnings)
         if self.arguments.strict and warnings:
             number = f"{len(warnings)} warnings, the worst" if len(warnings) > 1 else "1 warning"
-            raise CommandError(f"--strict: {number}: {statistics.lines(warnings)[0].removeprefix('warning: ')}")
+            raise CommandError(f"--strict: {number}: {statistics.Causes(warnings).lines()[0].removeprefix('warning: ')}")
 
     def _report(self, warnings, last=False):
         fresh, self.reported = len(warnings) != self.reported, len(warnings)

@@ -2,6 +2,7 @@
 """The statistics of a render that --json shows: times by phase, rays, samples, memory, warnings."""
 import contextlib
 import math
+import sys
 import time
 
 from patina import __version__, messages
@@ -14,17 +15,12 @@ ERROR_IS = ("noise of the samples, as --tolerance means it: the mean over the pi
 PHASES = ("open", "translate", "build", "render", "write", "total")
 
 
-def lines(warnings):
-    """:returns: the causes of warnings, worst first, as lines that begin with how bad they are"""
-    return Causes(warnings).lines()
-
-
-def report(warnings, stream, json=True):
-    """Prints those lines.
+def report(warnings, json=True):
+    """Prints the causes of warnings, worst first.
 
     :param json: whether the command has a --json that holds all warnings"""
     for text in Causes(warnings).lines(json=json):
-        print(colours.painted(text, stream), file=stream)
+        print(colours.painted(text, sys.stderr), file=sys.stderr)
 
 
 class Statistics:

@@ -3,6 +3,12 @@
 import importlib
 
 
+# Types of MaterialX as USD calls them.
+TYPES = {"boolean": "bool", "integer": "int", "float": "float", "vector2": "float2", "vector3": "float3", "vector4": "float4",
+         "color3": "color3f", "color4": "color4f", "string": "string", "filename": "asset", "matrix33": "matrix3d",
+         "matrix44": "matrix4d"}
+
+
 class _Later:
     """A module that is not imported yet."""
 

@@ -2,9 +2,8 @@
 """Puts the page of a render together."""
 import html
 import os
-import re
 
-from patina import pagePolicy, report
+from patina import pagePolicy
 from patina.cli import planText, shots
 from patina.cli.compiled import _patina
 from patina.report import pictures, sections
@@ -13,12 +12,7 @@ from patina.view.page import as_json, finite
 LABELS = {"color": "image", "color.noisy": "image before denoising", "sampleCount": "samples", "primId": "prims",
           "instanceId": "instances", "elementId": "faces", "denoisingAlbedo": "albedo for denoising",
           "denoisingNormal": "normal for denoising"}
-_WEB = os.path.join(os.path.dirname(os.path.abspath(report.__file__)), "web")
-
-
-def _web(name):
-    with open(os.path.join(_WEB, name), encoding="utf-8") as file:
-        return file.read()
+WEB = os.path.join(os.path.dirname(os.path.abspath(__file__)), "web")
 
 
 def document(job, film, shot, settings, info):
@@ -39,11 +33,9 @@ def document(job, film, shot, settings, info):
         settings=settings, warnings=job.statistics.warnings(), notes=job.statistics.notes(), interrupted=job.interrupted,
         error=error, samples=film.resolve("sampleCount"), window=window, materials=_materials(job),
         plan_lines=planText.choice_lines(job.renderer.progress()["sceneChoices"])))
-    script = _web("report.js")
-    parts = {"TITLE": html.escape(f"{os.path.basename(shot.image)}: Patina"), "STYLE": _web("report.css"), "BODY": body,
-             "DATA": as_json(finite(data)[0]), "SCRIPT": script, "POLICY": pagePolicy.meta(script)}
-    # In one go: what is put in may hold the names of these places.
-    return re.sub("PATINA_(POLICY|TITLE|STYLE|BODY|DATA|SCRIPT)", lambda mark: parts[mark.group(1)], _web("report.html"))
+    page, style, script = (pagePolicy.text(WEB, name) for name in ("report.html", "report.css", "report.js"))
+    return pagePolicy.filled(page, script, TITLE=html.escape(f"{os.path.basename(shot.image)}: Patina"), STYLE=style, BODY=body,
+                             DATA=as_json(finite(data)[0]))
 
 
 def _layers(film, options, error, aovs):

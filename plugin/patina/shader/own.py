@@ -29,13 +29,14 @@ def shader(network, target, methods, largest):
     """
     material = _patina.web_material(network, methods, largest)
     text = "#include \"shaders/web/inputs.glsl\"\n"
-    text += "".join(f"vec4 primvar{slot}(vec4 fallback) {{ return {_primvar(name, kind)}; }}\n"
+    text += "".join(f"vec4 primvar{slot}(vec4 fallback) {{ return {primvar(name, kind)}; }}\n"
                     for slot, (name, kind) in enumerate(material["primvars"]))
     text += material["text"] + "#include \"shaders/web/standalone.frag.glsl\"\n"
     return HEAD.format(version=VERSIONS[target]) + _lean(_patina.whole_shader(text)), material
 
 
-def _primvar(name, kind):
+def primvar(name, kind):
+    """:returns: what a shader reads a primvar from"""
     if kind == "vector2":
         return "vec4(vUv, 0.0, 1.0)"
     return "vec4(vColor, 1.0)" if name == "displayColor" else "fallback"

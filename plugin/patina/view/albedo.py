@@ -22,7 +22,12 @@ def texture(lobes):
             table[ndf * size:(ndf + 1) * size] = 0.0
     if not any(kind == "ward" for kind, _ in used):
         table[_patina.ALBEDO_WARD_TABLE:] = 0.0
-    height = -(-len(table) // WIDTH)
-    padded = np.zeros(height * WIDTH, dtype=np.float32)
-    padded[:len(table)] = table
-    return {"width": WIDTH, "height": height, "data": blobs.pack_smooth(blobs.half(padded))}
+    rows = in_rows(table)
+    return {"width": WIDTH, "height": len(rows), "data": blobs.pack_smooth(blobs.half(rows.ravel()))}
+
+
+def in_rows(table):
+    """:returns: a table as the rows of an image that is WIDTH wide, with zeros behind it"""
+    rows = np.zeros((-(-len(table) // WIDTH), WIDTH), np.float32)
+    rows.flat[:len(table)] = table
+    return rows

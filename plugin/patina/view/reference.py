@@ -12,11 +12,6 @@ from patina.cli.errors import CommandError
 FOCAL_LENGTH = 50.0
 
 
-def _rows(columns):
-    """A matrix of columns as Gf has it: row vectors, so the very same numbers."""
-    return [float(x) for x in columns]
-
-
 def _look_at(eye, target, up):
     back = np.asarray(eye, float) - target
     back /= np.linalg.norm(back)
@@ -40,9 +35,8 @@ def _dome(edit, folder, environment):
     transform = np.eye(4)
     # Columns of the way there are rows here; the way back is its transpose.
     transform[:3, :3] = np.array(environment["toLocal"]).reshape(3, 3).T
-    color = np.asarray(environment["radiance"], float)
-    edit.set_light("/environment", type="dome", transform=_rows(transform.ravel()), texture_file=file,
-                   color=[float(x) for x in color], intensity=1.0)
+    edit.set_light("/environment", type="dome", transform=transform.ravel().tolist(), texture_file=file,
+                   color=list(map(float, environment["radiance"])), intensity=1.0)
 
 
 def _mesh(edit, mesh, to_world):
@@ -51,7 +45,7 @@ def _mesh(edit, mesh, to_world):
     edit.set_mesh("/shape", points=np.asarray(mesh["points"], np.float32),
                   face_vertex_counts=np.full(count, 3, np.int32),
                   face_vertex_indices=np.asarray(mesh["indices"], np.int32), scheme="none", material="/material",
-                  transform=_rows(to_world),
+                  transform=list(map(float, to_world)),  # columns, as Gf has row vectors: the very same numbers
                   primvars=[("normals", "vertex", np.asarray(mesh["normals"], np.float32)),
                             ("st", "vertex", np.asarray(mesh["uv"], np.float32))])
 

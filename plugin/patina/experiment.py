@@ -19,7 +19,12 @@ def draw(renderer, scene, camera, settings, film, backend=""):
     :returns: what Renderer.progress() says then
     :raises RuntimeError: where the render fails, or another back end has taken over"""
     renderer.start(scene, camera, settings, film)
-    renderer.wait()
+    try:
+        while not renderer.wait(0.2):  # signals are heard in between
+            pass
+    except BaseException:
+        renderer.stop()
+        raise
     state = renderer.progress()
     if state["failed"]:
         raise RuntimeError(state["error"])

@@ -28,18 +28,22 @@ def value(name):
     return module.limits()[name]
 
 
-class _Limit(argparse.Action):
-    """Collects limits; `list` shows what there is and ends, as --help does."""
+class Collect(argparse.Action):
+    """Collects values; `list` shows what there is and ends, as --help does."""
+
+    def __init__(self, listing, **keywords):
+        super().__init__(**keywords)
+        self._listing = listing
 
     def __call__(self, parser, namespace, value, option_string=None):
         if value == "list":
-            print(listing())
+            print(self._listing())
             parser.exit()
         setattr(namespace, self.dest, [*getattr(namespace, self.dest), value])
 
 
 def add_flag(group):
-    group.add_argument("--limit", action=_Limit, default=[], metavar="NAME=VALUE",
+    group.add_argument("--limit", action=Collect, listing=listing, default=[], metavar="NAME=VALUE",
                        help="the most that the input may ask for; parts beyond it are left out with a message (repeatable); "
                             "--limit list shows all limits")
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Materials of one lobe to be asked for numbers, the directions that sweeps look along, and places in scenes."""
 import numpy as np
+from patina import networks
 from patina.cli.compiled import _patina
 
 
@@ -14,12 +15,8 @@ def network(category, **inputs):
     """
     made = _patina.Network("/sweep")
     types = _patina.node_inputs("ND_" + category)
-    made.add_node("/sweep/bsdf", "ND_" + category)
-    for name, value in inputs.items():
-        made.set_input("/sweep/bsdf", name, types[name], value)
-    made.add_node("/sweep/surface", "ND_surface")
-    made.connect("/sweep/surface", "bsdf", "/sweep/bsdf")
-    made.set_terminal("surface", "/sweep/surface")
+    bsdf = networks.add(made, "/sweep/bsdf", "ND_" + category, {name: (types[name], value) for name, value in inputs.items()})
+    made.set_terminal("surface", networks.add(made, "/sweep/surface", "ND_surface", bsdf=bsdf))
     return made
 
 

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from patina.experiment import LUMINANCE
-from patina.cli import openStage, overrides
+from patina.cli import openStage
 from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
-from patina.cli.usd import reader
 
 BACKENDS = ("embree", "raster")
 WORDS = {"embree": "path tracer", "raster": "rasterizer"}
@@ -38,11 +37,7 @@ class StageRenders:
     def __init__(self, path, arguments, deadline=None):
         self.arguments, self.deadline = arguments, deadline
         begin = time.perf_counter()
-        self.stage = openStage.open_stage(path)
-        overrides.apply(self.stage, arguments.set)
-        self.scene = _patina.Scene()
-        with self.scene.edit() as edit:
-            self.info = reader.read_stage(self.stage, edit, reader.StageOptions(camera=arguments.camera))
+        self.stage, self.scene, self.info = openStage.scene_of(path, arguments.set, camera=arguments.camera)
         self.seconds_to_read = time.perf_counter() - begin
         self.width, self.height = self._size()
         self.renderers = {}

@@ -10,24 +10,18 @@ from patina.chart.sweeps import Sweep, always
 
 def _ward(count):
     x = list(np.logspace(-3, 0, count))
-    def albedo(form, c):
-        return probes.albedo(probes.lobe("patina_ward_bsdf", color=(1.0,) * 3, roughness=(0.3, 0.3), form=form),
-                             probes.towards(c))
-    curves = {form: [albedo(form, c) for c in x] for form in ("bounded", "exact")}
-    return Sweep("Ward at grazing views", "classic", "1 / sqrt(cos cos) of the published form grows without bound.", "cosine",
-                 x, "albedo, white", curves, [min(v, 1.0) for v in curves["bounded"]], always("bounded", x), 1e-3, "exact",
-                 log_x=True, log_y=True, shows=100)
-
-
-def _ward_weight(count):
-    x = list(np.logspace(-3, 0, count))
-    def largest(form, c):
-        probe = probes.lobe("patina_ward_bsdf", color=(1.0,) * 3, roughness=(0.3, 0.3), form=form)
-        return float(probes.samples(probe, probes.towards(c), 2048)["weight"][:, 0].max())
-    curves = {form: [largest(form, c) for c in x] for form in ("bounded", "exact")}
-    return Sweep("weights of Ward's samples", "classic", "The weight is about sqrt(cos i / cos o): fireflies at grazing views.",
-                 "cosine", x, "largest weight of a sample", curves, [1.0] * len(x), always("bounded", x), 1.01, "exact",
-                 log_x=True, log_y=True, shows=3)
+    lobes = {form: probes.lobe("patina_ward_bsdf", color=(1.0,) * 3, roughness=(0.3, 0.3), form=form)
+             for form in ("bounded", "exact")}
+    albedos = {form: [probes.albedo(lobe, probes.towards(c)) for c in x] for form, lobe in lobes.items()}
+    weights = {form: [float(probes.samples(lobe, probes.towards(c), 2048)["weight"][:, 0].max()) for c in x]
+               for form, lobe in lobes.items()}
+    return [Sweep("Ward at grazing views", "classic", "1 / sqrt(cos cos) of the published form grows without bound.", "cosine",
+                  x, "albedo, white", albedos, [min(v, 1.0) for v in albedos["bounded"]], always("bounded", x), 1e-3, "exact",
+                  log_x=True, log_y=True, shows=100),
+            Sweep("weights of Ward's samples", "classic",
+                  "The weight is about sqrt(cos i / cos o): fireflies at grazing views.", "cosine", x,
+                  "largest weight of a sample", weights, [1.0] * len(x), always("bounded", x), 1.01, "exact", log_x=True,
+                  log_y=True, shows=3)]
 
 
 def smith_beckmann(cos_o, cos_i, alpha):
@@ -82,4 +76,4 @@ def _phong(count):
 
 
 def sweeps(count):
-    return [_ward(count), _ward_weight(count), _v_cavity(count), _phong(count)]
+    return [*_ward(count), _v_cavity(count), _phong(count)]

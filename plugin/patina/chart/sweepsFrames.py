@@ -2,6 +2,7 @@
 """Shading frames that degenerate: tangents without length or along the normal, and normals that look below the horizon."""
 import numpy as np
 
+from patina import networks
 from patina.chart import probes
 from patina.chart.sweeps import Sweep, always
 from patina.cli.compiled import _patina
@@ -92,16 +93,11 @@ def _no_number(count):
     """A tangent that is no number, from a pattern, as a mesh without texture coordinates gives it."""
     patina, x = _patina, list(np.linspace(0.05, 0.95, count))
     network = patina.Network("/sweep")
-    for name, kind in (("huge", "ND_multiply_vector3"), ("none", "ND_subtract_vector3"), ("bsdf", "ND_conductor_bsdf"),
-                       ("surface", "ND_surface")):
-        network.add_node("/sweep/" + name, kind)
-    for name in ("in1", "in2"):
-        network.set_input("/sweep/huge", name, "vector3", (3e38,) * 3)
-        network.connect("/sweep/none", name, "/sweep/huge")
-    network.set_input("/sweep/bsdf", "roughness", "vector2", (0.1, 0.5))
-    network.connect("/sweep/bsdf", "tangent", "/sweep/none")
-    network.connect("/sweep/surface", "bsdf", "/sweep/bsdf")
-    network.set_terminal("surface", "/sweep/surface")
+    large = ("vector3", (3e38,) * 3)
+    huge = networks.add(network, "/sweep/huge", "ND_multiply_vector3", {"in1": large, "in2": large})
+    none = networks.add(network, "/sweep/none", "ND_subtract_vector3", in1=huge, in2=huge)
+    bsdf = networks.add(network, "/sweep/bsdf", "ND_conductor_bsdf", {"roughness": ("vector2", (0.1, 0.5))}, tangent=none)
+    network.set_terminal("surface", networks.add(network, "/sweep/surface", "ND_surface", bsdf=bsdf))
     probe = patina.MaterialProbe(network, {"energyCompensation": "none"})
     found = {"of the surface": [probes.albedo(probe, probes.towards(c)) for c in x],
              "unguarded": [np.nan for _ in x]}

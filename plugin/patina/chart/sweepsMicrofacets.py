@@ -130,21 +130,17 @@ SAMPLERS = ("vndf", "boundedVndf", "fullNdf")
 def _samplers(count):
     x = list(np.linspace(0.05, 1.0, count))
     wo = probes.towards(0.05)
-    curves = {m: [float(_weights(a, m, wo, 2048).std()) for a in x] for m in SAMPLERS}
-    return Sweep("noise of samplers at grazing views", "facets",
-                 "Drawing all facets by their density leaves a weight without bound; seen facets leave at most 1.", "alpha", x,
-                 "deviation of a sample's weight, cosine 0.05", curves, [0.0] * len(x), always("boundedVndf", x), 0.5,
-                 "fullNdf", log_y=True, shows=2.0)
-
-
-def _lost(count):
-    x = list(np.linspace(0.05, 1.0, count))
-    wo = probes.towards(0.05)
-    curves = {m: [float((_weights(a, m, wo, 2048) == 0.0).mean()) for a in x] for m in SAMPLERS}
-    return Sweep("samples lost below the horizon", "facets",
-                 "Facets that are seen, but reflect downwards, are drawn for nothing; bounded caps leave most of them out.",
-                 "alpha", x, "share of samples, cosine 0.05", curves, [0.0] * len(x), always("boundedVndf", x), 0.25, "fullNdf",
-                 shows=1.5)
+    weights = {m: [_weights(a, m, wo, 2048) for a in x] for m in SAMPLERS}
+    noise = {m: [float(found.std()) for found in per] for m, per in weights.items()}
+    lost = {m: [float((found == 0.0).mean()) for found in per] for m, per in weights.items()}
+    return [Sweep("noise of samplers at grazing views", "facets",
+                  "Drawing all facets by their density leaves a weight without bound; seen facets leave at most 1.", "alpha", x,
+                  "deviation of a sample's weight, cosine 0.05", noise, [0.0] * len(x), always("boundedVndf", x), 0.5,
+                  "fullNdf", log_y=True, shows=2.0),
+            Sweep("samples lost below the horizon", "facets",
+                  "Facets that are seen, but reflect downwards, are drawn for nothing; bounded caps leave most of them out.",
+                  "alpha", x, "share of samples, cosine 0.05", lost, [0.0] * len(x), always("boundedVndf", x), 0.25, "fullNdf",
+                  shows=1.5)]
 
 
 def _last_numbers(count):
@@ -195,5 +191,5 @@ def _opposite(count):
 
 
 def sweeps(count):
-    return [_mirror_switch(count), _one_alpha_zero(count), _anisotropy(count), _grazing(count), _samplers(count), _lost(count),
+    return [_mirror_switch(count), _one_alpha_zero(count), _anisotropy(count), _grazing(count), *_samplers(count),
             _last_numbers(count), _opposite(count)]

@@ -15,7 +15,7 @@ import os
 
 import numpy as np
 
-from patina import limits
+from patina import limits, networks
 from patina.cli import bakeOutput, materials, outputs, statistics
 from patina.cli.compiled import _patina
 from patina.cli.bakeOutput import NORMALS
@@ -122,26 +122,12 @@ def _image(network, source, output, kind, resolution, warnings):
 
 def _probe(network, source, output, kind, sign):
     """Light is never negative, so a value is what it gives as light less what its negative gives."""
-    copy = _patina.Network(network.path)
-    for node in network.nodes():
-        copy.add_node(node["path"], node["id"])
-        for name, value in node["inputs"].items():
-            copy.set_input(node["path"], name, value["type"], value["value"], value["color_space"])
-        for name, (other, port) in node["connections"].items():
-            copy.connect(node["path"], name, other, port)
-    top = "/bake"
+    copy, read = networks.copied(network), (source, output)
     if kind in ("integer", "boolean"):
-        copy.add_node(top + "/number", f"ND_convert_{kind}_color3")
-        copy.connect(top + "/number", "in", source, output)
-        source, output = top + "/number", ""
-    copy.add_node(top + "/value", "ND_multiply_color3")
-    copy.connect(top + "/value", "in1", source, output)
-    copy.set_input(top + "/value", "in2", "color3", [sign, sign, sign])
-    copy.add_node(top + "/light", "ND_uniform_edf")
-    copy.connect(top + "/light", "color", top + "/value")
-    copy.add_node(top + "/surface", "ND_surface")
-    copy.connect(top + "/surface", "edf", top + "/light")
-    copy.set_terminal("surface", top + "/surface")
+        read = networks.add(copy, "/bake/number", f"ND_convert_{kind}_color3", **{"in": read})
+    value = networks.add(copy, "/bake/value", "ND_multiply_color3", {"in2": ("color3", [sign, sign, sign])}, in1=read)
+    light = networks.add(copy, "/bake/light", "ND_uniform_edf", color=value)
+    copy.set_terminal("surface", networks.add(copy, "/bake/surface", "ND_surface", edf=light))
     return _patina.MaterialProbe(copy)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from patina.cli.compiled import _patina
 from patina.cli.usd import Usd, reader
-from patina.experiment import LUMINANCE, relative_error
+from patina.experiment import LUMINANCE, draw, relative_error
 
 SHARE = 0.1  # of a tolerance, for the errors of all roots together
 _SAMPLES = 2**18  # of a level, where 16 or fewer of a pixel are as many
@@ -89,9 +89,6 @@ def _draw(stage, options, path, bounds, size_of):
                                   min(max(int(right) + _AROUND, 0), width - 1), min(max(int(bottom) + _AROUND, 0), height - 1))
         x0, y0, x1, y1 = settings["dataWindow"]
         settings["samples"] = min(max(_SAMPLES // ((x1 - x0 + 1) * (y1 - y0 + 1)), 4), 16)
-    renderer = _patina.make_renderer("embree")
-    renderer.start(scene, info.camera, settings, film)
-    while not renderer.wait(0.2):  # signals are heard in between
-        pass
+    state = draw(_patina.make_renderer("embree"), scene, info.camera, settings, film)
     return (np.asarray(film.resolve("color"), np.float64) @ LUMINANCE, np.asarray(film.resolve("alpha"), np.float64),
-            int(renderer.progress()["statistics"]["trianglesStored"]))
+            int(state["statistics"]["trianglesStored"]))

@@ -1,24 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """--method POINT=NAME: forces a method at a choice point of the planner."""
-import argparse
 import textwrap
 
+from patina import limits
 from patina.cli.compiled import _patina
 from patina.cli.errors import UsageError
 
 
-class _Method(argparse.Action):
-    """Collects choices; `list` shows what there is and ends, as --help does."""
-
-    def __call__(self, parser, namespace, value, option_string=None):
-        if value == "list":
-            print(_listing())
-            parser.exit()
-        setattr(namespace, self.dest, [*getattr(namespace, self.dest), value])
-
-
 def add_flag(group):
-    group.add_argument("--method", action=_Method, default=[], metavar="POINT=NAME",
+    group.add_argument("--method", action=limits.Collect, listing=_listing, default=[], metavar="POINT=NAME",
                        help="force a method at a choice point (repeatable); --method list shows all of them")
 
 

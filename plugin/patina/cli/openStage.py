@@ -5,7 +5,8 @@ import os
 import re
 
 from patina import inputs
-from patina.cli import interrupts, tryStage
+from patina.cli import interrupts, overrides, tryStage
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.cli.usd import Ar, Sdf, Tf, Usd, reader
 
@@ -39,6 +40,16 @@ def open_stage(path, mask=None, session_layer=None, layers=()):
         if not layer.anonymous:
             inputs.note(layer.realPath)
     return stage
+
+
+def scene_of(path, set_texts, **options):
+    """:param set_texts: of --set
+    :param options: of the reader
+    :returns: (Usd.Stage, `_patina.Scene`, what the reader told of it)"""
+    stage, scene = open_stage(path), _patina.Scene()
+    overrides.apply(stage, set_texts)
+    with scene.edit() as edit:
+        return stage, scene, reader.read_stage(stage, edit, reader.StageOptions(**options))
 
 
 def _open(path, mask, session_layer, layers):

@@ -2,8 +2,8 @@
 """Choices for a stage as a whole, by asking the back end itself, which builds the scene and samples one pixel of it."""
 from patina.cli import measuredLevels, openStage, overrides
 from patina.cli.compiled import _patina
-from patina.cli.errors import CommandError
 from patina.cli.usd import reader
+from patina.experiment import draw
 
 WIDTH = 960
 
@@ -24,15 +24,9 @@ def of_stage(file, set_texts, forced, tolerance, backend, measure_levels=False):
     with scene.edit() as edit:
         info = reader.read_stage(stage, edit, options)
     width, height = _size(scene.camera(info.camera))
-    renderer = _patina.make_renderer(backend)
-    renderer.start(scene, info.camera, {"width": width, "height": height, "dataWindow": (0, 0, 0, 0),
-                                        "samples": 1, "tolerance": tolerance, "maxDepth": -1, "methods": forced,
-                                        "checkpointSeconds": 0.0}, _patina.Film())
-    while not renderer.wait(0.2):  # signals are heard in between
-        pass
-    state = renderer.progress()
-    if state["failed"]:
-        raise CommandError(state["error"])
+    settings = {"width": width, "height": height, "dataWindow": (0, 0, 0, 0), "samples": 1, "tolerance": tolerance,
+                "maxDepth": -1, "methods": forced, "checkpointSeconds": 0.0}
+    state = draw(_patina.make_renderer(backend), scene, info.camera, settings, _patina.Film())
     return state["sceneChoices"], state["plans"], levels
 
 

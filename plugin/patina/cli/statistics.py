@@ -96,16 +96,6 @@ class Statistics:
                 self._frame["estimatedError"] = error
                 self._frame["estimatedErrorIs"] = ERROR_IS
 
-    @property
-    def frame(self):
-        """The time code that is being rendered; None is the default time."""
-        return self._frame["frame"]
-
-    @property
-    def seconds(self):
-        """Of the frame that is being rendered, by phase."""
-        return self._frame["seconds"]
-
     def warn(self, prim, name, id_, *fields):
         self._own.append(messages.warning(prim, name, id_, *fields))
 

@@ -98,8 +98,9 @@ class _MergedStatistics(statistics.Statistics):
     def __init__(self, arguments, frame, image, reports):
         super().__init__(arguments)
         self.begin_frame(frame, [image])
+        spent = self.current()["seconds"]
         for report in reports:
             for phase, seconds in report["seconds"].items():
-                self.seconds[phase] = self.seconds.get(phase, 0.0) + seconds
+                spent[phase] = spent.get(phase, 0.0) + seconds
             known = [(one["prim"], one["input"], one["message"]) for one in self._own]
             self._own += [one for one in report["warnings"] if (one["prim"], one["input"], one["message"]) not in known]

@@ -82,14 +82,14 @@ def of(job):
 
         def _description(self, shot, settings, camera, samples):
             a, state = self.arguments, self.renderer.progress()
-            others = {"back end": state["backend"], "frame": self.statistics.frame, "cut": str(a.part.cut),
+            others = {"back end": state["backend"], "frame": shot.frame, "cut": str(a.part.cut),
                       "purposes": self.purposes, "complexity": a.complexity, "mask": a.mask, "set": a.set,
                       "material purpose": getattr(a, "materialPurpose", "full"),
                       "camera light": not a.disableCameraLight, "denoise": bool(a.denoise)}
             made = identity.of_render(self.stage, settings, camera, others)
             noise = state["statistics"].get("noiseTolerance", 0.0) if settings["tolerance"] > 0.0 else 0.0
             options = shots.image_options(a, shot, shot.outputs[0], settings)
-            return partial.describe(a.part, samples, made, self.typed, options, self.statistics.frame, camera, settings,
+            return partial.describe(a.part, samples, made, self.typed, options, shot.frame, camera, settings,
                                     noise, folder=os.path.dirname(self.stage.GetRootLayer().realPath), home=os.getcwd(),
                                     denoise=bool(a.denoise),
                                     decimals=frames.times(self.typed, self.stage)[1])
@@ -105,6 +105,6 @@ def of(job):
             self._writer.commit(json.dumps({
                 "statistics": {**state["statistics"], **self._sums}, "plans": state["plans"],
                 "sceneChoices": state["sceneChoices"], "backend": state["backend"], "warnings": self.statistics.warnings(),
-                "seconds": self.statistics.seconds}, default=str))
+                "seconds": self.statistics.current()["seconds"]}, default=str))
 
     return PartJob

@@ -7,6 +7,8 @@ import _patina
 import numpy as np
 from pxr import Gf
 
+from patina import networks
+
 from . import assets, marks
 from .context import get, number, vector
 from .transforms import transform_of
@@ -78,10 +80,8 @@ def _material(context, prim, prefix, path):
             type_, index = _ALPHAS[channels]
             opacity = _image(network, path + "/alpha", type_, alpha, "raw")
             if index is not None:
-                network.add_node(path + "/channel", "ND_extract_" + type_)
-                network.connect(path + "/channel", "in", opacity)
-                network.set_input(path + "/channel", "index", "integer", index)
-                opacity = path + "/channel"
+                opacity = networks.add(network, path + "/channel", "ND_extract_" + type_, {"index": ("integer", index)},
+                                       **{"in": opacity})
             network.connect(surface, "opacity", opacity)
         else:
             context.warn(prim.GetPath(), prefix + "alpha:image", "backPlateChannels", channels)
@@ -91,11 +91,9 @@ def _material(context, prim, prefix, path):
 
 
 def _image(network, path, type_, file, space):
-    network.add_node(path, "ND_image_" + type_)
-    network.set_input(path, "file", "filename", file, space)
-    for side in ("uaddressmode", "vaddressmode"):
-        network.set_input(path, side, "string", "clamp")
-    return path
+    clamp = ("string", "clamp")
+    return networks.add(network, path, "ND_image_" + type_, {"file": ("filename", file, space), "uaddressmode": clamp,
+                                                             "vaddressmode": clamp})
 
 
 def _graded(context, prim, prefix, network, color):
@@ -109,9 +107,6 @@ def _graded(context, prim, prefix, network, color):
         gamma = np.ones(3)
     for operation, value, idle in (("multiply", gain - lift, 1.0), ("add", lift, 0.0), ("power", 1.0 / gamma, 1.0)):
         if (value != idle).any():
-            node = f"{color}_{operation}"
-            network.add_node(node, f"ND_{operation}_color3")
-            network.connect(node, "in1", color)
-            network.set_input(node, "in2", "color3", tuple(map(float, value)))
-            color = node
+            color = networks.add(network, f"{color}_{operation}", f"ND_{operation}_color3",
+                                 {"in2": ("color3", tuple(map(float, value)))}, in1=color)
     return color

@@ -3,6 +3,8 @@
 import _patina
 import numpy as np
 
+from patina import networks
+
 from . import assets
 from .context import get, shown
 
@@ -90,18 +92,12 @@ def emit(context, found, low, high, common, color):
 
 def _material(context, path, file):
     """As UsdImaging makes it. :returns: path of a material that shows a picture and cuts out where it is transparent"""
-    network = _patina.Network(path)
-    network.add_node(path + "/surface", "UsdPreviewSurface")
-    network.add_node(path + "/texture", "UsdUVTexture")
-    network.add_node(path + "/st", "UsdPrimvarReader_float2")
-    network.set_input(path + "/st", "varname", "string", "st")
-    network.set_input(path + "/texture", "file", "asset", file)
-    for side in ("wrapS", "wrapT"):
-        network.set_input(path + "/texture", side, "token", "clamp")
-    network.connect(path + "/texture", "st", path + "/st", "result")
-    network.connect(path + "/surface", "diffuseColor", path + "/texture", "rgb")
-    network.connect(path + "/surface", "opacity", path + "/texture", "a")
-    network.set_input(path + "/surface", "opacityThreshold", "float", 0.1)
-    network.set_terminal("surface", path + "/surface", "surface")
+    network, clamp = _patina.Network(path), ("token", "clamp")
+    st = networks.add(network, path + "/st", "UsdPrimvarReader_float2", {"varname": ("string", "st")})
+    texture = networks.add(network, path + "/texture", "UsdUVTexture",
+                           {"file": ("asset", file), "wrapS": clamp, "wrapT": clamp}, st=(st, "result"))
+    surface = networks.add(network, path + "/surface", "UsdPreviewSurface", {"opacityThreshold": ("float", 0.1)},
+                           diffuseColor=(texture, "rgb"), opacity=(texture, "a"))
+    network.set_terminal("surface", surface, "surface")
     context.edit.set_material(path, network)
     return path

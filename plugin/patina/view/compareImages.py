@@ -2,21 +2,16 @@
 """The path-traced pictures of --compare: each material on the first shape, or on every one, from the first camera."""
 import numpy as np
 
-from patina.cli import openStage, overrides
+from patina.cli import openStage
 from patina.cli.compiled import _patina
-from patina.cli.usd import reader
 from patina.view import images, reference, stageScene
 
 
 def lit_scene(file, set_texts=()):
     """:returns: a scene with the direct lights of a stage that the page has, and nothing else; an empty one without a stage"""
-    scene = _patina.Scene()
     if not file:
-        return scene
-    stage = openStage.open_stage(file)
-    overrides.apply(stage, set_texts)
-    with scene.edit() as edit:
-        reader.read_stage(stage, edit, reader.StageOptions(headlight=False))
+        return _patina.Scene()
+    _, scene, _ = openStage.scene_of(file, set_texts, headlight=False)
     kept = {path for path, _ in _patina.web_lights(scene)["lights"][:stageScene.MAX_LIGHTS]}
     kept |= set(_patina.web_light_meshes(scene))
     with scene.edit() as edit:

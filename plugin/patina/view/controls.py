@@ -51,6 +51,11 @@ def _folder(node):
     return node.rstrip("/").rpartition("/")[2].rpartition(":")[2]
 
 
+def key(item):
+    """:returns: what a page calls a live.LiveInput, a choices.Choice or a choices.Fixed"""
+    return f"{item.node}.{item.name}"
+
+
 def _entry(live):
     """:param live: a live.LiveInput"""
     values = [v if math.isfinite(v) else 0.0 for v in live.value]
@@ -58,7 +63,7 @@ def _entry(live):
                 and not any(word in live.name.lower() for word in _NO_COLORS))
     low, high, unit = _range(live.name, values)
     kind = "color" if is_color and len(values) == 3 else "switch" if live.kind == "boolean" else "number"
-    return {"input": f"{live.node}.{live.name}", "label": live.name.replace("_", " "), "folder": _folder(live.node),
+    return {"input": key(live), "label": live.name.replace("_", " "), "folder": _folder(live.node),
             "kind": kind, "min": low, "max": high, "step": 1.0 if live.kind == "integer" else 0.0, "default": values,
             "unit": unit}
 
@@ -71,10 +76,10 @@ def entries(inputs, choices, fixed):
     found = [(i.node, _entry(i)) for i in inputs]
     for c in choices:
         options = [text for text, _ in c.options]
-        found.append((c.node, {"input": c.key, "label": c.name.replace("_", " "), "folder": _folder(c.node),
+        found.append((c.node, {"input": key(c), "label": c.name.replace("_", " "), "folder": _folder(c.node),
                                "kind": "choice", "options": options, "default": options[c.at]}))
     for f in fixed:
-        found.append((f.node, {"input": f"{f.node}.{f.name}", "label": f.name.replace("_", " "),
+        found.append((f.node, {"input": key(f), "label": f.name.replace("_", " "),
                                "folder": _folder(f.node), "kind": "fixed", "default": f.text, "reason": f.reason}))
     order = {node: k for k, node in reversed(list(enumerate(node for node, _ in found)))}
     return [made for _, made in sorted(found, key=lambda pair: order[pair[0]])]

@@ -2,7 +2,9 @@
 """Makes the inputs of a network live: each becomes a primvar of its own whose fallback is the
 authored value. So the text of the material keeps them open, the page hands in what its sliders say,
 and every other host, which has no such primvars, shows the material as authored."""
+import collections
 import math
+from patina import networks
 from patina.cli.compiled import _patina
 
 
@@ -11,12 +13,7 @@ COMPONENTS = {"boolean": 1, "integer": 1, "float": 1, "vector2": 2, "vector3": 3
 LIMIT = 1024  # more would be neither found nor compiled
 
 
-class LiveInput:
-    """An input of a node that a slider moves."""
-
-    def __init__(self, node, node_id, name, kind, value, authored):
-        self.node, self.node_id, self.name, self.kind = node, node_id, name, kind
-        self.value, self.authored = value, authored
+LiveInput = collections.namedtuple("LiveInput", "node name kind value authored")  # of a node, moved by a slider
 
 
 def _numbers(value):
@@ -65,7 +62,7 @@ def live_inputs(network, limit=LIMIT):
                 continue
             value = _numbers(linear(authored) if authored else defaults[name])
             if len(value) == COMPONENTS[kind]:
-                found.append(LiveInput(node["path"], node["id"], name, kind, value, authored is not None))
+                found.append(LiveInput(node["path"], name, kind, value, authored is not None))
     found = _without_plans(network, found)
     # Authored inputs come before those left at their defaults.
     ranked = sorted(range(len(found)), key=lambda i: (not found[i].authored, i))
@@ -118,21 +115,12 @@ def _without_plans(network, found):
 def with_live(network, inputs, chosen):
     """A copy of the network with inputs[i] live for i in chosen; primvar PREFIX<i>."""
     opened = {(inputs[i].node, inputs[i].name): i for i in chosen}
-    copy = _patina.Network(network.path)
-    for node in network.nodes():
-        copy.add_node(node["path"], node["id"])
-        for name, value in node["inputs"].items():
-            if (node["path"], name) not in opened:
-                copy.set_input(node["path"], name, value["type"], value["value"], value["color_space"])
-        for name, (source, output) in node["connections"].items():
-            copy.connect(node["path"], name, source, output)
+    copy = networks.copied(network, opened)
     for (node, name), i in opened.items():
-        source = f"<{PREFIX}{i}>"
-        copy.add_node(source, f"ND_geompropvalue_{inputs[i].kind}")
-        copy.set_input(source, "geomprop", "string", f"{PREFIX}{i}")
         kind, value = inputs[i].kind, inputs[i].value
         whole = int(value[0]) if kind in ("boolean", "integer") else value[0]
-        copy.set_input(source, "default", kind, whole if len(value) == 1 else value)
+        source = networks.add(copy, f"<{PREFIX}{i}>", f"ND_geompropvalue_{kind}", {
+            "geomprop": ("string", f"{PREFIX}{i}"), "default": (kind, whole if len(value) == 1 else value)})
         copy.connect(node, name, source, "")
     for name, (node, output) in network.terminals().items():
         copy.set_terminal(name, node, output)

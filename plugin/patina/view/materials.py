@@ -111,15 +111,15 @@ def build(name, network, methods, textures):
         programs.append(made)
         return len(programs) - 1
 
-    fixed += [choices.Fixed(c.node, c.name, c.kind, c.options[c.at][0], "every value is a program of its own, and "
+    fixed += [choices.Fixed(c.node, c.name, c.options[c.at][0], "every value is a program of its own, and "
                             f"a page has room for {choices.MAX_PROGRAMS} of them")
               for c in (found[i] for i in left)]
     entries = controls.entries(inputs, [c for i, c in enumerate(found) if i not in left], fixed)
     planned = {**plan.build(network, methods, with_methods, add),
                "effects": plan.effects(network, inputs, chosen, entries, methods)}
     material = {"name": name, "programs": programs, "places": places,
-                "inputs": [{"input": f"{i.node}.{i.name}", "kind": i.kind, "value": list(i.value)} for i in inputs],
-                "choices": [{"input": c.key, "kind": c.kind, "values": [v for _, v in c.options], "at": c.at}
+                "inputs": [{"input": controls.key(i), "kind": i.kind, "value": list(i.value)} for i in inputs],
+                "choices": [{"input": controls.key(c), "kind": c.kind, "values": [v for _, v in c.options], "at": c.at}
                             for c in found],
                 "controls": entries,
                 "presets": [], "sentence": "", "plan": planned}

@@ -7,7 +7,7 @@ import tempfile
 import numpy as np
 
 from patina.cli.compiled import _patina
-from patina.cli.errors import CommandError
+from patina.experiment import draw
 
 FOCAL_LENGTH = 50.0
 
@@ -60,7 +60,7 @@ def render(network, mesh, to_world, environment, camera, eye, width, samples, ba
     :returns: float array (width, width, 3), top row first
     """
     scene = scene or _patina.Scene()
-    film, renderer = _patina.Film(), _patina.make_renderer(backend)
+    film = _patina.Film()
     settings = dict(_patina.default_render_settings(), width=width, height=width, samples=samples, tolerance=-1.0,
                     filterRadius=0.5, **more)
     with tempfile.TemporaryDirectory() as folder:
@@ -73,13 +73,5 @@ def render(network, mesh, to_world, environment, camera, eye, width, samples, ba
                 mesh(edit)
             else:
                 _mesh(edit, mesh, to_world)
-        renderer.start(scene, "/camera", settings, film)
-        try:
-            while not renderer.wait(0.2):  # signals are heard in between
-                pass
-        finally:
-            renderer.stop()
-    state = renderer.progress()
-    if state["failed"]:
-        raise CommandError(state["error"])
+        draw(_patina.make_renderer(backend), scene, "/camera", settings, film)
     return np.asarray(film.resolve("color"))[..., :3].copy()

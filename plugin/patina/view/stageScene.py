@@ -3,10 +3,9 @@
 import numpy as np
 
 from patina import messages
-from patina.cli import openStage, overrides
+from patina.cli import openStage
 from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
-from patina.cli.usd import reader
 
 MAX_SHAPES = 4
 MAX_ENVIRONMENTS = 16  # domes; each is a texture of the page
@@ -16,11 +15,7 @@ MAX_LIGHTS = 256  # each is a row of a texture, a folder of the panel, and work 
 class StageScene:
     def __init__(self, file, set_texts):
         self.file = file
-        stage = openStage.open_stage(file)
-        overrides.apply(stage, set_texts)
-        self.scene = _patina.Scene()
-        with self.scene.edit() as edit:
-            info = reader.read_stage(stage, edit, reader.StageOptions(headlight=False))
+        _, self.scene, info = openStage.scene_of(file, set_texts, headlight=False)
         self.z_up = info.up_axis == "Z"
         found = _patina.web_lights(self.scene)
         self.lights = [{"name": path.removesuffix("/light_of_mesh").rpartition("/")[2], "row": [float(x) for x in row]}

@@ -26,7 +26,6 @@ import sys
 from patina.cli import denoiser
 from patina.cli.errors import CommandError, UsageError
 
-HELP = "run the tests of a checkout"
 PASSES_ON = True
 TIERS = ("lint", "unit", "smoke", "full", "long", "all")
 MOST_PROCESSES = 5

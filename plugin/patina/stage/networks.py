@@ -48,12 +48,11 @@ def _set_frame(network, context):
 class _Translation:
     def __init__(self, context, prim, path):
         """:param prim: Material or light"""
-        self.context, self.prim, self.time = context, prim, context.time
+        self.context, self.prim = context, prim
         self.source, self.shown = str(prim.GetPath()), path
         self.network = _patina.Network(path)
         self._names = {}  # path on the stage -> path in the network
         self._todo = []
-        self._spaces = context.color_spaces
 
     def of_inputs(self):
         for input_ in UsdShade.ConnectableAPI(self.prim).GetInputs(onlyAuthored=True):
@@ -184,8 +183,8 @@ class _Translation:
 
     def _value(self, node, name, attribute, prim):
         type_ = attribute.GetTypeName()
-        space = self._spaces.space_of(attribute, _reads_colors(prim))
-        value = attribute.Get(self.time)
+        space = self.context.color_spaces.space_of(attribute, _reads_colors(prim))
+        value = attribute.Get(self.context.time)
         if value is None:
             return
         if type_.isArray or isinstance(value, Sdf.UnregisteredValue):  # of a type that USD does not know

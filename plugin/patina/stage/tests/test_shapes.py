@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Implicit prims, curves, points and transforms."""
-import numpy as np
 import pytest
-
-from patina.experiment import draw
 
 
 def test_every_implicit_prim(read):
@@ -164,10 +161,8 @@ def test_accelerations_bend_the_way_through_the_shutter(read):
     assert prim["points@-0.25"] == "-0.25 0.0625 0"
 
 
-def test_colors_of_faces_show_in_both_back_ends(read):
+def test_colors_of_faces_show_in_both_back_ends(read, pictures):
     """A cube's first face is the one along +z; its points along +x are blue. A sphere's last 20 faces are around its pole."""
-    import _patina
-
     colors = ", ".join(["(1, 0, 0)"] * 80 + ["(0, 1, 0)"] * 20)
     reading = read(f"""def Camera "cam" {{ token projection = "orthographic"
         float horizontalAperture = 40  float verticalAperture = 40
@@ -181,10 +176,7 @@ def test_colors_of_faces_show_in_both_back_ends(read):
     def Cube "points" {{ double3 xformOp:translate = (1, -1, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]
         color3f[] primvars:displayColor = [(0,0,1), (1,0,0), (1,0,0), (0,0,1), (1,0,0), (1,0,0), (0,0,1), (0,0,1)] (
             interpolation = "vertex") }}""")
-    for backend in ("embree", "raster"):
-        film, renderer = _patina.Film(), _patina.make_renderer(backend)
-        draw(renderer, reading.scene, reading.info.camera, {"width": 64, "height": 64, "samples": 4, "seed": 1}, film)
-        image = np.array(film.resolve("color"))[..., :3]
+    for backend, image in pictures(reading, 64):
         # The cap ends at 36 degrees from the pole, whose sine is 0.59.
         for (x, y), wanted in (((-1, 1.3), 1), ((-1.3, 1), 1), ((-1, 1.8), 0), ((-0.2, 1), 0), ((1, 1), 1), ((1.8, 0.3), 1),
                                ((0.3, -1), 0), ((1.7, -1.5), 2)):

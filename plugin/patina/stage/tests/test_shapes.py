@@ -3,26 +3,22 @@
 import pytest
 
 
+IMPLICIT = {  # -> what the scene has of it
+    'Sphere "a" { double radius = 3 }': {"radius": "3"},
+    'Cube "b" { double size = 4 }': {"shape": "cube", "size": "4"},
+    'Cone "c" { uniform token axis = "X"  double height = 5  double radius = 0.5 }': {
+        "shape": "cone", "height": "5", "radius": "0.5", "axis": "0"},
+    'Cylinder "d" { uniform token axis = "Y"  double height = 6 }': {"shape": "cylinder", "axis": "1", "height": "6"},
+    'Capsule "e" { }': {"shape": "capsule", "radius": "0.5", "height": "1"},
+    'Plane "f" { double width = 7  double length = 8 }': {"shape": "plane", "width": "7", "length": "8"},
+    'Cylinder_1 "g" { double radiusBottom = 1  double radiusTop = 0.25 }': {"radiusTop": "0.25"},
+    'Capsule_1 "h" { double radiusBottom = 0.75  double radiusTop = 0.5 }': {"radius": "0.75"}}
+
+
 def test_every_implicit_prim(read):
-    reading = read("""
-    def Sphere "sphere" { double radius = 3 }
-    def Cube "cube" { double size = 4 }
-    def Cone "cone" { uniform token axis = "X"  double height = 5  double radius = 0.5 }
-    def Cylinder "cylinder" { uniform token axis = "Y"  double height = 6 }
-    def Capsule "capsule" { }
-    def Plane "plane" { double width = 7  double length = 8 }
-    def Cylinder_1 "tapered" { double radiusBottom = 1  double radiusTop = 0.25 }
-    def Capsule_1 "taperedCapsule" { double radiusBottom = 0.75  double radiusTop = 0.5 }""")
-    assert reading.prim("/sphere")["radius"] == "3"
-    assert reading.prim("/cube")["size"] == "4"
-    cone = reading.prim("/cone")
-    assert cone["shape"] == "cone" and cone["height"] == "5" and cone["radius"] == "0.5" and cone.get("axis") == "0"
-    assert reading.prim("/cylinder")["axis"] == "1" and reading.prim("/cylinder")["height"] == "6"
-    capsule = reading.prim("/capsule")
-    assert capsule["radius"] == "0.5" and capsule["height"] == "1"
-    assert reading.prim("/plane")["width"] == "7" and reading.prim("/plane")["length"] == "8"
-    assert reading.prim("/tapered")["radiusTop"] == "0.25"
-    assert reading.prim("/taperedCapsule")["radius"] == "0.75"
+    reading = read("\n".join("def " + prim for prim in IMPLICIT))
+    for prim, fields in IMPLICIT.items():
+        assert fields.items() <= reading.prim("/" + prim.split('"')[1]).items(), prim
     assert reading.info.counts["capsule"] == 2
 
 

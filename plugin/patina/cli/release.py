@@ -16,10 +16,10 @@ import sys
 
 from patina import __version__
 from patina.cli import billOfMaterials, blenderAddOn, hydraHosts, pluginPackage, wholeWheel
+from patina.cli.checkout import ROOT
 from patina.cli.errors import CommandError
 from patina.farm import digests
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 _TOOLS = {"cmake": "cmake", "ninja": "ninja-build", "npm": "npm", "dpkg-deb": "dpkg", "dpkg-shlibdeps": "dpkg-dev",
           "file": "file", "patchelf": "patchelf"}  # program -> package that has it
 

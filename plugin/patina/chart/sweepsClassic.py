@@ -5,7 +5,7 @@ from math import erf
 import numpy as np
 
 from patina.chart import probes
-from patina.chart.sweeps import Sweep, always
+from patina.chart.sweeps import Sweep
 
 
 def _ward(count):
@@ -16,11 +16,11 @@ def _ward(count):
     weights = {form: [float(probes.samples(lobe, probes.towards(c), 2048)["weight"][:, 0].max()) for c in x]
                for form, lobe in lobes.items()}
     return [Sweep("Ward at grazing views", "classic", "1 / sqrt(cos cos) of the published form grows without bound.", "cosine",
-                  x, "albedo, white", albedos, [min(v, 1.0) for v in albedos["bounded"]], always("bounded", x), 1e-3, "exact",
-                  log_x=True, log_y=True, shows=100),
+                  x, "albedo, white", albedos, truth=[min(v, 1.0) for v in albedos["bounded"]], chosen="bounded", bound=1e-3,
+                  failing="exact", log_x=True, log_y=True, shows=100),
             Sweep("weights of Ward's samples", "classic",
                   "The weight is about sqrt(cos i / cos o): fireflies at grazing views.", "cosine", x,
-                  "largest weight of a sample", weights, [1.0] * len(x), always("bounded", x), 1.01, "exact", log_x=True,
+                  "largest weight of a sample", weights, truth=1.0, chosen="bounded", bound=1.01, failing="exact", log_x=True,
                   log_y=True, shows=3)]
 
 
@@ -49,11 +49,10 @@ def _v_cavity(count):
     cavity = probes.lobe("patina_cook_torrance_bsdf", color=(1.0,) * 3, roughness=alpha, **metal)
     curves = {"Smith": [f(smith, d) for d in x], "V-cavities": [f(cavity, d) for d in x]}
     truth = [smith_beckmann(np.cos(np.radians(d)), np.cos(np.radians(d)), alpha) * np.cos(np.radians(d)) for d in x]
-    return Sweep("V-cavities at grazing angles", "classic",
-                 "All facets form one kind of groove: the mirror direction is hardly masked, with a kink where the minimum "
-                 "switches.",
-                 "degrees, view and light", x, "f cos, Beckmann alpha 0.4", curves, truth, always("Smith", x),
-                 6e-3 * max(truth), "V-cavities", log_y=True, shows=10)
+    return Sweep("V-cavities at grazing angles", "classic", "All facets form one kind of groove: the mirror direction is "
+                 "hardly masked, with a kink where the minimum switches.", "degrees, view and light", x,
+                 "f cos, Beckmann alpha 0.4", curves, truth=truth, chosen="Smith", bound=6e-3 * max(truth),
+                 failing="V-cavities", log_y=True, shows=10)
 
 
 def _phong(count):
@@ -71,8 +70,8 @@ def _phong(count):
         unbounded.append(float((np.maximum(r, 0.0) ** 20).mean() * 2.0 * np.pi * 21.0 / (2.0 * np.pi) / max(c, 1e-9)))
     curves["Phong, over the cosine"] = unbounded
     return Sweep("Phong at grazing views", "classic", "Divided by the cosine, Phong's lobe gains without bound.", "cosine", x,
-                 "albedo, white", curves, [1.0] * len(x), always("Blinn-Phong, normalised", x), 1.0, "Phong, over the cosine",
-                 log_x=True, log_y=True, shows=5)
+                 "albedo, white", curves, truth=1.0, chosen="Blinn-Phong, normalised", bound=1.0,
+                 failing="Phong, over the cosine", log_x=True, log_y=True, shows=5)
 
 
 def sweeps(count):

@@ -24,8 +24,8 @@ def _sweep(name, fails, label, x, point, methods, truth, failing, make, wo, more
     for missing in set(chosen) - set(methods):
         curves[missing] = [probes.albedo(_patina.MaterialProbe(probes.network(make(v)[0], **make(v)[1]),
                                                                        {**more, point: missing}), wo) for v in x]
-    return Sweep(name, "plan", fails, label, x, "albedo", curves, curves[truth], chosen, TOLERANCE, failing,
-                 switch=_switch(x, chosen), **keywords)
+    return Sweep(name, "plan", fails, label, x, "albedo", curves, truth=curves[truth], chosen=chosen, bound=TOLERANCE,
+                 failing=failing, switch=_switch(x, chosen), **keywords)
 
 
 def _grid(low, high, count):

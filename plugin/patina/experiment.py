@@ -7,6 +7,8 @@ import statistics
 
 import numpy as np
 
+from patina.cli import outputs
+
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
@@ -17,7 +19,12 @@ def draw(renderer, scene, camera, settings, film, backend=""):
     :returns: what Renderer.progress() says then
     :raises RuntimeError: where the render fails, or another back end has taken over"""
     renderer.start(scene, camera, settings, film)
-    renderer.wait()
+    try:
+        while not renderer.wait(0.2):  # signals are heard in between
+            pass
+    except BaseException:
+        renderer.stop()
+        raise
     state = renderer.progress()
     if state["failed"]:
         raise RuntimeError(state["error"])
@@ -79,8 +86,6 @@ def table_row(cells):
 def write_csv(path, columns, rows, digits=6):
     """:param rows: dicts, which may have more than the columns; None is an empty cell
     :param digits: of numbers that are no whole ones; None: all"""
-    from patina.cli import outputs
-
     def cell(value):
         return "" if value is None else f"{value:.{digits}g}" if digits and isinstance(value, float) else value
 

@@ -6,6 +6,7 @@ import re
 import stat
 
 from patina import limits
+from patina.cli.compiled import _patina
 
 _TILES = {"<UDIM>": r"\d{4}", "<UVTILE>": r"u\d+_v\d+"}
 _noted = set()
@@ -34,9 +35,7 @@ def file_of(path):
 
 def note_document(path):
     """The same for a MaterialX document, with what it includes."""
-    from patina.cli import compiled
-
-    for file in compiled.load().mtlx_files(os.fsencode(os.path.abspath(path))):
+    for file in _patina.mtlx_files(os.fsencode(os.path.abspath(path))):
         note(os.fsdecode(file))
 
 

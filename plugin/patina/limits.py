@@ -4,14 +4,16 @@ import argparse
 import functools
 import sys
 
+from patina.cli import rows
+from patina.cli.compiled import _patina
+from patina.cli.errors import UsageError
+
 _TABLE = "base/limits.def"
 
 
 @functools.lru_cache(maxsize=None)
 def table():
     """:returns: dict of name -> (default, least value, largest value, "unit: of what")"""
-    from patina.cli import rows
-
     return {row.values[0]: (*map(int, row.values[1:4]), row.text(4)) for row in rows.read(_TABLE, "LIMIT")}
 
 
@@ -26,18 +28,22 @@ def value(name):
     return module.limits()[name]
 
 
-class _Limit(argparse.Action):
-    """Collects limits; `list` shows what there is and ends, as --help does."""
+class Collect(argparse.Action):
+    """Collects values; `list` shows what there is and ends, as --help does."""
+
+    def __init__(self, listing, **keywords):
+        super().__init__(**keywords)
+        self._listing = listing
 
     def __call__(self, parser, namespace, value, option_string=None):
         if value == "list":
-            print(listing())
+            print(self._listing())
             parser.exit()
         setattr(namespace, self.dest, [*getattr(namespace, self.dest), value])
 
 
 def add_flag(group):
-    group.add_argument("--limit", action=_Limit, default=[], metavar="NAME=VALUE",
+    group.add_argument("--limit", action=Collect, listing=listing, default=[], metavar="NAME=VALUE",
                        help="the most that the input may ask for; parts beyond it are left out with a message (repeatable); "
                             "--limit list shows all limits")
 
@@ -53,9 +59,6 @@ def apply(texts):
 
     :param texts: NAME=VALUE of each
     :raises UsageError: where one is none"""
-    from patina.cli import compiled
-    from patina.cli.errors import UsageError
-
     wanted = {}
     for text in texts:
         name, equals, number = text.partition("=")
@@ -66,6 +69,6 @@ def apply(texts):
             raise UsageError(f"patina: --limit {text}: {name} is from {table()[name][1]} to {table()[name][2]}")
     if not wanted and "_patina" not in sys.modules:
         return
-    problem = compiled.load().set_limits(wanted)
+    problem = _patina.set_limits(wanted)
     if problem:
         raise UsageError(f"patina: --limit: {problem}")

@@ -3,6 +3,8 @@
 import functools
 from dataclasses import dataclass
 
+from patina.cli import rows
+
 SEVERITIES = ("missing", "changed")
 
 _TABLE = "base/messages.def"
@@ -19,16 +21,12 @@ class Row:
 
 @functools.lru_cache(maxsize=None)
 def _advice():
-    from patina.cli import rows
-
     return {row.values[0]: row.text(1) for row in rows.read(_TABLE, "ADVICE")}
 
 
 @functools.lru_cache(maxsize=None)
 def table():
     """:returns: dict of id -> Row"""
-    from patina.cli import rows
-
     found, area = {}, ""
     for row in rows.read(_TABLE, "(?:AREA|MESSAGE)"):
         if len(row.values) == 1:

@@ -70,9 +70,9 @@ def test_dielectric_over_a_colour(alpha):
 def test_film_over_white_loses_nothing():
     """Light that the film takes from green and blue at 60 degrees goes through, by either meaning."""
     builder = layers._Builder()
-    film = builder.node("ND_dielectric_bsdf", [("roughness", "vector2", (0.0, 0.0)), ("thinfilm_thickness", "float", 420.0),
-                                               ("thinfilm_ior", "float", 2.0)])
-    bsdf = builder.node("ND_layer_bsdf", sources=[("top", film), ("base", builder.base((1.0,) * 3))])
+    film = builder.node("ND_dielectric_bsdf", {"roughness": ("vector2", (0.0, 0.0)), "thinfilm_ior": ("float", 2.0),
+                                               "thinfilm_thickness": ("float", 420.0)})
+    bsdf = builder.node("ND_layer_bsdf", top=film, base=builder.base((1.0,) * 3))
     wo = np.array([[math.sin(math.radians(60)), 0.0, 0.5]], np.float32)
     for methods in ({}, RETURNED):
         assert builder.probe(bsdf, methods).albedo(wo)[0] == pytest.approx([1.0] * 3, abs=2e-3)

@@ -129,7 +129,7 @@ def test_what_is_written_of_any_value_can_be_read(value, kind):
     if kind in ("string", "filename") and not isinstance(value, str):
         value = str(value)
     text = layers._value(kind, value, "/")
-    line = f"{layers._TYPES[kind]} inputs:x = {text}" if text else ""
+    line = f"{layers.TYPES[kind]} inputs:x = {text}" if text else ""
     assert "\n" not in text
     assert Sdf.Layer.CreateAnonymous(".usda").ImportFromString(f'#usda 1.0\ndef "a"\n{{\n    {line}\n}}\n'), text
 

@@ -12,6 +12,7 @@ import pytest
 
 from patina.cli import billOfMaterials, release
 from patina.cli.errors import CommandError
+from patina.farm import digests
 
 WHEEL = "hdpatina-9.8.7-cp311-cp311-manylinux_2_36_x86_64.whl"
 
@@ -49,7 +50,7 @@ def test_the_bill_names_what_a_wheel_contains_and_asks_for(wheel, tmp_path):
     assert library.startswith("pkg:deb/debian/libstdc%2B%2B6")
     assert related(document, "DEPENDS_ON") == {"pkg:pypi/numpy", "pkg:pypi/usd-core"}, "extras are not asked for"
     (own,) = [p for p in document["packages"] if p.get("packageFileName") == WHEEL]
-    assert own["checksums"][0]["checksumValue"] == billOfMaterials.checksum(wheel)
+    assert own["checksums"][0]["checksumValue"] == digests.content(wheel)
     assert "c0ffee" in own["sourceInfo"]
     assert document["creationInfo"]["created"] == "2023-11-14T22:13:20Z"
 

@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("_patina")
 
 from patina.chart import stabilityCommand, svgLines, sweepsSky  # noqa: E402
-from patina.chart.sweeps import Sweep, always  # noqa: E402
+from patina.chart.sweeps import Sweep  # noqa: E402
 from patina.cli import main  # noqa: E402
 
 
@@ -25,7 +25,7 @@ def test_bounds_hold_and_failures_show(family):
 
 def example(**changes):
     made = {"name": "n", "family": "f", "fails": "a", "x_label": "x", "x": [0.0, 1.0], "y_label": "y",
-            "curves": {"good": [1.0, 1.01], "bad": [1.0, 2.0]}, "truth": [1.0, 1.0], "chosen": always("good", [0, 1]),
+            "curves": {"good": [1.0, 1.01], "bad": [1.0, 2.0]}, "truth": [1.0, 1.0], "chosen": "good",
             "bound": 0.02, "failing": "bad"}
     return Sweep(**{**made, **changes})
 

@@ -5,10 +5,11 @@ import re
 from collections import defaultdict
 
 from patina import experiment
-from patina.chart import look
+from patina.chart import look, measurePaths, measureSubdivision
 from patina.chart.front import pareto
 from patina.chart.plot import Plot
 from patina.cli import outputs
+from patina.cli.compiled import _patina
 
 COLUMNS = ("point", "method", "subject", "errorOf", "ns", "nsLow", "nsHigh", "cost", "mean", "largest", "rms")
 
@@ -39,10 +40,7 @@ _TABLE_TAIL = """\
 
 def measure(point, timed=True):
     """Rows of one choice point, or of all for an empty name: those of lobes, and those that take whole pictures."""
-    from patina.chart import measurePaths, measureSubdivision
-    from patina.cli import compiled
-
-    rows = compiled.load().measure_methods(point, timed)
+    rows = _patina.measure_methods(point, timed)
     for name, pictures in (("subdivision", measureSubdivision.rows), ("pathDepth", measurePaths.path_depth),
                            ("roulette", measurePaths.roulette)):
         if point in ("", name):

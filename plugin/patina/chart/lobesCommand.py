@@ -3,7 +3,8 @@
 import os
 
 from patina.chart import lobes
-from patina.cli import compiled, outputs
+from patina.cli import outputs
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
 
 
@@ -18,8 +19,7 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    patina = compiled.load()
-    points = patina.choice_points()
+    points = _patina.choice_points()
     names = [point for point, _ in points]
     outputs.check_all([arguments.table, arguments.json])
     outputs.make_folder(arguments.out)
@@ -29,12 +29,12 @@ def run(arguments):
     if not rows:
         raise CommandError(f"nothing is measured at '{arguments.point}': its methods differ in meaning, not in accuracy")
     if arguments.errors:
-        rows = lobes.with_times(rows, patina.method_table())
+        rows = lobes.with_times(rows, _patina.method_table())
     rows = lobes.with_cost(rows, points)
     if arguments.table:
         table = lobes.of_renderer(rows, points)
         if arguments.point:
-            table = lobes.merged(table, patina.method_table(), arguments.point)
+            table = lobes.merged(table, _patina.method_table(), arguments.point)
         lobes.write_table(table, arguments.table)
     if arguments.out:
         lobes.write_csv(rows, os.path.join(arguments.out, "lobes.csv"))

@@ -6,12 +6,12 @@ import subprocess
 import sys
 
 from patina import __version__
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 
 
 def describe():
     """:returns: dict of texts: version, commit, processor, cores, system, python, usd, opengl, compiler"""
-    known = compiled.load().machine()
+    known = _patina.machine()
     opengl = ", ".join(filter(None, (known["openglRenderer"], known["openglVersion"])))
     return {"version": __version__, "commit": commit(), "processor": processor(), "cores": str(cores()),
             "system": f"{platform.system()} {platform.machine()}",

@@ -12,8 +12,8 @@ import time
 import numpy as np
 
 from patina.chart import probes
+from patina.cli.compiled import _patina
 from patina.experiment import LUMINANCE, draw, relative_error
-from patina.cli import compiled
 
 SCENES = ("box", "corner")
 DEPTHS = (4, 16, 64, 256)  # the four columns of rows of roulette
@@ -74,7 +74,7 @@ def _albedo(b):
 
 
 def _methods(point):
-    return [name for name, _ in dict(compiled.load().choice_points())[point]]
+    return [name for name, _ in dict(_patina.choice_points())[point]]
 
 
 def _row(point, method, scene, of, errors, truths, known, spent, timed):
@@ -89,8 +89,8 @@ class _Pictures:
     """One scene of one albedo."""
 
     def __init__(self, scene, b, samples):
-        self.module, self.samples = compiled.load(), samples
-        self.scene, self.renderer = self.module.Scene(), self.module.make_renderer("embree")
+        self.samples = samples
+        self.scene, self.renderer = _patina.Scene(), _patina.make_renderer("embree")
         albedo = _albedo(b)
         with self.scene.edit() as edit:
             edit.set_camera("/camera", transform=probes.moved(0.25, 0.1, 0.45), focal_length=20.0, clip_near=0.01)
@@ -101,7 +101,7 @@ class _Pictures:
 
     def render(self, maxDepth, methods=None, seed=1, samples=None, **more):
         """:returns: luminance, mean relative variance of a sample, and ns of a sample"""
-        film = self.module.Film()
+        film = _patina.Film()
         settings = {"width": _WIDTH, "height": _WIDTH, "samples": samples or self.samples, "seed": seed, "maxDepth": maxDepth,
                     "methods": methods or {}, "checkpointSeconds": 0.0, **more}
         begin = time.process_time()

@@ -12,8 +12,8 @@ import time
 import numpy as np
 
 from patina.chart import probes
+from patina.cli.compiled import _patina
 from patina.experiment import LUMINANCE, draw, relative_error
-from patina.cli import compiled
 
 POINT = "subdivision"
 SIZES = (10, 20, 40, 80)   # about, in pixels: the four columns of a row
@@ -30,7 +30,7 @@ def rows(timed=True, shapes=SHAPES, sizes=SIZES, bins=range(BINS), samples=None)
 
     :returns: list of rows as measure_methods() gives them, with `triangles` besides; what was not asked for is 0
     """
-    methods = [name for name, _ in dict(compiled.load().choice_points())[POINT]]
+    methods = [name for name, _ in dict(_patina.choice_points())[POINT]]
     found = []
     for shape in shapes:
         for kind in ("diffuse", "facets"):
@@ -61,7 +61,7 @@ class _Column:
     """A shape of one kind of lobe in one size."""
 
     def __init__(self, shape, kind, size, samples, bins=range(BINS)):
-        self.module, self.kind, self.samples = compiled.load(), kind, samples
+        self.kind, self.samples = kind, samples
         points, counts, indices, creases = cage(shape == "creased")
         edge = max(np.linalg.norm(points[a] - points[b]) for a, b in _edges(indices))
         across = np.linalg.norm(points.max(0) - points.min(0)) / np.sqrt(3.0)
@@ -88,19 +88,19 @@ class _Column:
                 "triangles": self._render(BINS // 2, method, 1)[2]}
 
     def _finest(self):
-        methods = dict(self.module.choice_points())[POINT]
+        methods = dict(_patina.choice_points())[POINT]
         return min((name for name, _ in methods), key=lambda name: float(name[:-2]))
 
     def _render(self, b, method, samples=None, build=False):
         begin = time.process_time()
         if build or not self.renderer:
-            self.scene, self.renderer = self._scene(), self.module.make_renderer("embree")
+            self.scene, self.renderer = self._scene(), _patina.make_renderer("embree")
             self.material = None
         if self.material != b:  # what is tessellated stays
             with self.scene.edit() as edit:
                 edit.set_material("/material", self._network(b))
             self.material = b
-        film = self.module.Film()
+        film = _patina.Film()
         settings = {"width": self.width, "height": self.width, "samples": samples or self.samples, "filterRadius": 0.5,
                     "seed": 7, "methods": {POINT: method}, "checkpointSeconds": 0.0}
         state = draw(self.renderer, self.scene, "/camera", settings, film)
@@ -115,7 +115,7 @@ class _Column:
         return probes.network("conductor_bsdf", ior=(0.2, 0.2, 0.2), extinction=(3.9, 3.9, 3.9), roughness=(alpha, alpha))
 
     def _scene(self):
-        scene = self.module.Scene()
+        scene = _patina.Scene()
         aperture = 10.0 * self.pixel * self.width
         with scene.edit() as edit:
             edit.set_camera("/camera", transform=probes.moved(0.0, 0.0, 5.0), orthographic=True, horizontal_aperture=aperture,

@@ -13,7 +13,7 @@ the mean over the pixels of |luminance - truth| over (truth + 0.01):
 Times are of processors, so that what else the machine does has no part in them.
 """
 import time
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -52,9 +52,6 @@ class Row:
     seconds: float = 0.0
     truthSeconds: float = 0.0    # of as many samples with the truth methods
     problem: str = ""
-
-    def as_dict(self):
-        return asdict(self)
 
 
 def check(path, name, arguments, backend, tolerances, samples, maximum, seconds):

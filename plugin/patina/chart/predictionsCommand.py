@@ -2,6 +2,7 @@
 """patina chart --predictions STAGE...: what the planner predicts against what comes."""
 import os
 import sys
+from dataclasses import asdict
 
 from patina import experiment, inputs
 from patina.chart import predictions
@@ -45,7 +46,7 @@ def run(arguments):
                 if not row.problem:
                     progress.say(f"{row.stage} {row.backend} {row.tolerance:g}: {row.methodError:.2g}, {row.error:.2g}, "
                                  f"{row.state}")
-    if not outputs.write_json(a.json, [row.as_dict() for row in rows]):
+    if not outputs.write_json(a.json, [asdict(row) for row in rows]):
         print(predictions.listing(rows))
     problems = [row for row in rows if row.problem]
     for row in problems:
@@ -72,7 +73,7 @@ class Table:
             self._write()
 
     def add(self, row):
-        self.rows.append(row.as_dict())
+        self.rows.append(asdict(row))
         if self.path:
             self._write()
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Materials of one lobe to be asked for numbers, the directions that sweeps look along, and places in scenes."""
 import numpy as np
+from patina import networks
+from patina.cli.compiled import _patina
 
-from patina.cli import compiled
 
 SEED = 20  # of all sampled numbers in the atlas
 
@@ -12,30 +13,24 @@ def network(category, **inputs):
     :param inputs: numbers, tuples or words
     :returns: the network of a material of this lobe
     """
-    patina = compiled.load()
-    made = patina.Network("/sweep")
-    types = patina.node_inputs("ND_" + category)
-    made.add_node("/sweep/bsdf", "ND_" + category)
-    for name, value in inputs.items():
-        made.set_input("/sweep/bsdf", name, types[name], value)
-    made.add_node("/sweep/surface", "ND_surface")
-    made.connect("/sweep/surface", "bsdf", "/sweep/bsdf")
-    made.set_terminal("surface", "/sweep/surface")
+    made = _patina.Network("/sweep")
+    types = _patina.node_inputs("ND_" + category)
+    bsdf = networks.add(made, "/sweep/bsdf", "ND_" + category, {name: (types[name], value) for name, value in inputs.items()})
+    made.set_terminal("surface", networks.add(made, "/sweep/surface", "ND_surface", bsdf=bsdf))
     return made
 
 
 def lobe(category, methods=None, **inputs):
     """:returns: the probe of a lobe, inputs as network() takes them"""
-    return compiled.load().MaterialProbe(network(category, **inputs), methods or {})
+    return _patina.MaterialProbe(network(category, **inputs), methods or {})
 
 
 def planned(made, point, tolerance):
     """:returns: the method that the planner takes at a choice point, the default where it leaves that open"""
-    patina = compiled.load()
-    for choice in patina.plan_material(made, tolerance=tolerance)["choices"]:
+    for choice in _patina.plan_material(made, tolerance=tolerance)["choices"]:
         if choice["point"] == point:
             return choice["method"]
-    return dict(patina.choice_points())[point][0][0]
+    return dict(_patina.choice_points())[point][0][0]
 
 
 def towards(cosine, turn=0.0):

@@ -8,9 +8,11 @@ import sys
 from patina import inputs
 from patina.chart import machine, sceneCharts, sceneLadder, scenePage, sceneResults
 from patina.chart.sceneRenders import BACKENDS, DEFAULT_WIDTH, WORDS
-from patina.cli import compiled, denoiser, imageMetrics, methods, outputs, overrides, recordFlags
+from patina.cli import denoiser, imageMetrics, methods, outputs, overrides, recordFlags
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
+from patina.cli.usd import reader
 
 DEFAULT_SAMPLES, DEFAULT_TOLERANCES = 64, "0.05,0.01"
 
@@ -61,7 +63,7 @@ def run(arguments):
     chosen = methods.parse(a.method)
     overrides.parse(a.set)
     if a.denoise:
-        denoiser.prepare(compiled.load())
+        denoiser.prepare(_patina)
     outputs.make_folder(a.out)
     command = shown(shlex.join(["patina", *sys.argv[1:]]))
     for stage in a.stages:
@@ -107,9 +109,7 @@ def _chart(stage, arguments, chosen, progress):
 
 def failures():
     """:returns: errors that end one stage of several"""
-    from patina.stage import StageError
-
-    return CommandError, StageError, UsageError, RuntimeError, OSError, MemoryError
+    return CommandError, reader.StageError, UsageError, RuntimeError, OSError, MemoryError
 
 
 def problem_of(error):
@@ -124,7 +124,7 @@ def shown(text, keep=""):
 
 def truth(chosen):
     """Methods of the reference: those that change what a material means, not how exactly it is computed."""
-    measured = {row["point"] for row in compiled.load().method_table()}
+    measured = {row["point"] for row in _patina.method_table()}
     return {point: name for point, name in chosen.items() if point not in measured}
 
 

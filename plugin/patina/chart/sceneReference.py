@@ -9,7 +9,8 @@ import numpy as np
 
 from patina.chart import machine
 from patina.chart.sceneRenders import Render
-from patina.cli import checkpoints, compiled, imageMetrics
+from patina.cli import checkpoints, imageMetrics
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 
 SAMPLES_FACTOR = 16  # of the most samples tested: a variance of a sixteenth or less
@@ -32,7 +33,7 @@ def brought(path, renders):
         raise CommandError(f"there is no file {path}")
     if not path.lower().endswith((".exr", ".hdr", ".pfm")):
         raise CommandError(f"{path}: a reference has linear values: .exr, .hdr or .pfm")
-    found = compiled.load().read_image(path)
+    found = _patina.read_image(path)
     chosen = [found.channels.index(c) for c in "RGB" if c in found.channels]
     if len(chosen) != 3:
         raise CommandError(f"{path} has no channels R, G and B")
@@ -79,7 +80,7 @@ def _read(path, samples, shape):
     if not path or not os.path.exists(path):
         return None
     try:
-        found = compiled.load().read_image(path)
+        found = _patina.read_image(path)
         taken, noise = (float(found.metadata["patina:" + name]) for name in ("samples", "noise"))
         image = np.array(found.pixels, dtype=np.float32)[..., [found.channels.index(c) for c in "RGB"]]
     except (RuntimeError, KeyError, TypeError, ValueError):  # not ours, or broken off
@@ -92,12 +93,12 @@ def _read(path, samples, shape):
 
 def _write(path, found, seed):
     os.makedirs(os.path.dirname(path), exist_ok=True)
-    compiled.load().write_image(path, found.image, ["R", "G", "B"], {},
+    _patina.write_image(path, found.image, ["R", "G", "B"], {},
                                 {"patina:samples": found.samples, "patina:noise": found.noise, "patina:seed": seed,
                                  "patina:commit": machine.commit()})
 
 
 def _build():
     """Another build may have another truth."""
-    status = os.stat(compiled.load().__file__)
+    status = os.stat(_patina.__file__)
     return [status.st_size, status.st_mtime_ns]

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from patina.experiment import LUMINANCE
-from patina.cli import compiled, denoiser, openStage, overrides
+from patina.cli import denoiser, openStage
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 
 BACKENDS = ("embree", "raster")
@@ -36,16 +37,9 @@ class StageRenders:
     """:raises CommandError, StageError: where the stage cannot be read"""
 
     def __init__(self, path, arguments, deadline=None):
-        from patina import stage as reader
-
-        self.module = compiled.load()
         self.arguments, self.deadline = arguments, deadline
         begin = time.perf_counter()
-        self.stage = openStage.open_stage(path)
-        overrides.apply(self.stage, arguments.set)
-        self.scene = self.module.Scene()
-        with self.scene.edit() as edit:
-            self.info = reader.read_stage(self.stage, edit, reader.StageOptions(camera=arguments.camera))
+        self.stage, self.scene, self.info = openStage.scene_of(path, arguments.set, camera=arguments.camera)
         self.seconds_to_read = time.perf_counter() - begin
         self.width, self.height = self._size()
         self.renderers = {}
@@ -81,7 +75,7 @@ class StageRenders:
         renderer = self._renderer("embree" if denoised else backend)
         if denoised:
             settings = dict(settings, aovs=denoiser.aovs({"tolerance": -1.0, **settings}, "embree"))
-        film = self.module.Film()
+        film = _patina.Film()
         begin, used = time.perf_counter(), time.process_time()
         renderer.start(self.scene, self.info.camera, settings, film)
         ended = renderer.wait(-1.0 if self.deadline is None else max(0.0, self.left()))
@@ -99,7 +93,7 @@ class StageRenders:
         if denoised:
             told = state["statistics"].get("denoisedError", -1.0)
             begin = time.perf_counter()
-            denoiser.run(self.module, film, self.arguments.threads)
+            denoiser.run(_patina, film, self.arguments.threads)
             more = time.perf_counter() - begin
         counts = film.resolve("sampleCount")
         image = np.array(film.resolve("color"), dtype=np.float32)
@@ -110,9 +104,9 @@ class StageRenders:
         if backend in self.missing:
             raise CommandError(self.missing[backend])
         if backend not in self.renderers:
-            made = self.module.make_renderer(backend)
+            made = _patina.make_renderer(backend)
             if made.progress()["backend"] != backend:
-                made.start(self.scene, self.info.camera, self.settings(1, 0), self.module.Film())
+                made.start(self.scene, self.info.camera, self.settings(1, 0), _patina.Film())
                 made.stop()
                 self._lost(backend)
             self.renderers[backend] = made

@@ -15,8 +15,8 @@ class Sweep:
     x_label, x: the parameter; log_x: on a logarithmic axis
     y_label: of what is drawn; log_y: on a logarithmic axis
     curves: method -> values over x
-    truth: values over x
-    chosen: the method that holds, per x: that of the planner or the default
+    truth: values over x, or one value
+    chosen: the method that holds, that of the planner or the default: per x, or one
     bound: largest |chosen - truth| that is promised, absolute
     failing: the method that fails; shows: by how much its error is above the bound somewhere, as a factor
     switch: x where `chosen` changes, if it does
@@ -37,6 +37,12 @@ class Sweep:
     log_y: bool = False
     shows: float = 1.0
     notes: list = field(default_factory=list)
+
+    def __post_init__(self):
+        if np.ndim(self.truth) == 0:
+            self.truth = [self.truth] * len(self.x)
+        if np.ndim(self.chosen) == 0:
+            self.chosen = [self.chosen] * len(self.x)
 
     def error(self, method):
         """:returns: |method - truth| over x"""
@@ -72,13 +78,3 @@ class Sweep:
                 yield {"sweep": self.name, "x": x, "method": method, "value": float(values[i]),
                        "truth": float(self.truth[i]), "error": float(self.error(method)[i]), "bound": self.bound,
                        "chosen": int(method == self.chosen[i])}
-
-
-def always(method, x):
-    """:returns: `chosen` of a method that is used throughout"""
-    return [method] * len(x)
-
-
-def beyond(x, switch, below, above):
-    """:returns: `chosen` where x < switch takes one method and the rest another"""
-    return [below if value < switch else above for value in x]

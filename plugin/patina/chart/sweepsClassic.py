@@ -1,31 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
 """Classic lobes at grazing angles: Ward, Cook and Torrance's V-cavities, Phong and Blinn."""
+from math import erf
+
 import numpy as np
 
 from patina.chart import probes
-from patina.chart.sweeps import Sweep, always
+from patina.chart.sweeps import Sweep
 
 
 def _ward(count):
     x = list(np.logspace(-3, 0, count))
-    def albedo(form, c):
-        return probes.albedo(probes.lobe("patina_ward_bsdf", color=(1.0,) * 3, roughness=(0.3, 0.3), form=form),
-                             probes.towards(c))
-    curves = {form: [albedo(form, c) for c in x] for form in ("bounded", "exact")}
-    return Sweep("Ward at grazing views", "classic", "1 / sqrt(cos cos) of the published form grows without bound.", "cosine",
-                 x, "albedo, white", curves, [min(v, 1.0) for v in curves["bounded"]], always("bounded", x), 1e-3, "exact",
-                 log_x=True, log_y=True, shows=100)
-
-
-def _ward_weight(count):
-    x = list(np.logspace(-3, 0, count))
-    def largest(form, c):
-        probe = probes.lobe("patina_ward_bsdf", color=(1.0,) * 3, roughness=(0.3, 0.3), form=form)
-        return float(probes.samples(probe, probes.towards(c), 2048)["weight"][:, 0].max())
-    curves = {form: [largest(form, c) for c in x] for form in ("bounded", "exact")}
-    return Sweep("weights of Ward's samples", "classic", "The weight is about sqrt(cos i / cos o): fireflies at grazing views.",
-                 "cosine", x, "largest weight of a sample", curves, [1.0] * len(x), always("bounded", x), 1.01, "exact",
-                 log_x=True, log_y=True, shows=3)
+    lobes = {form: probes.lobe("patina_ward_bsdf", color=(1.0,) * 3, roughness=(0.3, 0.3), form=form)
+             for form in ("bounded", "exact")}
+    albedos = {form: [probes.albedo(lobe, probes.towards(c)) for c in x] for form, lobe in lobes.items()}
+    weights = {form: [float(probes.samples(lobe, probes.towards(c), 2048)["weight"][:, 0].max()) for c in x]
+               for form, lobe in lobes.items()}
+    return [Sweep("Ward at grazing views", "classic", "1 / sqrt(cos cos) of the published form grows without bound.", "cosine",
+                  x, "albedo, white", albedos, truth=[min(v, 1.0) for v in albedos["bounded"]], chosen="bounded", bound=1e-3,
+                  failing="exact", log_x=True, log_y=True, shows=100),
+            Sweep("weights of Ward's samples", "classic",
+                  "The weight is about sqrt(cos i / cos o): fireflies at grazing views.", "cosine", x,
+                  "largest weight of a sample", weights, truth=1.0, chosen="bounded", bound=1.01, failing="exact", log_x=True,
+                  log_y=True, shows=3)]
 
 
 def smith_beckmann(cos_o, cos_i, alpha):
@@ -35,7 +31,6 @@ def smith_beckmann(cos_o, cos_i, alpha):
     h = (o + i) / np.linalg.norm(o + i)
     tan2 = (h[0] / h[1]) ** 2
     d = np.exp(-tan2 / alpha ** 2) / (np.pi * alpha ** 2 * h[1] ** 4)
-    from math import erf
     def smith(c):
         a = c / (alpha * np.sqrt(max(1.0 - c * c, 1e-12)))
         return 0.5 * (erf(a) - 1.0 + np.exp(-a * a) / (a * np.sqrt(np.pi)))
@@ -54,11 +49,10 @@ def _v_cavity(count):
     cavity = probes.lobe("patina_cook_torrance_bsdf", color=(1.0,) * 3, roughness=alpha, **metal)
     curves = {"Smith": [f(smith, d) for d in x], "V-cavities": [f(cavity, d) for d in x]}
     truth = [smith_beckmann(np.cos(np.radians(d)), np.cos(np.radians(d)), alpha) * np.cos(np.radians(d)) for d in x]
-    return Sweep("V-cavities at grazing angles", "classic",
-                 "All facets form one kind of groove: the mirror direction is hardly masked, with a kink where the minimum "
-                 "switches.",
-                 "degrees, view and light", x, "f cos, Beckmann alpha 0.4", curves, truth, always("Smith", x),
-                 6e-3 * max(truth), "V-cavities", log_y=True, shows=10)
+    return Sweep("V-cavities at grazing angles", "classic", "All facets form one kind of groove: the mirror direction is "
+                 "hardly masked, with a kink where the minimum switches.", "degrees, view and light", x,
+                 "f cos, Beckmann alpha 0.4", curves, truth=truth, chosen="Smith", bound=6e-3 * max(truth),
+                 failing="V-cavities", log_y=True, shows=10)
 
 
 def _phong(count):
@@ -76,9 +70,9 @@ def _phong(count):
         unbounded.append(float((np.maximum(r, 0.0) ** 20).mean() * 2.0 * np.pi * 21.0 / (2.0 * np.pi) / max(c, 1e-9)))
     curves["Phong, over the cosine"] = unbounded
     return Sweep("Phong at grazing views", "classic", "Divided by the cosine, Phong's lobe gains without bound.", "cosine", x,
-                 "albedo, white", curves, [1.0] * len(x), always("Blinn-Phong, normalised", x), 1.0, "Phong, over the cosine",
-                 log_x=True, log_y=True, shows=5)
+                 "albedo, white", curves, truth=1.0, chosen="Blinn-Phong, normalised", bound=1.0,
+                 failing="Phong, over the cosine", log_x=True, log_y=True, shows=5)
 
 
 def sweeps(count):
-    return [_ward(count), _ward_weight(count), _v_cavity(count), _phong(count)]
+    return [*_ward(count), _v_cavity(count), _phong(count)]

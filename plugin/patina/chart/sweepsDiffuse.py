@@ -3,7 +3,7 @@
 import numpy as np
 
 from patina.chart import probes
-from patina.chart.sweeps import Sweep, always
+from patina.chart.sweeps import Sweep
 from patina.chart.sweepsEnergy import reciprocity
 
 MODELS = ("eon", "qualitative", "fujii", "lambert")
@@ -45,7 +45,7 @@ def _furnace(count):
     curves["burley"] = [probes.albedo(_burley(r), wo) for r in x]
     return Sweep("rough white diffuse", "diffuse",
                  "The qualitative model and Fujii's lose light between the facets; Burley's gains it where rough.", "roughness",
-                 x, "albedo at cosine 0.2", curves, [1.0] * len(x), always("eon", x), 2e-3, "qualitative", shows=10)
+                 x, "albedo at cosine 0.2", curves, truth=1.0, chosen="eon", bound=2e-3, failing="qualitative", shows=10)
 
 
 def _grazing(count):
@@ -54,7 +54,7 @@ def _grazing(count):
     curves["burley"] = [probes.albedo(_burley(1.0), probes.towards(c)) for c in x]
     return Sweep("diffuse at grazing views", "diffuse",
                  "Burley's model of roughness 1 gains half again of the light at the horizon.", "cosine", x,
-                 "albedo, roughness 1", curves, [1.0] * len(x), always("eon", x), 2e-3, "burley", log_x=True, shows=50)
+                 "albedo, roughness 1", curves, truth=1.0, chosen="eon", bound=2e-3, failing="burley", log_x=True, shows=50)
 
 
 def _ring(count):
@@ -69,8 +69,8 @@ def _ring(count):
         return [abs(f(d + step) - 2.0 * f(d) + f(d - step)) / np.radians(step) for d in x]
     curves = {m: bend(m) for m in ("eon", "qualitative", "fujii")}
     return Sweep("ring of the qualitative model", "diffuse", "The slope jumps where the minimum of its two terms switches.",
-                 "azimuth between view and light in degrees", x, "jump of the slope, per radian", curves, [0.0] * len(x),
-                 always("eon", x), 0.015, "qualitative", shows=2)
+                 "azimuth between view and light in degrees", x, "jump of the slope, per radian", curves, truth=0.0,
+                 chosen="eon", bound=0.015, failing="qualitative", shows=2)
 
 
 def _sheen(roughness, mode):
@@ -83,7 +83,8 @@ def _sheen_reciprocal(count):
     curves["lambert"] = [reciprocity(_diffuse(0.0, "lambert")) for _ in x]
     return Sweep("reciprocity of sheen", "sheen",
                  "Zeltner's fit hangs on the view alone; Conty and Kulla's lobe is divided by its albedo there.", "roughness",
-                 x, "defect, over the mean value", curves, [0.0] * len(x), always("conty_kulla", x), 0.01, "zeltner", shows=10)
+                 x, "defect, over the mean value", curves, truth=0.0, chosen="conty_kulla", bound=0.01, failing="zeltner",
+                 shows=10)
 
 
 def _sheen_narrow(count):
@@ -106,8 +107,8 @@ def _sheen_narrow(count):
         published.append(total)
     curves["as published"] = published
     return Sweep("sheen at low roughness", "sheen", "Charlie's lobe without bounds: a white one gains light at grazing views.",
-                 "roughness", x, "albedo at cosine 0.05", curves, [min(v, 1.0) for v in published],
-                 always("conty_kulla", x), 0.05, "as published", shows=10)
+                 "roughness", x, "albedo at cosine 0.05", curves, truth=[min(v, 1.0) for v in published], chosen="conty_kulla",
+                 bound=0.05, failing="as published", shows=10)
 
 
 def sweeps(count):

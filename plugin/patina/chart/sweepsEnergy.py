@@ -3,7 +3,7 @@
 import numpy as np
 
 from patina.chart import probes
-from patina.chart.sweeps import Sweep, always
+from patina.chart.sweeps import Sweep
 from patina.chart.sweepsMicrofacets import white_metal
 
 ALBEDOS = ("table", "fit", "karis", "mirror", "monteCarlo16", "monteCarlo64", "quadrature")
@@ -26,8 +26,8 @@ def _albedos(name, fails, label, x, place, bound, failing, chosen="fit", methods
         return _albedo(method, lambda methods, alpha=alpha: _coat(ior, alpha, methods), probes.towards(cosine))
 
     curves = {m: [at(v, m) for v in x] for m in methods}
-    return Sweep(name, "energy", fails, label, x, "albedo", curves, curves["quadrature"], always(chosen, x), bound, failing,
-                 **more)
+    return Sweep(name, "energy", fails, label, x, "albedo", curves, truth=curves["quadrature"], chosen=chosen, bound=bound,
+                 failing=failing, **more)
 
 
 def _coat(ior, alpha, methods):
@@ -59,7 +59,7 @@ def _white(count):
     curves = {m: [probes.sampled(white_metal(a, {"energyCompensation": m}), wo, 2048) for a in x] for m in COMPENSATIONS}
     return Sweep("white metal over roughness", "energy",
                  "Light that bounces between facets is lost: about half of it where alpha is 1.", "alpha", x,
-                 "albedo at cosine 0.6", curves, [1.0] * len(x), always("turquin", x), 1e-2, "none", shows=10)
+                 "albedo at cosine 0.6", curves, truth=1.0, chosen="turquin", bound=1e-2, failing="none", shows=10)
 
 
 def reciprocity(probe, count=64, seed=probes.SEED):
@@ -77,8 +77,8 @@ def _reciprocal(count):
     x = list(np.linspace(0.1, 1.0, count))
     curves = {m: [reciprocity(white_metal(a, {"energyCompensation": m})) for a in x] for m in COMPENSATIONS}
     return Sweep("reciprocity of compensation", "energy", "A factor that hangs on one direction only is not reciprocal.",
-                 "alpha",
-                 x, "defect, over the mean value", curves, [0.0] * len(x), always("kullaConty", x), 2e-3, "turquin", shows=3)
+                 "alpha", x, "defect, over the mean value", curves, truth=0.0, chosen="kullaConty", bound=2e-3,
+                 failing="turquin", shows=3)
 
 
 def sweeps(count):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from patina.chart import probes
-from patina.chart.sweeps import Sweep, always
+from patina.chart.sweeps import Sweep
 
 NM = np.arange(380.0, 780.0, 1.0)
 METHODS = ("gaussian", "table", "spectral")
@@ -50,9 +50,10 @@ def _thickness(name, x, film, bound, shows, metal=None, cosine=0.6, channel=1):
     curves = {m: [probes.albedo(_film(d, film, {"thinFilm": m}, metal), wo, channel) for d in x] for m in METHODS}
     curves["one wavelength"] = [float(airy(cosine, d, film, *base, WAVES[channel])) for d in x]
     truth = [float((airy(cosine, d, film, *base, NM) * seen).sum()) for d in x]
-    return Sweep(name, "thin film", "One wavelength for each channel never loses its colour; Gaussians and tables of what a "
-                 "channel sees do.", "thickness in nm", x, f"reflectance at cosine {cosine}, green", curves, truth,
-                 always("gaussian", x), bound, "one wavelength", switch=IN if x[0] < IN else None, log_x=True, shows=shows)
+    return Sweep(name, "thin film",
+                 "One wavelength for each channel never loses its colour; Gaussians and tables of what a channel sees do.",
+                 "thickness in nm", x, f"reflectance at cosine {cosine}, green", curves, truth=truth, chosen="gaussian",
+                 bound=bound, failing="one wavelength", switch=IN if x[0] < IN else None, log_x=True, shows=shows)
 
 
 def _matched(count):
@@ -67,8 +68,8 @@ def _matched(count):
                  "Schlick's curve counted as both polarisations and halved loses half of the light under any film.",
                  "thickness in nm", x, "reflectance, color0 0.5",
                  {"difference of dielectrics": [probes.albedo(schlick(d), wo) for d in x],
-                  "curve halved": [bare if d <= 0.0 else 0.5 * bare for d in x]}, [bare] * len(x),
-                 always("difference of dielectrics", x), 1e-3, "curve halved", log_x=True, shows=50)
+                  "curve halved": [bare if d <= 0.0 else 0.5 * bare for d in x]},
+                 truth=bare, chosen="difference of dielectrics", bound=1e-3, failing="curve halved", log_x=True, shows=50)
 
 
 def _bright_metal(count):
@@ -103,9 +104,8 @@ def _rough(count):
         truth.append(probes.albedo(made("quadrature"), wo, 1))
         smooth.append(probes.albedo(made("table", 0.0), wo, 1))
     return Sweep("film on a rough interface", "thin film",
-                 "The reflectance at the view's own cosine is not the mean over facets.",
-                 "thickness in nm", x, "albedo, green", {"table": found, "mirror": smooth}, truth, always("table", x), 1e-2,
-                 "mirror", shows=1.5)
+                 "The reflectance at the view's own cosine is not the mean over facets.", "thickness in nm", x, "albedo, green",
+                 {"table": found, "mirror": smooth}, truth=truth, chosen="table", bound=1e-2, failing="mirror", shows=1.5)
 
 
 def sweeps(count):

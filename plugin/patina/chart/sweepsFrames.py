@@ -2,9 +2,10 @@
 """Shading frames that degenerate: tangents without length or along the normal, and normals that look below the horizon."""
 import numpy as np
 
+from patina import networks
 from patina.chart import probes
-from patina.chart.sweeps import Sweep, always
-from patina.cli import compiled
+from patina.chart.sweeps import Sweep
+from patina.cli.compiled import _patina
 
 
 def _tangent_unguarded(tangent):
@@ -28,14 +29,14 @@ def _tangents(count):
     along, across = (probes.albedo(_brushed(t), wo) for t in ((1, 0, 0), (0, 1, 0)))
     middle, half = 0.5 * (along + across), 0.5 * abs(along - across) + 1e-4
     found = []
-    for name, x, make, label, log in (
-            ("tangent of no length", [0.0, *np.logspace(-30, 0, count - 1)], lambda v: (0.6 * v, 0.8 * v, 0.0), "length", True),
-            ("tangent along the normal", [0.0, *np.logspace(-12, 0, count - 1)], lambda v: (v, 0.0, 1.0), "slant", True)):
+    for name, x, make, label in (
+            ("tangent of no length", [0.0, *np.logspace(-30, 0, count - 1)], lambda v: (0.6 * v, 0.8 * v, 0.0), "length"),
+            ("tangent along the normal", [0.0, *np.logspace(-12, 0, count - 1)], lambda v: (v, 0.0, 1.0), "slant")):
         curves = {"any direction across": [probes.albedo(_brushed(make(v)), wo) for v in x],
                   "unguarded": [middle * _tangent_unguarded(make(v)) for v in x]}
         found.append(Sweep(name, "frames", "normalize(t - n (n.t)) is 0 / 0; the pixel is lost.", label, x,
-                           "albedo of a brushed metal", curves, [middle] * len(x), always("any direction across", x), half,
-                           "unguarded", log_x=log))
+                           "albedo of a brushed metal", curves, truth=middle, chosen="any direction across", bound=half,
+                           failing="unguarded", log_x=True))
     return found
 
 
@@ -67,9 +68,8 @@ def _normals(count):
     kept = [0.5 * (1.0 + np.cos(np.radians(d))) for d in x]
     return Sweep("normals below the horizon, diffuse", "frames",
                  "A view behind the mapped normal finds black: rims of smooth shapes and steep bumps go dark.",
-                 "degrees of slant", x,
-                 "albedo, view at 60 degrees", found, kept, always("lit by its normal", x), 0.06, "black behind the normal",
-                 switch=30.0, shows=10)
+                 "degrees of slant", x, "albedo, view at 60 degrees", found, truth=kept, chosen="lit by its normal", bound=0.06,
+                 failing="black behind the normal", switch=30.0, shows=10)
 
 
 def _mirrored(count):
@@ -84,30 +84,25 @@ def _mirrored(count):
     found = {"bent to the horizon": [probes.sampled(_mapped("generalized_schlick_bsdf", d, **mirror), wo, 16) for d in x],
              "lost below": [plain(d) for d in x]}
     return Sweep("normals below the horizon, mirror", "frames", "The mirrored view lies below the surface, where nothing is.",
-                 "degrees of slant", x, "albedo, view at 60 degrees", found, [1.0] * len(x), always("bent to the horizon", x),
-                 1e-3, "lost below", switch=15.0, shows=100)
+                 "degrees of slant", x, "albedo, view at 60 degrees", found, truth=1.0, chosen="bent to the horizon",
+                 bound=1e-3, failing="lost below", switch=15.0, shows=100)
 
 
 def _no_number(count):
     """A tangent that is no number, from a pattern, as a mesh without texture coordinates gives it."""
-    patina, x = compiled.load(), list(np.linspace(0.05, 0.95, count))
-    network = patina.Network("/sweep")
-    for name, kind in (("huge", "ND_multiply_vector3"), ("none", "ND_subtract_vector3"), ("bsdf", "ND_conductor_bsdf"),
-                       ("surface", "ND_surface")):
-        network.add_node("/sweep/" + name, kind)
-    for name in ("in1", "in2"):
-        network.set_input("/sweep/huge", name, "vector3", (3e38,) * 3)
-        network.connect("/sweep/none", name, "/sweep/huge")
-    network.set_input("/sweep/bsdf", "roughness", "vector2", (0.1, 0.5))
-    network.connect("/sweep/bsdf", "tangent", "/sweep/none")
-    network.connect("/sweep/surface", "bsdf", "/sweep/bsdf")
-    network.set_terminal("surface", "/sweep/surface")
-    probe = patina.MaterialProbe(network, {"energyCompensation": "none"})
+    x = list(np.linspace(0.05, 0.95, count))
+    network = _patina.Network("/sweep")
+    large = ("vector3", (3e38,) * 3)
+    huge = networks.add(network, "/sweep/huge", "ND_multiply_vector3", {"in1": large, "in2": large})
+    none = networks.add(network, "/sweep/none", "ND_subtract_vector3", in1=huge, in2=huge)
+    bsdf = networks.add(network, "/sweep/bsdf", "ND_conductor_bsdf", {"roughness": ("vector2", (0.1, 0.5))}, tangent=none)
+    network.set_terminal("surface", networks.add(network, "/sweep/surface", "ND_surface", bsdf=bsdf))
+    probe = _patina.MaterialProbe(network, {"energyCompensation": "none"})
     found = {"of the surface": [probes.albedo(probe, probes.towards(c)) for c in x],
              "unguarded": [np.nan for _ in x]}
     truth = [probes.albedo(_brushed((1, 0, 0)), probes.towards(c)) for c in x]
     return Sweep("tangent that is no number", "frames", "One NaN in a tangent makes every number of the lobe one.", "cosine", x,
-                 "albedo of a brushed metal", found, truth, always("of the surface", x), 1e-4, "unguarded")
+                 "albedo of a brushed metal", found, truth=truth, chosen="of the surface", bound=1e-4, failing="unguarded")
 
 
 def sweeps(count):

@@ -3,9 +3,8 @@
 import numpy as np
 
 from patina.chart import probes
-from patina.chart.sweeps import Sweep, always
+from patina.chart.sweeps import Sweep
 
-GOLD = ((0.18, 0.42, 1.37), (3.42, 2.35, 1.77))
 ALUMINIUM = ((1.5, 0.98, 0.6), (7.6, 6.6, 5.4))
 
 
@@ -71,61 +70,51 @@ def _of_glass(ior, cosine):
 def sweeps(count):
     """:param count: points of each sweep"""
     found = []
-    cosine = 0.1
-    x = list(1.0 + np.logspace(-4, -0.3, count))
-    found.append(Sweep(
-        "Fresnel, ior near 1", "Fresnel", "Schlick's curve rises to 1 at grazing angles however weak the interface is.",
-        "ior", x, f"reflectance at cosine {cosine}", _by_model(_glass, _of_glass, lambda v: probes.towards(cosine), x),
-        [dielectric(cosine, v) for v in x], always("exact", x), 1e-5, "schlick", shows=1000))
-    x = list(np.linspace(1.6, 5.0, count))
-    found.append(Sweep(
-        "Fresnel, ior above 2", "Fresnel", "Schlick's curve has no Brewster angle, whose dip grows with the ior.",
-        "ior", x, "reflectance at cosine 0.3", _by_model(_glass, _of_glass, lambda v: probes.towards(0.3), x),
-        [dielectric(0.3, v) for v in x], always("exact", x), 1e-5, "schlick", shows=1000))
+    for name, fails, cosine, x in (
+            ("ior near 1", "Schlick's curve rises to 1 at grazing angles however weak the interface is.", 0.1,
+             list(1.0 + np.logspace(-4, -0.3, count))),
+            ("ior above 2", "Schlick's curve has no Brewster angle, whose dip grows with the ior.", 0.3,
+             list(np.linspace(1.6, 5.0, count)))):
+        curves = _by_model(_glass, _of_glass, lambda _: probes.towards(cosine), x)
+        found.append(Sweep(f"Fresnel, {name}", "Fresnel", fails, "ior", x, f"reflectance at cosine {cosine}", curves,
+                           truth=[dielectric(cosine, v) for v in x], chosen="exact", bound=1e-5, failing="schlick", shows=1000))
     x = list(np.linspace(50.0, 89.9, count))
     metal = lambda v: probes.lobe("conductor_bsdf", ior=ALUMINIUM[0], extinction=ALUMINIUM[1], roughness=(0.0, 0.0))
     of_metal = lambda v, cosine: [conductor(cosine, n, k) for n, k in zip(*ALUMINIUM)]
-    found.append(Sweep(
-        "Fresnel, aluminium near 82 degrees", "Fresnel",
-        "The reflectance of metals dips before it rises; Schlick's curve does not, f82 meets the dip at one angle.",
-        "degrees", x, "reflectance", _by_model(metal, of_metal, probes.at_degrees, x),
-        [conductor(np.cos(np.radians(v)), ALUMINIUM[0][0], ALUMINIUM[1][0]) for v in x], always("exact", x), 1e-5,
-        "schlick", shows=1000))
+    found.append(Sweep("Fresnel, aluminium near 82 degrees", "Fresnel", "The reflectance of metals dips before it rises; "
+                       "Schlick's curve does not, f82 meets the dip at one angle.", "degrees", x, "reflectance",
+                       _by_model(metal, of_metal, probes.at_degrees, x),
+                       truth=[conductor(np.cos(np.radians(v)), ALUMINIUM[0][0], ALUMINIUM[1][0]) for v in x], chosen="exact",
+                       bound=1e-5, failing="schlick", shows=1000))
     x = list(np.linspace(30.0, 60.0, count))
     inside = lambda v: -probes.at_degrees(v) * [-1, 1, 1]
-    found.append(Sweep(
-        "Fresnel, total internal reflection", "Fresnel",
-        "From inside, Schlick's curve over the incident cosine misses that all is reflected beyond the critical angle.",
-        "degrees inside", x, "reflectance",
-        {"exact": [1.0 - probes.albedo(_glass(1.5, "T"), inside(v)) for v in x],
-         "schlick, incident cosine": [0.04 + 0.96 * (1.0 - np.cos(np.radians(v))) ** 5 for v in x]},
-        [dielectric(np.cos(np.radians(v)), 1.0 / 1.5) for v in x], always("exact", x), 1e-4, "schlick, incident cosine",
-        switch=float(np.degrees(np.arcsin(1.0 / 1.5))), shows=1000))
+    found.append(Sweep("Fresnel, total internal reflection", "Fresnel", "From inside, Schlick's curve over the incident cosine "
+                       "misses that all is reflected beyond the critical angle.", "degrees inside", x, "reflectance",
+                       {"exact": [1.0 - probes.albedo(_glass(1.5, "T"), inside(v)) for v in x],
+                        "schlick, incident cosine": [0.04 + 0.96 * (1.0 - np.cos(np.radians(v))) ** 5 for v in x]},
+                       truth=[dielectric(np.cos(np.radians(v)), 1.0 / 1.5) for v in x], chosen="exact", bound=1e-4,
+                       failing="schlick, incident cosine", switch=float(np.degrees(np.arcsin(1.0 / 1.5))), shows=1000))
     x = list(np.linspace(0.2, 1.0, count))
-    found.append(Sweep(
-        "Fresnel, ior below 1", "Fresnel",
-        "Where the far side is thinner, total reflection begins; Schlick's curve knows none.",
-        "ior", x, "reflectance at cosine 0.5",
-        {"exact": [probes.albedo(_glass(v), probes.towards(0.5)) for v in x],
-         "schlick, incident cosine": [((v - 1) / (v + 1)) ** 2 * (1 - 0.5 ** 5) + 0.5 ** 5 for v in x]},
-        [dielectric(0.5, v) for v in x], always("exact", x), 1e-4, "schlick, incident cosine",
-        switch=float(np.sqrt(0.75)), shows=1000))
+    found.append(Sweep("Fresnel, ior below 1", "Fresnel",
+                       "Where the far side is thinner, total reflection begins; Schlick's curve knows none.", "ior", x,
+                       "reflectance at cosine 0.5",
+                       {"exact": [probes.albedo(_glass(v), probes.towards(0.5)) for v in x],
+                        "schlick, incident cosine": [((v - 1) / (v + 1)) ** 2 * (1 - 0.5 ** 5) + 0.5 ** 5 for v in x]},
+                       truth=[dielectric(0.5, v) for v in x], chosen="exact", bound=1e-4, failing="schlick, incident cosine",
+                       switch=float(np.sqrt(0.75)), shows=1000))
     return found + _degenerate(count)
 
 
 def _degenerate(count):
-    found = []
-    for name, label, values, to in (("k to 0", "k", (1.5, None), 0.3), ("n to 0, k 0", "n", (None, 0.0), 1.0)):
-        for cosine in (to,):
-            x = [0.0, *np.logspace(-12, 0, count - 1)]
-            pairs = [tuple(v if e is None else e for e in values) for v in x]
-            curves = {"exact": [probes.albedo(probes.lobe("conductor_bsdf", ior=(n,) * 3, extinction=(k,) * 3,
-                                                          roughness=(0.0, 0.0)), probes.towards(cosine)) for n, k in pairs],
-                      "unguarded": [conductor_unguarded(cosine, n, k) for n, k in pairs]}
-            if label == "k":  # n = 0 is what breaks it: the same sweep with a vanishing n
-                curves["unguarded"] = [conductor_unguarded(cosine, 0.0, k) for _, k in pairs]
-            found.append(Sweep(
-                f"conductor, {name}", "Fresnel", "Forms that divide by n or take roots of rounded differences give no numbers.",
-                label, x, f"reflectance at cosine {cosine}", curves, [conductor(cosine, n, k) for n, k in pairs],
-                always("exact", x), 1e-4, "unguarded", log_x=True))
+    found, x = [], [0.0, *np.logspace(-12, 0, count - 1)]
+    for name, label, cosine, pairs in (("k to 0", "k", 0.3, [(1.5, k) for k in x]),
+                                       ("n to 0, k 0", "n", 1.0, [(n, 0.0) for n in x])):
+        curves = {"exact": [probes.albedo(probes.lobe("conductor_bsdf", ior=(n,) * 3, extinction=(k,) * 3,
+                                                      roughness=(0.0, 0.0)), probes.towards(cosine)) for n, k in pairs],
+                  # n = 0 is what breaks it: the sweep of k is with a vanishing n there.
+                  "unguarded": [conductor_unguarded(cosine, 0.0 if label == "k" else n, k) for n, k in pairs]}
+        found.append(Sweep(f"conductor, {name}", "Fresnel",
+                           "Forms that divide by n or take roots of rounded differences give no numbers.", label, x,
+                           f"reflectance at cosine {cosine}", curves, truth=[conductor(cosine, n, k) for n, k in pairs],
+                           chosen="exact", bound=1e-4, failing="unguarded", log_x=True))
     return found

@@ -3,7 +3,7 @@
 import numpy as np
 
 from patina.chart import probes
-from patina.chart.sweeps import Sweep, always
+from patina.chart.sweeps import Sweep
 from patina.cli import layers
 
 
@@ -18,8 +18,8 @@ def _stack(name, fails, label, x, make, cosine, bound, walks):
             curves[method].append(probes.albedo(layers.scaled(interfaces, base, {"layering": method}), wo))
         curves["positionFree"].append(probes.sampled(layers.scaled(interfaces, base, {"layering": "positionFree"}), wo, walks))
         truth.append(float(layers.walk(layers.parts(interfaces, base, {}), wo[0], walks, generator)[0][0]))
-    return Sweep(name, "layers", fails, label, x, f"albedo at cosine {cosine}", curves, truth, always("positionFree", x), bound,
-                 "albedoScaling", shows=2)
+    return Sweep(name, "layers", fails, label, x, f"albedo at cosine {cosine}", curves, truth=truth, chosen="positionFree",
+                 bound=bound, failing="albedoScaling", shows=2)
 
 
 def sweeps(count):

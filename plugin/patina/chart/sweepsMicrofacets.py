@@ -3,7 +3,7 @@
 import numpy as np
 
 from patina.chart import probes
-from patina.chart.sweeps import Sweep, always
+from patina.chart.sweeps import Sweep
 from patina.chart.sweepsFresnel import dielectric
 
 MIRROR = 1e-3  # ALPHA_MIRROR of shaders/lib/degenerate.glsl
@@ -47,8 +47,8 @@ def _mirror_switch(count):
     return Sweep("alpha to 0, mirror switch", "facets",
                  "The half vector of float directions has no digits left for the density of a narrow lobe.", "alpha", x,
                  "albedo at cosine 0.5", {"with a mirror": sampled, "half vector in float": unguarded},
-                 [dielectric(0.5, 1.5)] * len(x), always("with a mirror", x), 0.005 * dielectric(0.5, 1.5),
-                 "half vector in float", switch=MIRROR, log_x=True, shows=2.0)
+                 truth=dielectric(0.5, 1.5), chosen="with a mirror", bound=0.005 * dielectric(0.5, 1.5),
+                 failing="half vector in float", switch=MIRROR, log_x=True, shows=2.0)
 
 
 def _one_alpha_zero(count):
@@ -61,8 +61,9 @@ def _one_alpha_zero(count):
     truth = [probes.albedo(white_metal((max(a, MIRROR), 0.4), {**SINGLE, "directionalAlbedo": "quadrature"}), wo) for a in x]
     return Sweep("one alpha to 0", "facets", "The density divides by the product of both alphas.", "alpha x (alpha y 0.4)", x,
                  "albedo", {"raised to the mirror's alpha": [probes.albedo(white_metal((a, 0.4)), wo) for a in x],
-                            "unguarded density": unguarded}, truth, always("raised to the mirror's alpha", x), 2e-2,
-                 "unguarded density", switch=MIRROR, log_x=True)
+                            "unguarded density": unguarded},
+                 truth=truth, chosen="raised to the mirror's alpha", bound=2e-2, failing="unguarded density", switch=MIRROR,
+                 log_x=True)
 
 
 def _anisotropy(count):
@@ -74,8 +75,8 @@ def _anisotropy(count):
     truth = [probes.albedo(white_metal(p, {**SINGLE, "directionalAlbedo": "quadrature"}), wo) for p in pairs]
     return Sweep("anisotropy in tables", "facets",
                  "One mean alpha in place of both: masking along the view is that of another lobe.", "alpha x / alpha y", x,
-                 "albedo, white metal, cosine 0.2", curves, truth, always("table", x), 2e-2, "sqrt(ax ay)", log_x=True,
-                 shows=2.0)
+                 "albedo, white metal, cosine 0.2", curves, truth=truth, chosen="table", bound=2e-2, failing="sqrt(ax ay)",
+                 log_x=True, shows=2.0)
 
 
 def _grazing(count):
@@ -98,8 +99,8 @@ def _grazing(count):
         density = alpha ** 2 / (np.pi * (1.0 - z2 * (1.0 - alpha ** 2)) ** 2)
         found.append(float(probe.eval(wo, probes.towards(1.0))[1][0]) * 4.0 / density)
     return Sweep("grazing views", "facets", "Smith's masking over the cosine, by slopes: 0 / 0 at the horizon.", "cosine", x,
-                 "G1 / cosine, alpha 0.5", {"by lengths": found, "by slopes": unguarded}, truth, always("by lengths", x), 4e-3,
-                 "by slopes", log_x=True)
+                 "G1 / cosine, alpha 0.5", {"by lengths": found, "by slopes": unguarded}, truth=truth, chosen="by lengths",
+                 bound=4e-3, failing="by slopes", log_x=True)
 
 
 def all_facets(alpha, wo, count):
@@ -130,21 +131,17 @@ SAMPLERS = ("vndf", "boundedVndf", "fullNdf")
 def _samplers(count):
     x = list(np.linspace(0.05, 1.0, count))
     wo = probes.towards(0.05)
-    curves = {m: [float(_weights(a, m, wo, 2048).std()) for a in x] for m in SAMPLERS}
-    return Sweep("noise of samplers at grazing views", "facets",
-                 "Drawing all facets by their density leaves a weight without bound; seen facets leave at most 1.", "alpha", x,
-                 "deviation of a sample's weight, cosine 0.05", curves, [0.0] * len(x), always("boundedVndf", x), 0.5,
-                 "fullNdf", log_y=True, shows=2.0)
-
-
-def _lost(count):
-    x = list(np.linspace(0.05, 1.0, count))
-    wo = probes.towards(0.05)
-    curves = {m: [float((_weights(a, m, wo, 2048) == 0.0).mean()) for a in x] for m in SAMPLERS}
-    return Sweep("samples lost below the horizon", "facets",
-                 "Facets that are seen, but reflect downwards, are drawn for nothing; bounded caps leave most of them out.",
-                 "alpha", x, "share of samples, cosine 0.05", curves, [0.0] * len(x), always("boundedVndf", x), 0.25, "fullNdf",
-                 shows=1.5)
+    weights = {m: [_weights(a, m, wo, 2048) for a in x] for m in SAMPLERS}
+    noise = {m: [float(found.std()) for found in per] for m, per in weights.items()}
+    lost = {m: [float((found == 0.0).mean()) for found in per] for m, per in weights.items()}
+    return [Sweep("noise of samplers at grazing views", "facets",
+                  "Drawing all facets by their density leaves a weight without bound; seen facets leave at most 1.", "alpha", x,
+                  "deviation of a sample's weight, cosine 0.05", noise, truth=0.0, chosen="boundedVndf", bound=0.5,
+                  failing="fullNdf", log_y=True, shows=2.0),
+            Sweep("samples lost below the horizon", "facets",
+                  "Facets that are seen, but reflect downwards, are drawn for nothing; bounded caps leave most of them out.",
+                  "alpha", x, "share of samples, cosine 0.05", lost, truth=0.0, chosen="boundedVndf", bound=0.25,
+                  failing="fullNdf", shows=1.5)]
 
 
 def _last_numbers(count):
@@ -166,8 +163,8 @@ def _last_numbers(count):
             unguarded.append(float(density / density))
     return Sweep("random numbers of 0 and just under 1", "facets",
                  "The last random number, rounded up to 1, makes a normal without density, and a weight of 0 / 0.",
-                 "random number", ends, "largest weight", {"guarded": worst, "unguarded": unguarded}, [1.0] * len(ends),
-                 always("guarded", ends), 1e-3, "unguarded")
+                 "random number", ends, "largest weight", {"guarded": worst, "unguarded": unguarded}, truth=1.0,
+                 chosen="guarded", bound=1e-3, failing="unguarded")
 
 
 def _opposite(count):
@@ -188,12 +185,11 @@ def _opposite(count):
         s = probes.samples(probe, wo, 512)
         kept.append(float(s["weight"][:, 0].mean()) if np.isfinite([*f[0], *pdf]).all() else np.nan)
     return Sweep("ior to 1, wi = -wo", "facets",
-                 "The half vector of exact opposites is 0 / 0 where the interface does not bend.",
-                 "ior - 1", x, "albedo of a lossless interface; |h|", {"matched below 1e-4": kept,
-                                                                       "unguarded half vector": half},
-                 [1.0] * len(x), always("matched below 1e-4", x), 2e-2, "unguarded half vector", switch=1e-4, log_x=True)
+                 "The half vector of exact opposites is 0 / 0 where the interface does not bend.", "ior - 1", x,
+                 "albedo of a lossless interface; |h|", {"matched below 1e-4": kept, "unguarded half vector": half}, truth=1.0,
+                 chosen="matched below 1e-4", bound=2e-2, failing="unguarded half vector", switch=1e-4, log_x=True)
 
 
 def sweeps(count):
-    return [_mirror_switch(count), _one_alpha_zero(count), _anisotropy(count), _grazing(count), _samplers(count), _lost(count),
+    return [_mirror_switch(count), _one_alpha_zero(count), _anisotropy(count), _grazing(count), *_samplers(count),
             _last_numbers(count), _opposite(count)]

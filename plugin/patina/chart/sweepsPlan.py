@@ -2,7 +2,7 @@
 """The planner's choice along a sweep: where it switches, the method before would have too large a predicted error."""
 from patina.chart import probes
 from patina.chart.sweeps import Sweep
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 
 TOLERANCE = 0.01
 
@@ -19,13 +19,13 @@ def _sweep(name, fails, label, x, point, methods, truth, failing, make, wo, more
         category, inputs = make(v)
         made = probes.network(category, **inputs)
         for m in methods:
-            curves[m].append(probes.albedo(compiled.load().MaterialProbe(made, {**more, point: m}), wo))
+            curves[m].append(probes.albedo(_patina.MaterialProbe(made, {**more, point: m}), wo))
         chosen.append(probes.planned(made, point, TOLERANCE))
     for missing in set(chosen) - set(methods):
-        curves[missing] = [probes.albedo(compiled.load().MaterialProbe(probes.network(make(v)[0], **make(v)[1]),
+        curves[missing] = [probes.albedo(_patina.MaterialProbe(probes.network(make(v)[0], **make(v)[1]),
                                                                        {**more, point: missing}), wo) for v in x]
-    return Sweep(name, "plan", fails, label, x, "albedo", curves, curves[truth], chosen, TOLERANCE, failing,
-                 switch=_switch(x, chosen), **keywords)
+    return Sweep(name, "plan", fails, label, x, "albedo", curves, truth=curves[truth], chosen=chosen, bound=TOLERANCE,
+                 failing=failing, switch=_switch(x, chosen), **keywords)
 
 
 def _grid(low, high, count):

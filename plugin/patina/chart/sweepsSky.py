@@ -8,8 +8,9 @@ import tempfile
 
 import numpy as np
 
-from patina.chart.sweeps import Sweep, always
-from patina.cli import compiled
+from patina.chart.sweeps import Sweep
+from patina.cli import main
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 
 WIDTH, SIDE = 48, 32
@@ -95,27 +96,24 @@ def irradiance(sky, order=None):
 
 def render(sky, bsdf, backend, samples, *arguments):
     """:returns: red of the middle row"""
-    from patina.cli import main
-
     with tempfile.TemporaryDirectory() as folder:
         stage, texture, image = (os.path.join(folder, name) for name in ("ball.usda", "sky.exr", "image.exr"))
-        compiled.load().write_image(texture, np.ascontiguousarray(sky, np.float32))
+        _patina.write_image(texture, np.ascontiguousarray(sky, np.float32))
         with open(stage, "w", encoding="utf-8") as file:
             file.write(STAGE % {"sky": texture, "bsdf": bsdf, "aperture": 60.0 / WIDTH})
         code = main.main(["record", stage, image, "--quiet", "--backend", backend, "--samples", str(samples), "-w", str(WIDTH),
                           "--maxDepth", "1", *arguments])
         if code != 0:
             raise CommandError(f"the ball of the atlas does not render with {backend}")
-        found = compiled.load().read_image(image)
+        found = _patina.read_image(image)
         pixels = np.array(found.pixels)
         return pixels[pixels.shape[0] // 2, 1:-1, found.channels.index("R")].astype(float)
 
 
 def has_raster():
     """:returns: whether the rasterizer runs here"""
-    patina = compiled.load()
     try:
-        patina.RasterProbe(patina.display_color_network())
+        _patina.RasterProbe(_patina.display_color_network())
     except (AttributeError, RuntimeError, TypeError):
         return False
     return True
@@ -126,8 +124,8 @@ def _texel():
     truth = irradiance(sky)
     curves = {"embree": render(sky, DIFFUSE, "embree", 1024), "harmonics, no window": irradiance(sky, 2)}
     return [Sweep("one texel of 1e5, diffuse", "sky", "Harmonics without a window ring: light of less than nothing behind.",
-                  "degrees of the normal", list(x), "reflected", {k: list(v) for k, v in curves.items()}, list(truth),
-                  always("embree", x), 0.06 * max(truth), "harmonics, no window", shows=1.2)]
+                  "degrees of the normal", list(x), "reflected", {k: list(v) for k, v in curves.items()}, truth=list(truth),
+                  chosen="embree", bound=0.06 * max(truth), failing="harmonics, no window", shows=1.2)]
 
 
 def _not_numbers(count):
@@ -142,7 +140,7 @@ def _not_numbers(count):
         truth.append(0.5 * (1.0 - share))
     return [Sweep("texels that are no numbers", "sky", "One NaN in the mean of a texture darkens or blackens every pixel.",
                   "share of the sky", x, "mean of the ball under a sky of 0.5", {"as black": found, "taken as they are": plain},
-                  truth, always("as black", x), 0.05, "taken as they are")]
+                  truth=truth, chosen="as black", bound=0.05, failing="taken as they are")]
 
 
 def drawn(samples=64):
@@ -158,9 +156,8 @@ def drawn(samples=64):
         truth = irradiance(sky) if bsdf is DIFFUSE else render(sky, bsdf, "embree", 4096)
         curves = {m: list(render(sky, bsdf, "raster", samples, "--method", "domeLight=" + m)) for m in RASTER}
         curves["embree"] = list(render(sky, bsdf, "embree", 4 * samples))
-        found.append(Sweep(f"rasterizer, one texel of 1e5, {name}", "sky",
-                           fails, "degrees of the normal", list(x), "reflected", curves, list(truth), always("embree", x),
-                           0.1 * max(truth), failing))
+        found.append(Sweep(f"rasterizer, one texel of 1e5, {name}", "sky", fails, "degrees of the normal", list(x), "reflected",
+                           curves, truth=list(truth), chosen="embree", bound=0.1 * max(truth), failing=failing))
     return found
 
 

@@ -12,12 +12,12 @@ OUT.usda may not be a file that the command reads, unless --in-place is given. T
 replaced in that file, and everything else in it stays.
 """
 import os
-import sys
 
 import numpy as np
 
-from patina import limits
-from patina.cli import bakeOutput, compiled, materials, outputs, statistics
+from patina import limits, networks
+from patina.cli import bakeOutput, materials, outputs, statistics
+from patina.cli.compiled import _patina
 from patina.cli.bakeOutput import NORMALS
 from patina.cli.errors import CommandError, UsageError
 
@@ -54,12 +54,12 @@ def run(arguments):
     name, network = found[0]
     if not arguments.in_place:
         outputs.check(arguments.output, bakeOutput.EXTENSIONS)
-    translated = compiled.load().translate_material(network, arguments.to, warnings)
+    translated = _patina.translate_material(network, arguments.to, warnings)
     if translated.empty:
         raise CommandError(f"{arguments.material}: {warnings[-1]['message'] if warnings else 'nothing to bake'}")
     inputs = evaluate(translated, arguments.to, arguments.resolution, warnings)
     bakeOutput.write(arguments, name, inputs, warnings)
-    statistics.report(warnings, sys.stderr, json=False)
+    statistics.report(warnings, json=False)
 
 
 def evaluate(network, target, resolution, warnings):
@@ -67,9 +67,8 @@ def evaluate(network, target, resolution, warnings):
 
     :returns: name -> (type, number, text, tuple, or array of height x width x channels)
     """
-    module = compiled.load()
-    types = module.node_inputs(target)
-    defaults = module.node_defaults(target)
+    types = _patina.node_inputs(target)
+    defaults = _patina.node_defaults(target)
     surface = _surface(network)
     inputs = {}
     for name, value in surface["inputs"].items():
@@ -123,28 +122,13 @@ def _image(network, source, output, kind, resolution, warnings):
 
 def _probe(network, source, output, kind, sign):
     """Light is never negative, so a value is what it gives as light less what its negative gives."""
-    module = compiled.load()
-    copy = module.Network(network.path)
-    for node in network.nodes():
-        copy.add_node(node["path"], node["id"])
-        for name, value in node["inputs"].items():
-            copy.set_input(node["path"], name, value["type"], value["value"], value["color_space"])
-        for name, (other, port) in node["connections"].items():
-            copy.connect(node["path"], name, other, port)
-    top = "/bake"
+    copy, read = networks.copied(network), (source, output)
     if kind in ("integer", "boolean"):
-        copy.add_node(top + "/number", f"ND_convert_{kind}_color3")
-        copy.connect(top + "/number", "in", source, output)
-        source, output = top + "/number", ""
-    copy.add_node(top + "/value", "ND_multiply_color3")
-    copy.connect(top + "/value", "in1", source, output)
-    copy.set_input(top + "/value", "in2", "color3", [sign, sign, sign])
-    copy.add_node(top + "/light", "ND_uniform_edf")
-    copy.connect(top + "/light", "color", top + "/value")
-    copy.add_node(top + "/surface", "ND_surface")
-    copy.connect(top + "/surface", "edf", top + "/light")
-    copy.set_terminal("surface", top + "/surface")
-    return module.MaterialProbe(copy)
+        read = networks.add(copy, "/bake/number", f"ND_convert_{kind}_color3", **{"in": read})
+    value = networks.add(copy, "/bake/value", "ND_multiply_color3", {"in2": ("color3", [sign, sign, sign])}, in1=read)
+    light = networks.add(copy, "/bake/light", "ND_uniform_edf", color=value)
+    copy.set_terminal("surface", networks.add(copy, "/bake/surface", "ND_surface", edf=light))
+    return _patina.MaterialProbe(copy)
 
 
 def _constant(image, kind):

@@ -9,8 +9,10 @@ import numpy as np
 
 from patina import messages
 from patina.chart.png import display_values
-from patina.cli import compiled, materials, outputs, tryStage
+from patina.cli import materials, outputs, tryStage
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
+from patina.cli.usd import TYPES, Sdf, Usd, UsdShade, reader
 
 EXTENSIONS = (".usda", ".usdc", ".usd")
 # Vectors that are directions.
@@ -46,25 +48,15 @@ def write(arguments, name, inputs, warnings):
 
 def _present(output):
     """:returns: the layer of OUT, which is there"""
-    from pxr import Sdf, Tf
-
-    from patina.stage import compat, errors
-
-    with compat.QuietDiagnostics() as quiet:
-        try:
-            layer, problem = Sdf.Layer.FindOrOpen(output), "it is no USD file"
-        except Tf.ErrorException as error:
-            layer, problem = None, errors.one_line(error)
+    layer, problem = reader.compat.attempt(Sdf.Layer.FindOrOpen, output)
     if layer is None:
-        raise CommandError(f"{output} cannot be opened: {quiet.texts[0] if quiet.texts else problem}")
+        raise CommandError(f"{output} cannot be opened: {problem or 'it is no USD file'}")
     return layer
 
 
 def _path_in(layer, base, name):
     """:param layer: of OUT, None for a new one
     :returns: path of the material there"""
-    from pxr import Sdf
-
     there = layer is not None and name.startswith("/") and Sdf.Path.IsValidPathString(name)
     return Sdf.Path(name if there else f"/{base}")
 
@@ -107,8 +99,6 @@ class _Textures:
 def _readers(layer, path):
     """:param path: of the material that is replaced: what is below it is its own
     :returns: dict of a file that the layer names -> paths of the materials that do, or of the prims where these are none"""
-    from pxr import Sdf
-
     found, folder = {}, os.path.dirname(layer.realPath)
 
     def visit(place):
@@ -141,8 +131,6 @@ def _material_of(layer, prim, path):
 
 def _layer_of(arguments, base, textures, inputs, warnings):
     """:returns: an anonymous layer that holds the material alone, at /base; textures go to `textures`"""
-    from pxr import Sdf, Usd, UsdShade
-
     layer = Sdf.Layer.CreateAnonymous("baked.usda")
     stage = Usd.Stage.Open(layer)
     material = UsdShade.Material.Define(stage, f"/{base}")
@@ -163,8 +151,6 @@ def _layer_of(arguments, base, textures, inputs, warnings):
 
 def _merged(arguments, made, base, layer, path):
     """:returns: a copy of OUT's layer with the material in the place of the one that was baked; not saved"""
-    from pxr import Sdf
-
     changed = Sdf.Layer.CreateAnonymous("merged" + os.path.splitext(arguments.output)[1])
     changed.TransferContent(layer)
     Sdf.CreatePrimInLayer(changed, path)
@@ -176,8 +162,6 @@ def _merged(arguments, made, base, layer, path):
 
 def _check_strength(arguments, layer, changed, path):
     """:raises CommandError: where what stronger layers say of the material hides what was baked"""
-    from pxr import Sdf, Usd, UsdShade
-
     file = materials.split(arguments.material)[0]
     if materials.is_document(file):
         return
@@ -199,22 +183,13 @@ def _check_strength(arguments, layer, changed, path):
 
 
 def _export(layer, temporary, output):
-    from pxr import Tf
-
-    from patina.stage import compat, errors
-
-    with compat.QuietDiagnostics() as quiet:
-        try:
-            good, reason = layer.Export(temporary), ""
-        except Tf.ErrorException as error:
-            good, reason = False, errors.one_line(error)
+    good, problem = reader.compat.attempt(layer.Export, temporary)
     if not good:
-        raise CommandError(f"cannot write '{output}': {reason or (quiet.texts or ['no reason was given'])[0]}")
+        raise CommandError(f"cannot write '{output}': {problem or 'no reason was given'}")
 
 
 def _texture(arguments, textures, name, kind, image, warnings):
     """Writes an image. :returns: its file name beside the stage, and its colour space"""
-    module = compiled.load()
     color = kind == "color3"
     pixels = image
     if name in NORMALS:
@@ -228,17 +203,12 @@ def _texture(arguments, textures, name, kind, image, warnings):
         pixels = display_values(pixels)
     # sRGB is applied above, so that no display transform stands between a colour and its file.
     options = {"raw": True, "bits": 16 if name in NORMALS else 8} if png else {"half": True}
-    module.write_image(textures.add(name), np.ascontiguousarray(pixels, np.float32), options=options)
+    _patina.write_image(textures.add(name), np.ascontiguousarray(pixels, np.float32), options=options)
     return textures.name(name), "sRGB" if png and color else "raw"
 
 
 def _sdf(kind):
-    from pxr import Sdf
-
-    return {"float": Sdf.ValueTypeNames.Float, "color3": Sdf.ValueTypeNames.Color3f,
-            "vector2": Sdf.ValueTypeNames.Float2, "vector3": Sdf.ValueTypeNames.Float3,
-            "integer": Sdf.ValueTypeNames.Int, "boolean": Sdf.ValueTypeNames.Bool,
-            "string": Sdf.ValueTypeNames.String}[kind]
+    return Sdf.ValueTypeNames.Find(TYPES[kind])
 
 
 def _plain(kind, value):
@@ -253,16 +223,12 @@ class _Network:
     """A material that is one shader with textures; classes below know how these are spelled."""
 
     def __init__(self, stage, material, model, identifier, output):
-        from pxr import Sdf, UsdShade
-
         self.stage, self.material = stage, material
         self.shader = UsdShade.Shader.Define(stage, material.GetPath().AppendChild("surface"))
         self.shader.CreateIdAttr(identifier)
         self.shader.CreateOutput(output, Sdf.ValueTypeNames.Token)
 
     def node(self, name, identifier):
-        from pxr import UsdShade
-
         shader = UsdShade.Shader.Define(self.stage, self.material.GetPath().AppendChild(name))
         shader.CreateIdAttr(identifier)
         return shader
@@ -281,21 +247,15 @@ class _Preview(_Network):
         self.reader = None
 
     def normal(self, name, value):
-        from pxr import Sdf
-
         self.shader.CreateInput(name, Sdf.ValueTypeNames.Normal3f).Set(tuple(value))
 
     def value(self, name, kind, value):
-        from pxr import Sdf
-
         if name == "opacityMode":  # a word here, a number in MaterialX
             self.shader.CreateInput(name, Sdf.ValueTypeNames.Token).Set("presence" if value >= 0.5 else "transparent")
         else:
             super().value(name, kind, value)
 
     def texture(self, name, kind, file, space):
-        from pxr import Sdf
-
         types = Sdf.ValueTypeNames
         if self.reader is None:
             self.reader = self.node("uv", "UsdPrimvarReader_float2")
@@ -331,8 +291,6 @@ class _MaterialX(_Network):
         return node
 
     def texture(self, name, kind, file, space):
-        from pxr import Sdf
-
         node = self.node(name + "_texture", f"ND_image_{kind}")
         asset = node.CreateInput("file", Sdf.ValueTypeNames.Asset)
         asset.Set(Sdf.AssetPath("./" + file))

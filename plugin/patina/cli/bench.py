@@ -7,32 +7,29 @@
 They are part of a checkout (testenv/bench), as the tests are. Figures drift between runs and machines;
 the ratios of one run count.
 """
-import importlib.util
-import os
-import sys
-
-from patina.cli.errors import CommandError, UsageError
+from patina.cli import checkout
+from patina.cli.errors import UsageError
 
 PASSES_ON = AS_TYPED = True  # benchmarks read their own flags, --json FILE among them
-# name -> (file of testenv/bench that has main(arguments), what it measures)
+# name -> (module of testenv/bench that has main(arguments), what it measures)
 BENCHMARKS = {
-    "denoise": ("denoiseBench.py", "denoised images: seconds until they look like the reference; beside Cycles"),
-    "features": ("featureBench.py", "features beside the renderer without them: processor time, and error over time as charts"),
-    "frame": ("frameBench.py", "the processor's share of a viewport's frame, with a driver that draws nothing; beside Storm"),
-    "growth": ("growthBench.py", "growth with triangles, instances, prims, prototypes, lights, materials and textures: seconds "
+    "denoise": ("denoiseBench", "denoised images: seconds until they look like the reference; beside Cycles"),
+    "features": ("featureBench", "features beside the renderer without them: processor time, and error over time as charts"),
+    "frame": ("frameBench", "the processor's share of a viewport's frame, with a driver that draws nothing; beside Storm"),
+    "growth": ("growthBench", "growth with triangles, instances, prims, prototypes, lights, materials and textures: seconds "
                                  "to the first image, of a sample, and memory"),
-    "hydra": ("hydraBench.py", "frames in Hydra: first, after a camera move, rays per second, memory; beside "
+    "hydra": ("hydraBench", "frames in Hydra: first, after a camera move, rays per second, memory; beside "
                                "hdEmbree and Storm"),
-    "lobes": ("lobeBench.py", "what the lobes of a constant material cost at a vertex of a path; beside Mitsuba 3"),
-    "path": ("pathBench.py",
+    "lobes": ("lobeBench", "what the lobes of a constant material cost at a vertex of a path; beside Mitsuba 3"),
+    "path": ("pathBench",
              "path tracing: seconds until the error is small, what a sample takes; beside Mitsuba 3 and Cycles"),
-    "plan": ("planBench.py", "the plan: time to a tolerance with planned methods, beside the same tolerance without a plan"),
-    "raster": ("rasterBench.py", "frames of the rasterizer: first, after an edit, after a camera move, and where their time "
+    "plan": ("planBench", "the plan: time to a tolerance with planned methods, beside the same tolerance without a plan"),
+    "raster": ("rasterBench", "frames of the rasterizer: first, after an edit, after a camera move, and where their time "
                                  "goes; beside Storm"),
-    "rays": ("rayBench.py", "rays per second of a path traced frame, beside the same rays traced with nothing around"),
-    "view": ("viewBench.py",
+    "rays": ("rayBench", "rays per second of a path traced frame, beside the same rays traced with nothing around"),
+    "view": ("viewBench",
              "pages of `patina view` in headless Chromium: size, seconds to the first picture and to 64 samples"),
-    "viewport": ("viewportBench.py", "first images, and images after edits, in UsdImagingGLEngine; beside Storm, hdEmbree and "
+    "viewport": ("viewportBench", "first images, and images after edits, in UsdImagingGLEngine; beside Storm, hdEmbree and "
                                      "Cycles"),
 }
 
@@ -52,13 +49,6 @@ def run(arguments):
     return _load(BENCHMARKS[name][0]).main(rest)
 
 
-def _load(file):
-    root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-    path = os.path.join(root, "testenv", "bench", file)
-    if not os.path.isfile(path):
-        raise CommandError("the benchmarks are in a checkout only: run ./patina bench there")
-    sys.path.insert(0, os.path.dirname(path))
-    spec = importlib.util.spec_from_file_location(file[:-3], path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+def _load(module):
+    checkout.require(f"testenv/bench/{module}.py", "bench", "the benchmarks are")
+    return checkout.module("testenv/bench", module)

@@ -2,7 +2,6 @@
 """The bill of materials of release files, as SPDX 2.3 in JSON: which packages each file contains, and which it asks for."""
 import datetime
 import email
-import hashlib
 import json
 import os
 import re
@@ -13,18 +12,10 @@ import zipfile
 
 from patina import __version__
 from patina.cli import bundledLibraries
+from patina.farm import digests
 
 _PAGE = "page.js"  # the material page's script, which holds the packages of its package-lock.json
 _LOCK = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "view", "web", "package-lock.json")
-
-
-def checksum(path):
-    """:returns: SHA-256 of a file, hexadecimal"""
-    digest = hashlib.sha256()
-    with open(path, "rb") as file:
-        for block in iter(lambda: file.read(1 << 20), b""):
-            digest.update(block)
-    return digest.hexdigest()
 
 
 def write(path, files, commit, time):
@@ -41,7 +32,7 @@ def write(path, files, commit, time):
         name = os.path.basename(file)
         own = _id(name)
         packages[own] = _package(name, own, __version__, packageFileName=name, licenseDeclared="Apache-2.0",
-                                 checksums=[{"algorithm": "SHA256", "checksumValue": checksum(file)}],
+                                 checksums=[{"algorithm": "SHA256", "checksumValue": digests.content(file)}],
                                  sourceInfo=f"made from commit {commit}")
         relate("SPDXRef-DOCUMENT", "DESCRIBES", own)
         members = _members(file)

@@ -23,8 +23,8 @@ import sys
 
 import numpy as np
 
-from patina import limits
-from patina.cli import compiled, materials, methods, outputs, statistics
+from patina.cli import materials, methods, outputs, statistics
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
 
 BATCH = 65536  # lines that are worked on at once
@@ -40,10 +40,7 @@ def add_arguments(parser):
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of sample (default: 0)")
     parser.add_argument("--backend", default="embree", choices=["embree", "raster"],
                         help="code to run: raster is the GLSL on the driver (default: embree)")
-    parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
-                        help="change an input before (repeatable)")
-    limits.add_flag(parser)
-    methods.add_flag(parser)
+    materials.add_flags(parser)
     parser.add_argument("--json", metavar="FILE",
                         help="one JSON object per line: --json to standard output, --json=FILE to a file")
 
@@ -58,7 +55,7 @@ def run(arguments):
     chosen = methods.parse(arguments.method)
     found, warnings = materials.load(arguments.material, arguments.set)
     probe = _probe(arguments.backend, found[0][1], chosen)
-    statistics.report(warnings + probe.warnings, sys.stderr, json=False)
+    statistics.report(warnings + probe.warnings, json=False)
     if getattr(probe, "stochastic", False):
         print("note: a method walks at random; values are means over walks, densities are estimates", file=sys.stderr)
     to_file = arguments.json not in (None, "-")
@@ -69,13 +66,12 @@ def run(arguments):
 
 
 def _probe(backend, network, chosen):
-    module = compiled.load()
     if backend == "embree":
-        return module.MaterialProbe(network, chosen)
-    if not hasattr(module, "RasterProbe"):
+        return _patina.MaterialProbe(network, chosen)
+    if not hasattr(_patina, "RasterProbe"):
         raise CommandError("this build has no rasterizer")
     try:
-        return module.RasterProbe(network, chosen)
+        return _patina.RasterProbe(network, chosen)
     except RuntimeError as error:
         raise CommandError(f"--backend raster: {error}") from error
 

@@ -18,12 +18,12 @@ cause as in `patina record`. The exit status is 1 if a check fails.
 a varnish: a random walk between the interfaces.
 """
 import math
-import sys
 
 import numpy as np
 
-from patina import limits, significance
-from patina.cli import binnedDensity, causes, compiled, layers, materials, methods, outputs, statistics
+from patina import significance
+from patina.cli import binnedDensity, causes, layers, materials, methods, outputs, statistics
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
 
@@ -34,8 +34,7 @@ ANGLES = (0.0, 30.0, 60.0, 80.0, 89.0)
 
 
 def add_arguments(parser):
-    parser.add_argument("material", metavar="STAGE|MATERIAL", nargs="?", help=materials.MATERIAL_HELP.replace(
-        "the only material", "every material"))
+    parser.add_argument("material", metavar="STAGE|MATERIAL", nargs="?", help=materials.EVERY_HELP)
     parser.add_argument("--layers", action="store_true", help="layers beside a random walk, as a table")
     parser.add_argument("--samples", type=int, default=65536, metavar="N", help="samples per direction (default: 65536)")
     parser.add_argument("--places", type=int, default=3, metavar="N",
@@ -44,10 +43,7 @@ def add_arguments(parser):
                         help="allowed error of energy, densities and weights (default: 0.01)")
     parser.add_argument("--reciprocal", action="store_true", help="fail where f(a, b) is not f(b, a)")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the random numbers (default: 0)")
-    parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
-                        help="change an input before (repeatable)")
-    limits.add_flag(parser)
-    methods.add_flag(parser)
+    materials.add_flags(parser)
     parser.add_argument("--json", metavar="FILE", help="write the results as JSON: --json to standard output, "
                                                        "--json=FILE to a file")
 
@@ -70,7 +66,7 @@ def run(arguments):
     try:
         for name, network in found:
             work.compiling(name)
-            probe = compiled.load().MaterialProbe(network, chosen)
+            probe = _patina.MaterialProbe(network, chosen)
             warnings += probe.warnings
             work.begin(_steps(probe, arguments))
             results.append((name, check(probe, arguments, work.step)))
@@ -79,7 +75,7 @@ def run(arguments):
                 _print(*results[-1], width)
     finally:  # also of what was not checked any more
         work.progress.clear()
-        statistics.report(warnings, sys.stderr)
+        statistics.report(warnings)
     outputs.write_json(arguments.json, {"materials": [{"name": name, "checks": outcomes} for name, outcomes in results],
                  "causes": statistics.Causes(warnings).groups, "warnings": warnings})
     failures = [(name, kind, outcome) for name, outcomes in results for kind, outcome in outcomes.items()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checkpoints of a render: IMAGE.checkpoint, and the token that says whether one fits."""
+import contextlib
 import hashlib
 import json
 import os
@@ -52,7 +53,5 @@ def resume(film, path, expected):
 
 
 def remove(path):
-    try:
+    with contextlib.suppress(FileNotFoundError):
         os.remove(path)
-    except FileNotFoundError:
-        pass

@@ -16,7 +16,8 @@ import os
 import sys
 
 from patina import inputs
-from patina.cli import compiled, imageMetrics, outputs
+from patina.cli import imageMetrics, outputs
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
 
 LINEAR = (".exr", ".hdr", ".pfm")
@@ -102,7 +103,7 @@ def _size(image):
 def _read(path, aov):
     if not os.path.exists(path):
         raise CommandError(f"there is no file {path}")
-    image = compiled.load().read_image(path)
+    image = _patina.read_image(path)
     if aov == "color":
         chosen = [i for name in "RGB" for i, c in enumerate(image.channels) if c == name]
         if len(chosen) != 3:  # grey images

@@ -6,8 +6,9 @@
   patina completion zsh > ~/.zfunc/_patina                in a folder of $fpath
 """
 import argparse
-import importlib
 import shlex
+
+from patina.cli import main
 
 SHELLS = ("bash", "zsh")
 
@@ -23,12 +24,10 @@ def run(arguments):
 def table():
     """:returns: command -> dict of flag -> (choices, text of --help), from the parsers that --help is made of; what stands
     first is listed under the command's own name"""
-    from patina.cli import main
-
     found = {}
-    for name, module in main.COMMANDS.items():
+    for name in main.COMMANDS:
         parser = argparse.ArgumentParser(prog=f"patina {name}")
-        importlib.import_module("patina.cli." + module).add_arguments(parser)
+        main.module_of(name).add_arguments(parser)
         found[name] = {}
         for action in parser._actions:
             for flag in action.option_strings or [name]:
@@ -68,8 +67,6 @@ complete -o bashdefault -o default -F _patina patina"""
 
 
 def _zsh(commands):
-    from patina.cli import main
-
     def listed(pairs):
         return " ".join(shlex.quote(f"{name}:{text}") for name, text in pairs)
 
@@ -78,7 +75,7 @@ def _zsh(commands):
 _patina() {{
     local -a found
     if (( CURRENT == 2 )); then
-        found=({listed(main.SUMMARIES.items())})
+        found=({listed(main.COMMANDS.items())})
         _describe command found
         return
     fi

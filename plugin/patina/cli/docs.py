@@ -9,8 +9,8 @@ of these two is missing, a line says which part is left out.
 """
 import importlib.util
 import os
-import sys
 
+from patina.cli import checkout
 from patina.cli.errors import CommandError
 
 
@@ -22,13 +22,7 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-    folder = os.path.join(root, "docs", "site")
-    if not os.path.isfile(os.path.join(folder, "build.py")):
-        raise CommandError("the documents are in a checkout only: run ./patina docs there")
+    checkout.require("docs/site/build.py", "docs", "the documents are")
     if importlib.util.find_spec("mkdocs") is None:
         raise CommandError("PyPI's mkdocs-material is not installed (./patina docs installs it where it may)")
-    sys.path.insert(0, folder)
-    import build
-
-    return build.main(os.path.abspath(arguments.folder), arguments.strict)
+    return checkout.module("docs/site", "build").main(os.path.abspath(arguments.folder), arguments.strict)

@@ -12,20 +12,15 @@ For a whole stage with a tolerance it also builds the scene and prints the choic
 """
 import dataclasses
 import os
-import sys
 from concurrent.futures import ThreadPoolExecutor
 
-from patina import limits
-from patina.cli import causes, compiled, materials, methods, outputs, planText, recordFlags, sceneChoices, statistics
+from patina.cli import causes, materials, methods, outputs, planText, recordFlags, sceneChoices, statistics
+from patina.cli.compiled import _patina
 
 
 def add_arguments(parser):
-    parser.add_argument("material", metavar="STAGE|MATERIAL", help=materials.MATERIAL_HELP.replace(
-        "the only material", "every material"))
-    parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
-                        help="change an input before (repeatable)")
-    limits.add_flag(parser)
-    methods.add_flag(parser)
+    parser.add_argument("material", metavar="STAGE|MATERIAL", help=materials.EVERY_HELP)
+    materials.add_flags(parser)
     recordFlags.add_tolerance_flag(parser)
     recordFlags.add_levels_flag(parser)
     parser.add_argument("--backend", default="embree", choices=["embree", "raster"],
@@ -39,16 +34,15 @@ def run(arguments):
     recordFlags.check_levels(arguments, "explain")
     found, warnings = materials.load(arguments.material, arguments.set, every=True)
     outputs.check_all([arguments.json])
-    module = compiled.load()
     chosen = methods.parse(arguments.method)
     tolerance = arguments.tolerance
     with ThreadPoolExecutor(os.cpu_count()) as pool:  # most of it is reading textures
-        plans = list(pool.map(lambda pair: (pair[0], module.plan_material(pair[1], chosen, tolerance)), found))
+        plans = list(pool.map(lambda pair: (pair[0], _patina.plan_material(pair[1], chosen, tolerance)), found))
     choices, lit, levels = _of_scene(arguments, chosen, tolerance)
     texts = []
     for (name, network), (_, plan) in zip(found, plans):
         planned = {choice["point"]: choice["method"] for choice in plan["choices"]}
-        texts.append((name, module.explain_material(network, warnings, dict(chosen, **planned))))
+        texts.append((name, _patina.explain_material(network, warnings, dict(chosen, **planned))))
     if arguments.json:
         outputs.write_json(arguments.json, {
             "materials": [{"name": name, "text": text, "plan": plan} for (name, text), (_, plan) in zip(texts, plans)],
@@ -73,7 +67,7 @@ def run(arguments):
     if several and not arguments.verbose:
         one = causes.printable(f"{arguments.material}:{texts[0][0]}")
         print(f"\n--verbose shows all of them in full, {one} one")
-    statistics.report(warnings, sys.stderr)
+    statistics.report(warnings)
 
 
 def _of_scene(arguments, chosen, tolerance):

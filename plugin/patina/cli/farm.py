@@ -14,9 +14,10 @@ import contextlib
 import sys
 
 from patina import inputs, limits
-from patina.cli import causes, compiled, denoiser, frames, openStage, outputs, overrides, recordFlags, renderSettings
+from patina.cli import causes, denoiser, frames, main, openStage, outputs, overrides, recordFlags, renderSettings
+from patina.cli.compiled import _patina
 from patina.cli.errors import UsageError
-from patina.farm import cut, engines, jobFiles, work
+from patina.farm import cut, engines, job, jobFiles, jobs, partJob, work
 
 PASSES_ON = True  # to `patina record`
 _STAGE, _IMAGE = "\0stage", "\0image"  # no word of a command line holds a zero
@@ -53,14 +54,13 @@ def run(arguments):
     limits.apply(record.limit)  # the sender opens the stage, too
     engine = engines.parse(arguments.engine, arguments.engineOption)
     counts = _counts(arguments.simulate)
-    module = compiled.load()
     outputs.check_all([arguments.json, arguments.writeJob])
     recordFlags.settings_of(record)
     recordFlags.purposes_of(record)
     stage = openStage.open_stage(record.stage, record.mask, record.sessionLayer, record.layer)
-    _check_render(module, arguments, _with_prim(record, stage))
+    _check_render(arguments, _with_prim(record, stage))
     shots = frames.plan(record, stage)
-    files, missing = jobFiles.of(module, record)
+    files, missing = jobFiles.of(_patina, record)
     for file in files:
         inputs.note(file)
     if missing and not arguments.quiet:
@@ -68,13 +68,9 @@ def run(arguments):
               (f", and {len(missing) - 1} more such files" if len(missing) > 1 else ""), file=sys.stderr)
     outputs.check_all([arguments.json, arguments.writeJob, *(image for _, image in shots)])
     if arguments.writeJob:
-        from patina.farm import jobs
-
         jobs.write(arguments.writeJob, arguments, record, shots)
         return
-    from patina.farm import job
-
-    job.Job(module, engine, arguments, record, shots, files).run(counts)
+    job.Job(engine, arguments, record, shots, files).run(counts)
 
 
 def _with_prim(record, stage):
@@ -88,21 +84,17 @@ def _with_prim(record, stage):
     return renderSettings.applied(record, renderSettings.SettingsPrim(stage, record.settings, record.given))
 
 
-def _check_render(module, arguments, record):
+def _check_render(arguments, record):
     """Refuses at once all that each task would refuse."""
     if arguments.cut.parts > 1:
-        from patina.farm import partJob
-
         partJob.check(argparse.Namespace(**dict(vars(record), part=cut.Part(1, arguments.cut), partial="part")))
-    cut.ranges(module.span_ends(recordFlags.settings_of(record)["samples"]), arguments.cut.ranges)
+    cut.ranges(_patina.span_ends(recordFlags.settings_of(record)["samples"]), arguments.cut.ranges)
     if record.denoise:
-        denoiser.prepare(module)
+        denoiser.prepare(_patina)
 
 
 def _record_arguments(arguments):
     """:returns: what `patina record` would have parsed of the flags that are not the farm's own"""
-    from patina.cli import main
-
     parser = main._Parser(prog="patina farm")
     recordFlags.add_arguments(parser)
     argv = main._normalise(arguments.passed_on + ([f"--frames={arguments.frames}"] if arguments.frames else []))

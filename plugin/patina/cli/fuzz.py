@@ -17,7 +17,7 @@ import functools
 import os
 import sys
 
-from patina.cli import outputs
+from patina.cli import checkout, outputs
 from patina.cli.errors import CommandError, UsageError
 
 
@@ -44,16 +44,10 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-    folder = os.path.join(root, "testenv", "fuzz")
-    if not os.path.isfile(os.path.join(folder, "fuzzRun.py")):
-        raise CommandError("the fuzzers are in a checkout only: run ./patina fuzz there")
+    checkout.require("testenv/fuzz/fuzzRun.py", "fuzz", "the fuzzers are")
     if arguments.seed < 0 or not all(0.0 < s < 1e9 for s in (arguments.seconds, arguments.plateau or 1.0)):
         raise UsageError("patina fuzz: --seed is 0 or more, and --seconds and --plateau above 0")
-    sys.path.insert(0, folder)
-    import fuzzRun
-    import keptFindings
-
+    fuzzRun = checkout.module("testenv/fuzz", "fuzzRun")
     if arguments.list:
         print("\n".join(fuzzRun.listing()))
         return 0
@@ -61,23 +55,23 @@ def run(arguments):
         if len(arguments.names) != 1:
             raise UsageError("patina fuzz: --keep FINDING takes one NAME")
         try:
-            print(keptFindings.keep(arguments.keep, arguments.names[0]))
+            print(checkout.module("testenv/fuzz", "keptFindings").keep(arguments.keep, arguments.names[0]))
         except (OSError, ValueError) as error:
             raise CommandError(f"--keep: {error}") from None
         return 0
     wrong = fuzzRun.unknown(arguments.names)
     if wrong:
         raise UsageError(f"patina fuzz: there is no fuzzer '{wrong[0]}' (there are: {', '.join(fuzzRun.FUZZERS)})")
-    import results as table
-
+    table = checkout.module("testenv/fuzz", "results")
     file = None if arguments.results is None else arguments.results or table.FILE
     # Before the run, which takes hours.
     outputs.check_all([arguments.json, file])
     if file:
         _of_table(table.read, file)
     say = functools.partial(print, file=sys.stderr) if arguments.json == "-" else print
+    build = os.path.abspath(arguments.build or os.path.join(checkout.ROOT, "build-fuzz"))
     results = fuzzRun.run(arguments.names, arguments.seconds, arguments.plateau, arguments.seed, arguments.corpus,
-                          arguments.findings, os.path.abspath(arguments.build or os.path.join(root, "build-fuzz")), say)
+                          arguments.findings, build, say)
     try:
         outputs.write_json(arguments.json, {"seed": arguments.seed, "fuzzers": fuzzRun.figures(results)})
     finally:  # one that can no longer be written does not lose the other

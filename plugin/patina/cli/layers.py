@@ -6,8 +6,9 @@ lobes, until it leaves. Nothing lies between the layers and they are infinitely 
 import math
 
 import numpy as np
+from patina import networks
+from patina.cli.compiled import _patina
 
-from patina.cli import compiled
 
 ANGLES = (0.0, 45.0, 75.0)
 BOUNCES = 400  # at most; roulette ends walks long before
@@ -31,31 +32,25 @@ STACKS = {
 
 class _Builder:
     def __init__(self):
-        self.network = compiled.load().Network("/layers")
+        self.network = _patina.Network("/layers")
         self.count = 0
 
-    def node(self, kind, inputs=(), sources=()):
+    def node(self, kind, inputs=None, **sources):
         self.count += 1
-        path = f"/layers/n{self.count}"
-        self.network.add_node(path, kind)
-        for name, of, value in inputs:
-            self.network.set_input(path, name, of, value)
-        for name, source in sources:
-            self.network.connect(path, name, source)
-        return path
+        return networks.add(self.network, f"/layers/n{self.count}", kind, inputs, **sources)
 
     def interface(self, ior, alpha, mode):
-        return self.node("ND_dielectric_bsdf", [("ior", "float", ior), ("roughness", "vector2", (alpha, alpha)),
-                                                ("scatter_mode", "string", mode)])
+        return self.node("ND_dielectric_bsdf", {"ior": ("float", ior), "roughness": ("vector2", (alpha, alpha)),
+                                                "scatter_mode": ("string", mode)})
 
     def base(self, base):
         if base == "gold":
-            return self.node("ND_conductor_bsdf", [("roughness", "vector2", (0.2, 0.2))])
-        return self.node("ND_oren_nayar_diffuse_bsdf", [("color", "color3", base)])
+            return self.node("ND_conductor_bsdf", {"roughness": ("vector2", (0.2, 0.2))})
+        return self.node("ND_oren_nayar_diffuse_bsdf", {"color": ("color3", base)})
 
     def probe(self, bsdf, methods):
-        self.network.set_terminal("surface", self.node("ND_surface", sources=[("bsdf", bsdf)]))
-        return compiled.load().MaterialProbe(self.network, methods)
+        self.network.set_terminal("surface", self.node("ND_surface", bsdf=bsdf))
+        return _patina.MaterialProbe(self.network, methods)
 
 
 def scaled(interfaces, base, methods):
@@ -63,7 +58,7 @@ def scaled(interfaces, base, methods):
     builder = _Builder()
     bsdf = builder.base(base)
     for ior, alpha in reversed(interfaces):
-        bsdf = builder.node("ND_layer_bsdf", sources=[("top", builder.interface(ior, alpha, "R")), ("base", bsdf)])
+        bsdf = builder.node("ND_layer_bsdf", top=builder.interface(ior, alpha, "R"), base=bsdf)
     return builder.probe(bsdf, methods)
 
 
@@ -130,11 +125,6 @@ def rows(methods, count, seed):
         for degrees, ours, true, error in compare(interfaces, base, methods, count, generator):
             yield {"stack": name, "degrees": degrees, "scaled": ours.tolist(), "walk": true.tolist(),
                    "noise": error.tolist()}
-
-
-def report(methods, count, seed):
-    """:returns: list of all rows"""
-    return list(rows(methods, count, seed))
 
 
 def line(row):

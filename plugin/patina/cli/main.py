@@ -11,31 +11,11 @@ from patina import __version__, inputs, limits
 from patina.cli import causes, colours, interrupts, standardStreams, usageHints
 from patina.cli.errors import FAILED, TEMPORARY, USAGE, CommandError, UsageError, is_temporary
 
+_MODULES = {"test": "testRun"}  # commands whose module is called otherwise
 _BATCH = ("record", "merge", "farm")  # what schedulers run: a signal that ended one may pass
 
-# name -> module of patina.cli that has HELP, add_arguments(parser) and run(arguments)
+# Name, which is that of a module of patina.cli with add_arguments(parser) and run(arguments), -> what it does.
 COMMANDS = {
-    "record": "record",
-    "merge": "merge",
-    "farm": "farm",
-    "explain": "explain",
-    "bsdf": "bsdf",
-    "check": "check",
-    "bake": "bake",
-    "shader": "shader",
-    "view": "view",
-    "compare": "compare",
-    "hydra": "hydra",
-    "bench": "bench",
-    "chart": "chart",
-    "docs": "docs",
-    "release": "release",
-    "completion": "completion",
-    "fuzz": "fuzz",
-    "test": "testRun",
-}
-
-SUMMARIES = {
     "record": "render a stage to images",
     "merge": "put the parts of a cut frame together",
     "farm": "render frames and parts of them on many machines",
@@ -85,7 +65,7 @@ def _normalise(argv):
 def _overview():
     lines = ["usage: patina COMMAND ...", "", "Renders USD stages with physically based shading networks.", "",
              "commands:"]
-    lines += [f"  {name:<10}{text}" for name, text in SUMMARIES.items()]
+    lines += [f"  {name:<10}{text}" for name, text in COMMANDS.items()]
     lines += ["", "`patina COMMAND --help` tells everything about one of them.",
               "Exit status: 0 done, 1 failed with a one-line reason, 2 wrong usage, 75 failed for a reason that may pass",
               "(a full disk, memory, a lost device) or ended by a signal with all saved: the same may work again."]
@@ -99,6 +79,10 @@ def _check_arguments(argv):
         except UnicodeEncodeError:
             shown = argument.encode(errors="surrogateescape").decode(errors="replace")
             raise UsageError(f"patina: {shown}: names that are not UTF-8 are neither read nor written") from None
+
+
+def module_of(command):
+    return importlib.import_module("patina.cli." + _MODULES.get(command, command))
 
 
 def _dispatch(argv):
@@ -116,7 +100,7 @@ def _dispatch(argv):
         found = usageHints.nearest(name, COMMANDS)
         raise UsageError(f"patina: there is no command '{name}'" + (f"; did you mean {found}?" if found else "") +
                          f" (there are: {', '.join(COMMANDS)})")
-    module = importlib.import_module("patina.cli." + COMMANDS[name])
+    module = module_of(name)
     if not getattr(module, "NAMES_OF_ANY_BYTES", False):
         _check_arguments(argv)
     parser = _Parser(prog=f"patina {name}", description=module.__doc__)
@@ -187,19 +171,13 @@ def main(argv=None):
 
 def _failed(error, endings, command):
     """:returns: the exit status, after the reason in one line"""
-    ended = False
     if os.environ.get("PATINA_TRACEBACK"):
         traceback.print_exc()
-    if isinstance(error, KeyboardInterrupt) or (endings.met and not isinstance(error, CommandError)):
-        ended = True
-        reason = f"patina: {endings.text()}"
-    elif isinstance(error, UsageError):
+    ended = isinstance(error, KeyboardInterrupt) or endings.met and (
+        not isinstance(error, CommandError) or isinstance(error.__cause__, ImportError))
+    if isinstance(error, UsageError) and not ended:
         print(colours.painted(_one_line(error), sys.stderr), file=sys.stderr)
         return USAGE
-    elif endings.met and isinstance(error.__cause__, ImportError):
-        ended = True
-        reason = f"patina: {endings.text()}"
-    else:
-        reason = f"patina: {_one_line(error)}"
+    reason = f"patina: {endings.text() if ended else _one_line(error)}"
     print(colours.painted(reason, sys.stderr), file=sys.stderr)
     return TEMPORARY if is_temporary(error) or (ended and command and command[0] in _BATCH) else FAILED

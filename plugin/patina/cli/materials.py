@@ -2,13 +2,24 @@
 """MATERIAL arguments: FILE[:/prim/path] of a stage, FILE.mtlx[:name], or library:NAME."""
 import os
 
-from patina import inputs
-from patina.cli import compiled, openStage, overrides
+from patina import inputs, limits
+from patina.cli import methods, openStage, overrides
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
+from patina.cli.usd import reader
 from patina.library import catalog
 
 MATERIAL_HELP = ("FILE[:/prim/path] of a stage, FILE.mtlx[:name], or library:NAME of Patina's own (patina view --library shows "
                  "them); without a path or name: the only material of the file")
+EVERY_HELP = MATERIAL_HELP.replace("the only material", "every material")
+
+
+def add_flags(parser):
+    """Those that change what a material is, and how it is computed."""
+    parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
+                        help="change an input before (repeatable)")
+    limits.add_flag(parser)
+    methods.add_flag(parser)
 
 
 def split(text):
@@ -41,7 +52,7 @@ def load(text, set_texts=(), every=False):
     if not os.path.exists(file):
         raise CommandError(f"there is no file {file}")
     inputs.check_regular(file)
-    warnings = list(compiled.load().model_warnings())
+    warnings = list(_patina.model_warnings())
     found = _of_document(file, warnings) if is_document(file) else _of_stage(file, set_texts, warnings)
     if name:
         chosen = [pair for pair in found if pair[0] == name or pair[0].rpartition("/")[2] == name]
@@ -67,13 +78,11 @@ def _list(found):
 
 def _of_document(file, warnings):
     inputs.note_document(file)
-    networks = compiled.load().read_mtlx(file, warnings)
+    networks = _patina.read_mtlx(file, warnings)
     return [(network.path[len(file) + 1:], network) for network in networks]
 
 
 def _of_stage(file, set_texts, warnings):
-    from patina import stage as reader
-
     stage = openStage.open_stage(file)
     overrides.apply(stage, set_texts)
     return reader.read_materials(stage, warnings)
@@ -87,6 +96,6 @@ def _override(network, set_texts):
             raise CommandError(f"--set {text}: write it as NODE.INPUT=VALUE")
         inputs[target] = value
     try:
-        return compiled.load().override_material(network, inputs)
+        return _patina.override_material(network, inputs)
     except ValueError as error:
         raise CommandError(f"--set: {error}") from error

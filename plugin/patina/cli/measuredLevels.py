@@ -10,10 +10,10 @@ import dataclasses
 import math
 
 import numpy as np
-from pxr import Usd
 
-from patina.experiment import LUMINANCE, relative_error
-from patina.stage import levels, read_stage
+from patina.cli.compiled import _patina
+from patina.cli.usd import Usd, reader
+from patina.experiment import LUMINANCE, draw, relative_error
 
 SHARE = 0.1  # of a tolerance, for the errors of all roots together
 _SAMPLES = 2**18  # of a level, where 16 or fewer of a pixel are as many
@@ -31,17 +31,17 @@ class Root:
     chosen: int
 
 
-def choose(module, stage, options, size_of, tolerance):
+def choose(stage, options, size_of, tolerance):
     """:param options: StageOptions of the picture
     :param size_of: function of the camera, as Scene.camera() tells it: width and height of the picture, pixels
     :param tolerance: more than 0
     :returns: (list of Roots whose levels may be chosen, the tolerance that is left for everything else)"""
-    with module.Scene().edit() as edit:  # what there is to warn of, the picture's own reading tells
-        camera, found = levels.roots(stage, edit, options)
+    with _patina.Scene().edit() as edit:  # what there is to warn of, the picture's own reading tells
+        camera, found = reader.levels.roots(stage, edit, options)
     options = dataclasses.replace(options, camera=camera)
     roots = []
     for path, (names, truth, bounds) in found.items():
-        drawn = [_draw(module, stage, options, f"{path}/{name}", bounds, size_of) for name in names]
+        drawn = [_draw(stage, options, f"{path}/{name}", bounds, size_of) for name in names]
         roots.append(Root(path, names, truth, _errors(drawn, truth), [count for *_, count in drawn], truth))
     left = SHARE * tolerance
     while True:  # the step that saves most triangles for its error, as long as one fits
@@ -66,7 +66,7 @@ def _errors(drawn, truth):
     return [relative_error(image, before[truth]) for image in before]
 
 
-def _draw(module, stage, options, path, bounds, size_of):
+def _draw(stage, options, path, bounds, size_of):
     """:param path: of a level, which is drawn alone
     :param bounds: of its root, see levels.roots()
     :returns: luminance and alpha, and its number of triangles"""
@@ -74,10 +74,10 @@ def _draw(module, stage, options, path, bounds, size_of):
     mask = Usd.StagePopulationMask([path, options.camera])
     alone = Usd.Stage.OpenMasked(stage.GetRootLayer(), stage.GetSessionLayer(), stage.GetPathResolverContext(), mask)
     alone.ExpandPopulationMask()  # materials and skeletons
-    scene, film = module.Scene(), module.Film()
+    scene, film = _patina.Scene(), _patina.Film()
     with scene.edit() as edit:
-        info = read_stage(alone, edit, dataclasses.replace(options, levels={root: 0}, headlight=True,
-                                                          shutter=(0.0, 0.0)))
+        info = reader.read_stage(alone, edit, dataclasses.replace(options, levels={root: 0}, headlight=True,
+                                                                 shutter=(0.0, 0.0)))
     camera = scene.camera(info.camera)
     width, height = size_of(camera)
     settings = {"width": width, "height": height, "samples": 16, "maxDepth": 2, "seed": 1, "checkpointSeconds": 0.0}
@@ -89,9 +89,6 @@ def _draw(module, stage, options, path, bounds, size_of):
                                   min(max(int(right) + _AROUND, 0), width - 1), min(max(int(bottom) + _AROUND, 0), height - 1))
         x0, y0, x1, y1 = settings["dataWindow"]
         settings["samples"] = min(max(_SAMPLES // ((x1 - x0 + 1) * (y1 - y0 + 1)), 4), 16)
-    renderer = module.make_renderer("embree")
-    renderer.start(scene, info.camera, settings, film)
-    while not renderer.wait(0.2):  # signals are heard in between
-        pass
+    state = draw(_patina.make_renderer("embree"), scene, info.camera, settings, film)
     return (np.asarray(film.resolve("color"), np.float64) @ LUMINANCE, np.asarray(film.resolve("alpha"), np.float64),
-            int(renderer.progress()["statistics"]["trianglesStored"]))
+            int(state["statistics"]["trianglesStored"]))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """How much memory this process has, in bytes."""
+import resource
 import sys
 
 
@@ -7,20 +8,13 @@ def resident():
     """:returns: memory that it has now, or None where the system does not tell"""
     try:
         with open("/proc/self/statm", encoding="ascii") as file:
-            pages = int(file.read().split()[1])
-        import resource
-
-        return pages * resource.getpagesize()
-    except (OSError, ImportError, ValueError, IndexError):
+            return int(file.read().split()[1]) * resource.getpagesize()
+    except (OSError, ValueError, IndexError):
         return None
 
 
 def peak():
-    """:returns: the most that it has had, or None"""
-    try:
-        import resource
-    except ImportError:  # Windows
-        return None
+    """:returns: the most that it has had"""
     most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return most if sys.platform == "darwin" else most * 1024
 

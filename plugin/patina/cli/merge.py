@@ -14,9 +14,11 @@ import os
 import tempfile
 
 from patina import inputs, limits
-from patina.cli import compiled, frames, outputs
+from patina.cli import frames, outputs
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.cli.progress import Progress
+from patina.farm import merging, missing, parts
 
 
 def add_arguments(parser):
@@ -35,15 +37,12 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    from patina.farm import merging, missing, parts
-
-    module = compiled.load()
-    found = parts.Parts(module, arguments.files, arguments.allowMixed)
+    found = parts.Parts(arguments.files, arguments.allowMixed)
     _note(arguments.files, found.first)
     if frames.has_place(arguments.image) and found.first.frame is not None:
         arguments.image = frames.image_name(arguments.image, found.first.frame, found.first.decimals)
     outputs.check_all([arguments.image, arguments.json])
-    module.check_image_path(arguments.image)
+    _patina.check_image_path(arguments.image)
     absent = found.missing()
     if absent and not arguments.renderMissing:
         raise CommandError(f"{parts.names(absent)} (--renderMissing renders them)")
@@ -54,9 +53,9 @@ def run(arguments):
             Progress("", arguments.quiet).say(f"rendering part {part}")
             missing.render(found.first, part, made[-1], arguments)
         if made:
-            found = parts.Parts(module, arguments.files + made, arguments.allowMixed)
+            found = parts.Parts(arguments.files + made, arguments.allowMixed)
             _note(arguments.files, found.first)
-        reported = merging.merge(module, found, arguments.image, arguments.threads)
+        reported = merging.merge(found, arguments.image, arguments.threads)
     if arguments.json:
         reported.write(arguments.json)
 

@@ -1,24 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """--method POINT=NAME: forces a method at a choice point of the planner."""
-import argparse
 import textwrap
 
-from patina.cli import compiled
+from patina import limits
+from patina.cli.compiled import _patina
 from patina.cli.errors import UsageError
 
 
-class _Method(argparse.Action):
-    """Collects choices; `list` shows what there is and ends, as --help does."""
-
-    def __call__(self, parser, namespace, value, option_string=None):
-        if value == "list":
-            print(_listing())
-            parser.exit()
-        setattr(namespace, self.dest, [*getattr(namespace, self.dest), value])
-
-
 def add_flag(group):
-    group.add_argument("--method", action=_Method, default=[], metavar="POINT=NAME",
+    group.add_argument("--method", action=limits.Collect, listing=_listing, default=[], metavar="POINT=NAME",
                        help="force a method at a choice point (repeatable); --method list shows all of them")
 
 
@@ -30,7 +20,7 @@ def parse(texts):
         if not point or not equals or not name:
             raise UsageError(f"patina: --method {text}: write it as POINT=NAME")
         methods[point] = name
-    problem = compiled.load().check_methods(methods) if methods else ""
+    problem = _patina.check_methods(methods) if methods else ""
     if problem:
         raise UsageError(f"patina: --method: {problem}")
     return methods
@@ -49,14 +39,13 @@ def _measured(figures):
 
 def _listing():
     lines = []
-    patina = compiled.load()
-    points = patina.choice_points()
+    points = _patina.choice_points()
     indent = 4 + max(len(name) for _, names in points for name, _ in names)
     for point, names in points:
         lines.append(point)
         for i, (name, description) in enumerate(names):
             text = textwrap.wrap(("(the default) " if i == 0 else "") + description, 90)
-            text += _measured(patina.method_figures(point, name))
+            text += _measured(_patina.method_figures(point, name))
             lines += [f"  {name:<{indent - 2}}{text[0] if text else ''}".rstrip()]
             lines += [" " * indent + more for more in text[1:]]
     return "\n".join(lines)

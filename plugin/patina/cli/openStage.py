@@ -5,8 +5,10 @@ import os
 import re
 
 from patina import inputs
-from patina.cli import interrupts, tryStage
+from patina.cli import interrupts, overrides, tryStage
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
+from patina.cli.usd import Ar, Sdf, Tf, Usd, reader
 
 _LAYERS = (".usd", ".usda", ".usdc", ".usdz")
 _MOST_LAYERS = 1000000  # that are looked at; one counts again for each set of variables that it has from others
@@ -16,11 +18,8 @@ def open_stage(path, mask=None, session_layer=None, layers=()):
     """:param mask: prim paths separated by commas or spaces, or None
     :param layers: files whose opinions are stronger than the stage's and the session layer's; later ones are stronger
     :returns: the Usd.Stage, whose session layer may be edited"""
-    from pxr import Ar, Tf
-
-    from patina.stage import StageError, compat, errors
-
-    interrupts.Endings.check()  # importing pxr prints exceptions and goes on
+    attempt = reader.compat.attempt  # importing pxr prints exceptions and goes on
+    interrupts.Endings.check()
     if not os.path.exists(path):
         raise CommandError(f"there is no file {path}")
     try:
@@ -30,27 +29,30 @@ def open_stage(path, mask=None, session_layer=None, layers=()):
     inputs.check_regular(path)
     problem = tryStage.why_trial_fails(path)
     if problem:
-        raise StageError(f"{path} {problem}")
-    with compat.QuietDiagnostics() as quiet:
-        try:
-            # Names that no layer has beside it are looked for beside the stage, as when USD opens it.
-            with Ar.ResolverContextBinder(Ar.GetResolver().CreateDefaultContextForAsset(os.path.abspath(path))):
-                stage = _open(path, mask, session_layer, layers)
-            problem = "it is no USD file"
-        except Tf.ErrorException as error:
-            stage, problem = None, errors.one_line(error)
+        raise reader.StageError(f"{path} {problem}")
+    # Names that no layer has beside it are looked for beside the stage, as when USD opens it.
+    with Ar.ResolverContextBinder(Ar.GetResolver().CreateDefaultContextForAsset(os.path.abspath(path))):
+        stage, problem = attempt(_open, path, mask, session_layer, layers)
     interrupts.Endings.check()
     if not stage:
-        raise StageError(f"{path} cannot be opened: {quiet.texts[0] if quiet.texts else problem}")
+        raise reader.StageError(f"{path} cannot be opened: {problem or 'it is no USD file'}")
     for layer in stage.GetUsedLayers():
         if not layer.anonymous:
             inputs.note(layer.realPath)
     return stage
 
 
-def _open(path, mask, session_layer, layers):
-    from pxr import Sdf, Usd
+def scene_of(path, set_texts, **options):
+    """:param set_texts: of --set
+    :param options: of the reader
+    :returns: (Usd.Stage, `_patina.Scene`, what the reader told of it)"""
+    stage, scene = open_stage(path), _patina.Scene()
+    overrides.apply(stage, set_texts)
+    with scene.edit() as edit:
+        return stage, scene, reader.read_stage(stage, edit, reader.StageOptions(**options))
 
+
+def _open(path, mask, session_layer, layers):
     root = Sdf.Layer.FindOrOpen(path)
     if not root:
         return None
@@ -77,8 +79,6 @@ def _above(layer, what, variables, held):
     :param held: list that gets the layers that were opened
     :returns: the absolute path of a layer that is put above the stage
     :raises CommandError: where it cannot be opened"""
-    from pxr import Sdf
-
     if not os.path.exists(layer):
         raise CommandError(f"{what} {layer}: there is no such file")
     inputs.check_regular(layer)
@@ -121,8 +121,6 @@ def _check(path):
     """:param path: that a layer names, absolute where it is found beside the layer
     :returns: where USD finds the layer that it means; None where it finds none
     :raises InputError: where that is there and no regular file"""
-    from pxr import Ar
-
     path = path.partition(":SDF_FORMAT_ARGS:")[0]
     outer = inputs.file_of(path)
     file = str(Ar.GetResolver().Resolve(outer)) if outer else ""
@@ -133,8 +131,6 @@ def _check(path):
 
 
 def _opened(path):
-    from pxr import Sdf, Tf
-
     try:
         return Sdf.Layer.FindOrOpen(path)
     except Tf.ErrorException:
@@ -153,8 +149,6 @@ def _variables(layer):
 
 def _evaluated(name, variables):
     """:returns: what an expression in backticks comes to; empty where that is no text, and other names as they are"""
-    from pxr import Sdf
-
     if not name.startswith("`") or not hasattr(Sdf, "VariableExpression"):
         return name
     value = Sdf.VariableExpression(name).Evaluate(variables).value

@@ -6,7 +6,7 @@ import os
 import sys
 
 from patina import inputs
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 
 # Documents that only commands which make such ones may replace.
@@ -25,7 +25,7 @@ def check(path, makes=()):
         shown = os.fsencode(path).decode(errors="replace")
         raise CommandError(f"cannot write '{shown}': names that are not UTF-8 are not written") from None
     try:
-        compiled.load().check_output(os.fspath(path))
+        _patina.check_output(os.fspath(path))
     except RuntimeError as error:
         raise CommandError(str(error)) from error
     _refuse_input(path, makes)
@@ -101,7 +101,7 @@ class Together:
         if not in_place:
             _refuse_input(path, makes)
         try:
-            self._files.append(compiled.load().AtomicFile(os.fspath(path)))
+            self._files.append(_patina.AtomicFile(os.fspath(path)))
         except RuntimeError as error:
             raise CommandError(str(error)) from error
         temporary = self._files[-1].temporary_path

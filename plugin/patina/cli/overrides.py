@@ -3,7 +3,9 @@
 import math
 import re
 
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
+from patina.cli.usd import TYPES, Gf, Sdf, Tf, Usd, UsdShade
 
 SET_HELP = ("change an input (repeatable). PRIM is the path of a shader, light, material or any other prim; for a "
             "material the inputs are those of its surface shader. VALUE is 0.5 or 1,0,0 or text; what the input was "
@@ -26,16 +28,12 @@ def parse(texts):
 
 def apply(stage, texts):
     """Authors all overrides in the session layer."""
-    from pxr import Usd
-
     with Usd.EditContext(stage, stage.GetSessionLayer()):
         for path, name, value in parse(texts):
             _apply(stage, path, name, value)
 
 
 def _apply(stage, path, name, text):
-    from pxr import Sdf, Tf, UsdShade
-
     if not Sdf.Path.IsValidPathString(path):
         raise CommandError(f"--set: {path} is no prim path")
     prim = stage.GetPrimAtPath(path)
@@ -56,8 +54,6 @@ def _apply(stage, path, name, text):
 
 def _attribute(prim, name):
     """:returns: the attribute that an input's name means, or None"""
-    from pxr import UsdShade
-
     for candidate in ("inputs:" + name, name):
         attribute = prim.GetAttribute(candidate)
         if attribute:
@@ -77,21 +73,12 @@ def _attribute(prim, name):
 
 def _defined_type(node, name):
     """:returns: the Sdf type of an input that is not authored, by the node's definition; or None"""
-    from pxr import Sdf
-
-    from patina.cli import compiled
-
-    types = {"boolean": "bool", "integer": "int", "float": "float", "vector2": "float2", "vector3": "float3",
-             "vector4": "float4", "color3": "color3f", "color4": "color4f", "matrix33": "matrix3d",
-             "matrix44": "matrix4d", "string": "string", "filename": "asset"}
-    kind = compiled.load().node_inputs(node or "").get(name)
-    return Sdf.ValueTypeNames.Find(types[kind]) if kind in types else None
+    kind = _patina.node_inputs(node or "").get(name)
+    return Sdf.ValueTypeNames.Find(TYPES[kind]) if kind in TYPES else None
 
 
 def _value(type_name, text, target):
     """:returns: text as a value of an Sdf type"""
-    from pxr import Gf, Sdf
-
     default = type_name.defaultValue
     plain = text.strip()
     if isinstance(default, str):

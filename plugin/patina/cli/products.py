@@ -8,7 +8,9 @@ import os
 from collections import OrderedDict
 
 from patina.cli import frames, recordFlags, rows, settingFlags, shot
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
+from patina.cli.usd import Usd, UsdRender
 
 _AOV_NAMES = {"Ci": "color", "beauty": "color", "C.*": "color", "a": "alpha", "z": "depth", "N": "normal", "P": "position"}
 _SIZE = (2048, 1080)  # UsdRender's own
@@ -40,8 +42,6 @@ def shots_at(prim, arguments, time, decimals):
 
 
 def _products(prim):
-    from pxr import UsdRender
-
     found = []
     relationship = prim.prim.GetRelationship("products")
     for target in relationship.GetForwardedTargets() if relationship else []:
@@ -181,8 +181,6 @@ def _aovs(prim, product):
 
 def prim_value(attribute, time):
     """:returns: of an attribute, or None where it is not there"""
-    from pxr import Usd
-
     return attribute.Get(Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)) if attribute else None
 
 
@@ -199,10 +197,8 @@ def _problem_of(aov):
     """:returns: what is wrong with an AOV of light paths, '' for none"""
     if "lpe:" not in aov:
         return ""
-    from patina.cli import compiled
-
     try:
-        compiled.load().channels_of_aov(aov)
+        _patina.channels_of_aov(aov)
     except ValueError as error:
         return str(error)
     return ""

@@ -21,11 +21,13 @@ import dataclasses
 import functools
 import os
 
-from patina.cli import (checkpoints, compiled, denoiser, frames, goOn, openStage, outputs, overrides, planText,
+from patina.cli import (checkpoints, denoiser, frames, goOn, measuredLevels, openStage, outputs, overrides, planText, products,
                         recordFlags, renderSettings, reports, shots, snapshots, statistics, verbose)
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, TemporaryError
 from patina.cli.interrupts import Endings, Interrupts
 from patina.cli.progress import Progress
+from patina.cli.usd import reader
 from patina.farm import partJob
 
 add_arguments = recordFlags.add_arguments
@@ -34,14 +36,13 @@ INTERMIXED = True  # IMAGE may be left out
 
 def run(arguments):
     partJob.check(arguments)
-    _patina = compiled.load()
     shots.check_usage(arguments)
     recordFlags.check_levels(arguments, "record")
     reports.check_usage(arguments)
     recordFlags.settings_of(arguments)
     recordFlags.purposes_of(arguments)
     overrides.parse(arguments.set)
-    job = (partJob.of(_Job) if arguments.part else _Job)(_patina, arguments)
+    job = (partJob.of(_Job) if arguments.part else _Job)(arguments)
     with job.snapshots:
         job.open()
         try:
@@ -57,8 +58,8 @@ def run(arguments):
 class _Job:
     """One call of the command: a stage, a renderer, one or many films."""
 
-    def __init__(self, module, arguments):
-        self.module, self.arguments = module, arguments
+    def __init__(self, arguments):
+        self.arguments = arguments
         self.statistics = statistics.Statistics(arguments)
         self.snapshots = snapshots.Snapshots(arguments.snapshot)
         self.told = self.interrupted = False  # to end; so that the last image is not whole
@@ -74,14 +75,14 @@ class _Job:
             outputs.need_folders([a.image], a.makeOutputPath)
         outputs.need_folders([a.json, a.report], a.makeOutputPath)
         if a.image:
-            self.module.check_image_path(a.image, ["color", "alpha"] + recordFlags.aovs_of(a))
+            _patina.check_image_path(a.image, ["color", "alpha"] + recordFlags.aovs_of(a))
         if a.deep:
             if not a.deep.lower().endswith(".exr"):
                 raise CommandError(f"--deep {a.deep}: deep images are OpenEXR (.exr)")
             outputs.need_folders([a.deep], a.makeOutputPath)
         a.denoise = a.denoise or a.denoiseAovs
         if a.denoise:
-            denoiser.prepare(self.module)
+            denoiser.prepare(_patina)
         outputs.check_all([a.image, a.json, a.report])
         with self.statistics.phase("open"):
             self.stage = openStage.open_stage(a.stage, a.mask, a.sessionLayer, a.layer)
@@ -93,7 +94,7 @@ class _Job:
             partJob.check(a)  # once more: now with what the prim says
             a.denoise = a.denoise or a.denoiseAovs
             if a.denoise:
-                denoiser.prepare(self.module)
+                denoiser.prepare(_patina)
         self.settings, self.purposes = recordFlags.settings_of(a), recordFlags.purposes_of(a)
         outputs.make_folder(a.outputFolder)
         self.shots = shots.plan(a, self.stage, prim)
@@ -103,7 +104,7 @@ class _Job:
         for shot in self.shots:
             if not a.image:
                 for output in shot.outputs:
-                    self.module.check_image_path(output.image, list(output.aovs))
+                    _patina.check_image_path(output.image, list(output.aovs))
             if shot.deep and a.resume:
                 raise CommandError(f"{shot.image}: --resume continues no deep image, since a checkpoint has no depths")
             if shot.deep:
@@ -112,8 +113,8 @@ class _Job:
         self.snapshots.check([image for shot in self.shots for image in shot.images], a.snapshotSuffix)
         for shot in self.shots:
             self._check_outputs(shot)
-        self.renderer = self.module.make_renderer(a.backend)
-        self.scene = self.module.Scene()
+        self.renderer = _patina.make_renderer(a.backend)
+        self.scene = _patina.Scene()
 
     def render(self, shot):
         self.statistics.begin_frame(shot.frame, shot.images)
@@ -152,7 +153,7 @@ class _Job:
         with self.statistics.phase("denoise"):
             if denoiser.takes_away(film):
                 self.statistics.warn("", "denoise", "pixelsBelowZero")
-            left = denoiser.run_where_it_helps(self.module, film, self.statistics.current(), self.arguments.threads,
+            left = denoiser.run_where_it_helps(_patina, film, self.statistics.current(), self.arguments.threads,
                                                self.arguments.denoiseAovs)
             self._say_notes([left] if left else [])
 
@@ -193,18 +194,14 @@ class _Job:
             return True
         if info.headlight or info.uses_camera or self.levels or camera not in info.cameras:
             return False
-        from patina.cli.products import prim_value
-
         prim = self.stage.GetPrimAtPath(camera)
-        return not blurs or all((prim_value(prim.GetAttribute("shutter:" + end), frame) or 0.0) == time
+        return not blurs or all((products.prim_value(prim.GetAttribute("shutter:" + end), frame) or 0.0) == time
                    for end, time in zip(("open", "close"), info.shutter))
 
     def _blurs(self, shot):
         return dict(self.settings, **shot.settings)["enableMotionBlur"]
 
     def _translate(self, shot):
-        from patina import stage as reader
-
         wanted = [aov for shot in self.shots for aov in shot.aovs()]
         options = reader.StageOptions(
             frame=shot.frame, purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
@@ -221,11 +218,9 @@ class _Job:
 
     def _measured(self, shot, options):
         """:returns: the options with levels of detail by their errors"""
-        from patina.cli import measuredLevels
-
         settings = dict(self.settings, **shot.settings)
         self.levels, self.tolerance = measuredLevels.choose(
-            self.module, self.stage, options, lambda camera: shots.size_of(shot, camera, settings["pixelAspectRatio"]),
+            self.stage, options, lambda camera: shots.size_of(shot, camera, settings["pixelAspectRatio"]),
             settings["tolerance"])
         self.statistics.current()["levels"] = [dataclasses.asdict(root) for root in self.levels]
         if self.arguments.verbose:
@@ -247,7 +242,7 @@ class _Job:
 
     def _film(self, shot, settings, info):
         """:returns: an empty film, or that of a checkpoint"""
-        film = self.module.Film()
+        film = _patina.Film()
         others = [info.camera, shot.frame, self.purposes, self.arguments.complexity, self.arguments.mask, self.arguments.set,
                   self.arguments.renderPassPrimPath, [root.chosen for root in self.levels]]
         token = checkpoints.token(self.stage, settings, others, self.renderer.progress()["backend"])
@@ -255,7 +250,7 @@ class _Job:
             problem = checkpoints.resume(film, checkpoints.path_of(shot.image), token)
             if problem:
                 self.statistics.warn(shot.image, "", *problem)
-                film = self.module.Film()
+                film = _patina.Film()
         film.resume_token = token
         return film
 
@@ -310,7 +305,7 @@ class _Job:
         for output in shot.outputs:
             if output.deep and not film.has_deep:
                 continue  # the back end has said so
-            self.module.write_images(film, output.image, shots.image_options(a, shot, output, settings), metadata)
+            _patina.write_images(film, output.image, shots.image_options(a, shot, output, settings), metadata)
         self.snapshots.remove()
         if self._has_checkpoint and not self.interrupted and not a.keepCheckpoint:
             checkpoints.remove(checkpoints.path_of(shot.image))
@@ -318,13 +313,13 @@ class _Job:
     def _write_snapshot(self, film, shot, settings, camera):
         """:param film: a copy, which the render does not touch"""
         if self.arguments.denoise:
-            denoiser.run(self.module, film, self.arguments.threads, self.arguments.denoiseAovs)
+            denoiser.run(_patina, film, self.arguments.threads, self.arguments.denoiseAovs)
         metadata = statistics.of_snapshot(self.arguments, film, camera)
         for output in shot.outputs:
             if output.deep:
                 continue  # copies of films have no depths
             path = self.snapshots.place_of(output.image, self.arguments.snapshotSuffix)
-            self.module.write_images(film, path, shots.image_options(self.arguments, shot, output, settings), metadata)
+            _patina.write_images(film, path, shots.image_options(self.arguments, shot, output, settings), metadata)
             self.snapshots.wrote(path)
 
     def _check_warnings(self):
@@ -334,7 +329,7 @@ class _Job:
         self._report(warnings)
         if self.arguments.strict and warnings:
             number = f"{len(warnings)} warnings, the worst" if len(warnings) > 1 else "1 warning"
-            raise CommandError(f"--strict: {number}: {statistics.lines(warnings)[0].removeprefix('warning: ')}")
+            raise CommandError(f"--strict: {number}: {statistics.Causes(warnings).lines()[0].removeprefix('warning: ')}")
 
     def _report(self, warnings, last=False):
         fresh, self.reported = len(warnings) != self.reported, len(warnings)

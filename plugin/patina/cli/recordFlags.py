@@ -4,6 +4,7 @@ import math
 
 from patina import limits
 from patina.cli import denoiser, frames, methods, overrides, rows, settingFlags, snapshots
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
 from patina.farm import cut
 
@@ -187,17 +188,15 @@ def settings_of(arguments):
 
 def _check_display(arguments):
     """Before anything is rendered: an image that has no display transform is lost when it is written."""
-    from patina.cli import compiled
-
-    if compiled.load().rendering_space(arguments.renderingColorSpace) is None:
+    if _patina.rendering_space(arguments.renderingColorSpace) is None:
         raise CommandError(f"--renderingColorSpace: '{arguments.renderingColorSpace}' is no linear colour space (known are: "
-                           f"{', '.join(compiled.load().color_spaces())})")
+                           f"{', '.join(_patina.color_spaces())})")
     if arguments.colorCorrectionMode == "disabled":
         return
     for flag, wanted, known in (("display", arguments.display, lambda m: m.displays()),
                                 ("view", arguments.view, lambda m: m.views(arguments.display or m.displays()[0]))):
-        if wanted and wanted not in known(compiled.load()):
-            raise CommandError(f"--{flag}: there is no {flag} '{wanted}' (there are: {', '.join(known(compiled.load()))})")
+        if wanted and wanted not in known(_patina):
+            raise CommandError(f"--{flag}: there is no {flag} '{wanted}' (there are: {', '.join(known(_patina))})")
 
 
 def aovs_of(arguments):

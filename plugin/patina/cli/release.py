@@ -16,9 +16,10 @@ import sys
 
 from patina import __version__
 from patina.cli import billOfMaterials, blenderAddOn, hydraHosts, pluginPackage, wholeWheel
+from patina.cli.checkout import ROOT
 from patina.cli.errors import CommandError
+from patina.farm import digests
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 _TOOLS = {"cmake": "cmake", "ninja": "ninja-build", "npm": "npm", "dpkg-deb": "dpkg", "dpkg-shlibdeps": "dpkg-dev",
           "file": "file", "patchelf": "patchelf"}  # program -> package that has it
 
@@ -52,7 +53,7 @@ def run(arguments):
     files = sorted(os.listdir(folder))
     bill = os.path.join(folder, f"hdPatina-{__version__}.spdx.json")
     billOfMaterials.write(bill, [os.path.join(folder, name) for name in files], commit, time)
-    sums = {name: billOfMaterials.checksum(os.path.join(folder, name)) for name in sorted([*files, os.path.basename(bill)])}
+    sums = {name: digests.content(os.path.join(folder, name)) for name in sorted([*files, os.path.basename(bill)])}
     with open(os.path.join(folder, "SHA256SUMS"), "w", encoding="utf-8") as file:
         file.writelines(f"{value}  {name}\n" for name, value in sums.items())
     for name in sums:

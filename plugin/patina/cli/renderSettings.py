@@ -5,8 +5,10 @@ products with their AOVs (products.py), and render settings by the names `patina
 import argparse
 import math
 
-from patina.cli import compiled, recordFlags, settingFlags
+from patina.cli import recordFlags, settingFlags
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
+from patina.cli.usd import Sdf, Usd, UsdRender
 
 STAGE = "stage"  # --settings stage: the one that the stage's own metadata names
 _BACKENDS = ("embree", "raster")
@@ -19,8 +21,6 @@ class SettingsPrim:
         """:param path: of the prim, or STAGE
         :param given: names of arguments that were typed
         :raises CommandError: where there is none"""
-        from pxr import Sdf, UsdRender
-
         if path == STAGE:
             found = UsdRender.Settings.GetStageRenderSettings(stage)
             if not found:
@@ -46,8 +46,6 @@ class SettingsPrim:
     def value(self, product, name, time=None):
         """:param product: a prim that may override it, or None
         :returns: of an attribute of UsdRenderSettingsBase"""
-        from pxr import Usd
-
         time = Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)
         attribute = (self._authoring(product, name) or self.prim).GetAttribute(name)
         return attribute.Get(time) if attribute else None
@@ -109,8 +107,6 @@ class SettingsPrim:
 def with_pass(arguments, stage):
     """:returns: the arguments with the settings that --renderPassPrimPath names by its renderSource
     :raises CommandError: where there is no such pass"""
-    from pxr import Sdf, UsdRender
-
     path = arguments.renderPassPrimPath
     if not path:
         return arguments
@@ -153,7 +149,7 @@ def applied(arguments, prim):
 
 
 def _rendering_space(merged, prim, name, value):
-    if compiled.load().rendering_space(str(value)) is None:
+    if _patina.rendering_space(str(value)) is None:
         prim.warn(prim.path, name, "renderingSpaceUnknown", value)
     else:
         merged.renderingColorSpace = str(value)
@@ -161,7 +157,7 @@ def _rendering_space(merged, prim, name, value):
 
 def _method(merged, prim, name, point, value):
     """A `patina:method:` attribute."""
-    problem = compiled.load().check_methods({point: str(value)})
+    problem = _patina.check_methods({point: str(value)})
     if problem:
         prim.warn(prim.path, name, "methodKept", problem)
     else:

@@ -4,6 +4,7 @@ import os
 
 from patina.cli import frames, outputs
 from patina.cli.errors import CommandError, UsageError
+from patina.report import page
 
 AOVS = ("albedo", "normal", "depth", "primId")  # that the page shows beside those that are asked for
 EXTENSIONS = (".html", ".htm")
@@ -38,8 +39,6 @@ def write(job, film, shot, settings, info):
     :param job: record's
     :param info: what the reader told of the stage
     :returns: None, or why there is no page: the image is there all the same"""
-    from patina.report import page
-
     try:
         outputs.write_text(shot.page, page.document(job, film, shot, settings, info))
     except Exception as error:

@@ -35,17 +35,15 @@ def read(path, macro):
 def _row(body):
     parts = _split(body)
     words = parts.pop() if parts[-1].startswith(".") else ""
-    return Row(tuple(parts), {call[0]: [argument(a) for a in _split(call[1])] for call in _words(words)})
+    return Row(tuple(parts), dict(_words(words)))
 
 
 def _words(text):
-    found = []
     while text:
         name = re.match(r"\.(\w+)\(", text)
         end = _end(text, name.end())
-        found.append((name.group(1), text[name.end():end].strip()))
+        yield name.group(1), [argument(part) for part in _split(text[name.end():end])]
         text = text[end + 1:].strip()
-    return found
 
 
 def argument(text):

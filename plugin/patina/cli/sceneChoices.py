@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Choices for a stage as a whole, by asking the back end itself, which builds the scene and samples one pixel of it."""
-from patina.cli import compiled, openStage, overrides
-from patina.cli.errors import CommandError
+from patina.cli import measuredLevels, openStage, overrides
+from patina.cli.compiled import _patina
+from patina.cli.usd import reader
+from patina.experiment import draw
 
 WIDTH = 960
 
@@ -13,29 +15,18 @@ def of_stage(file, set_texts, forced, tolerance, backend, measure_levels=False):
     :returns: list of choices as Renderer.progress() tells them, material path -> plan as this back end draws it, and
         measuredLevels.Roots
     """
-    from patina import stage as reader
-
-    module = compiled.load()
     stage = openStage.open_stage(file)
     overrides.apply(stage, set_texts)
-    scene, options, levels = module.Scene(), reader.StageOptions(), []
+    scene, options, levels = _patina.Scene(), reader.StageOptions(), []
     if measure_levels:
-        from patina.cli import measuredLevels
-
-        levels, tolerance = measuredLevels.choose(module, stage, options, _size, tolerance)
+        levels, tolerance = measuredLevels.choose(stage, options, _size, tolerance)
         options.levels = {root.path: root.chosen for root in levels}
     with scene.edit() as edit:
         info = reader.read_stage(stage, edit, options)
     width, height = _size(scene.camera(info.camera))
-    renderer = module.make_renderer(backend)
-    renderer.start(scene, info.camera, {"width": width, "height": height, "dataWindow": (0, 0, 0, 0),
-                                        "samples": 1, "tolerance": tolerance, "maxDepth": -1, "methods": forced,
-                                        "checkpointSeconds": 0.0}, module.Film())
-    while not renderer.wait(0.2):  # signals are heard in between
-        pass
-    state = renderer.progress()
-    if state["failed"]:
-        raise CommandError(state["error"])
+    settings = {"width": width, "height": height, "dataWindow": (0, 0, 0, 0), "samples": 1, "tolerance": tolerance,
+                "maxDepth": -1, "methods": forced, "checkpointSeconds": 0.0}
+    state = draw(_patina.make_renderer(backend), scene, info.camera, settings, _patina.Film())
     return state["sceneChoices"], state["plans"], levels
 
 

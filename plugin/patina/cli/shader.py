@@ -15,9 +15,11 @@ A text describes one material, so --set is applied first. For a language with se
 """
 import sys
 
-from patina import limits
-from patina.cli import compiled, materials, methods, outputs, statistics
+from patina.cli import materials, methods, outputs, statistics
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, UsageError
+from patina.shader import document, generators, own
+from patina.view import albedo
 
 OWN = ("glsl", "essl")
 GENERATED = ("osl", "mdl", "msl")
@@ -37,10 +39,7 @@ def add_arguments(parser):
                         help="for glsl and essl: largest side of the textures that --json describes (default: 1024)")
     parser.add_argument("--albedoTable", metavar="FILE.exr", dest="albedo_table",
                         help="for glsl and essl: write the table that lobes look up")
-    parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
-                        help="change an input before (repeatable)")
-    limits.add_flag(parser)
-    methods.add_flag(parser)
+    materials.add_flags(parser)
     parser.add_argument("--json", metavar="FILE", help="write text, textures and primvars as JSON: --json to standard output, "
                                                        "--json=FILE to a file")
 
@@ -62,7 +61,7 @@ def run(arguments):
         outputs.write_text(arguments.output, report["text"])
     if not outputs.write_json(arguments.json, report) and not arguments.output:
         sys.stdout.write(report["text"])
-    statistics.report(warnings, sys.stderr, json=bool(arguments.json))
+    statistics.report(warnings, json=bool(arguments.json))
 
 
 def _check_usage(arguments):
@@ -78,8 +77,6 @@ def _check_usage(arguments):
 
 
 def _own(network, arguments, warnings):
-    from patina.shader import own
-
     text, material = own.shader(network, arguments.target, methods.parse(arguments.method), arguments.largest_texture)
     warnings += material["warnings"]
     if arguments.albedo_table:
@@ -92,22 +89,13 @@ def _own(network, arguments, warnings):
 
 
 def _write_table(path):
-    import numpy
-
-    module = compiled.load()
-    table = numpy.asarray(module.albedo_table(), numpy.float32)
-    rows = -(-table.size // 1024)
-    image = numpy.zeros((rows, 1024, 1), numpy.float32)
-    image.reshape(-1)[:table.size] = table
     with outputs.Together() as files:
-        module.write_image(files.add(path), image)
+        _patina.write_image(files.add(path), albedo.in_rows(_patina.albedo_table())[..., None])
 
 
 def _of_document(name, network, arguments, warnings):
-    from patina.shader import document
-
     if arguments.form == "expanded":
-        network, found = compiled.load().expand_material(network)
+        network, found = _patina.expand_material(network)
         warnings += found
     try:
         text = document.document(network, name.rstrip("/").rpartition("/")[2], warnings)
@@ -117,8 +105,6 @@ def _of_document(name, network, arguments, warnings):
 
 
 def _generated(text, arguments, warnings):
-    from patina.shader import generators
-
     if not generators.installed():
         raise CommandError(f"--target {arguments.target}: MaterialX's generators are missing; `pip install materialx` has them")
     text = generators.harmless(text, warnings)

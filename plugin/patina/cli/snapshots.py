@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Images of a render while it runs: every so many seconds, and when SIGUSR1 asks for one. Each appears whole, beside the image
 that the render will write, and goes when that is written."""
+import contextlib
 import os
 import signal
 import threading
@@ -71,10 +72,8 @@ class Snapshots:
     def remove(self):
         """Removes what this render wrote: its images are there."""
         for path in self._written:
-            try:
+            with contextlib.suppress(OSError):
                 os.remove(path)
-            except OSError:
-                pass
         self._written = []
 
     def begin(self, write):

@@ -2,6 +2,7 @@
 """The statistics of a render that --json shows: times by phase, rays, samples, memory, warnings."""
 import contextlib
 import math
+import sys
 import time
 
 from patina import __version__, messages
@@ -14,17 +15,12 @@ ERROR_IS = ("noise of the samples, as --tolerance means it: the mean over the pi
 PHASES = ("open", "translate", "build", "render", "write", "total")
 
 
-def lines(warnings):
-    """:returns: the causes of warnings, worst first, as lines that begin with how bad they are"""
-    return Causes(warnings).lines()
-
-
-def report(warnings, stream, json=True):
-    """Prints those lines.
+def report(warnings, json=True):
+    """Prints the causes of warnings, worst first.
 
     :param json: whether the command has a --json that holds all warnings"""
     for text in Causes(warnings).lines(json=json):
-        print(colours.painted(text, stream), file=stream)
+        print(colours.painted(text, sys.stderr), file=sys.stderr)
 
 
 class Statistics:
@@ -99,16 +95,6 @@ class Statistics:
             if counts is not None and counts.max() > 1 and math.isfinite(error):  # one sample tells of no noise
                 self._frame["estimatedError"] = error
                 self._frame["estimatedErrorIs"] = ERROR_IS
-
-    @property
-    def frame(self):
-        """The time code that is being rendered; None is the default time."""
-        return self._frame["frame"]
-
-    @property
-    def seconds(self):
-        """Of the frame that is being rendered, by phase."""
-        return self._frame["seconds"]
 
     def warn(self, prim, name, id_, *fields):
         self._own.append(messages.warning(prim, name, id_, *fields))

@@ -23,10 +23,9 @@ import signal
 import subprocess
 import sys
 
-from patina.cli import denoiser
-from patina.cli.errors import CommandError, UsageError
+from patina.cli import checkout, denoiser
+from patina.cli.errors import UsageError
 
-HELP = "run the tests of a checkout"
 PASSES_ON = True
 TIERS = ("lint", "unit", "smoke", "full", "long", "all")
 MOST_PROCESSES = 5
@@ -43,10 +42,9 @@ def add_arguments(parser):
 
 
 def run(arguments):
-    root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+    checkout.require("testenv/conftest.py", "test", "the tests are")
+    root = checkout.ROOT
     testenv = os.path.join(root, "testenv")
-    if not os.path.isfile(os.path.join(testenv, "conftest.py")):
-        raise CommandError("the tests are in a checkout only: run ./patina test there")
     environment = dict(os.environ)
     assets = find_assets(root)
     if assets:

@@ -6,19 +6,18 @@ materials. It shows the shader, which can be changed and compiled there, and the
 that other methods would make. It needs Node and npm once, to fetch and bundle the page's script.
 """
 import os
-import sys
 
-from patina import limits
-from patina.cli import materials, methods, outputs, statistics
+from patina.cli import materials, outputs, statistics
 from patina.cli.errors import UsageError
+from patina.library import page
+from patina.view import build
 
 DEMOS = {"classic": "the classic reflectance models as steel and hematite, and the limits of each",
          "layers": "standard_surface with its layers switched on one by one"}
 
 
 def add_arguments(parser):
-    parser.add_argument("material", metavar="MATERIAL", nargs="*", help=materials.MATERIAL_HELP.replace(
-        "the only material", "every material"))
+    parser.add_argument("material", metavar="MATERIAL", nargs="*", help=materials.EVERY_HELP)
     parser.add_argument("--demo", choices=sorted(DEMOS), help="a page that is part of Patina: " + "; ".join(
         f"{name}, {text}" for name, text in DEMOS.items()))
     parser.add_argument("--library", action="store_true", help="a page of pictures instead: every material of Patina's library "
@@ -43,24 +42,19 @@ def add_arguments(parser):
     parser.add_argument("--compareSamples", type=int, default=256, metavar="N", help="samples of those pictures (default: 256)")
     parser.add_argument("--textureSize", type=int, default=1024, metavar="N",
                         help="largest side of textures and environments in the page (default: 1024)")
-    parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
-                        help="change an input before (repeatable)")
-    limits.add_flag(parser)
-    methods.add_flag(parser)
+    materials.add_flags(parser)
 
 
 def run(arguments):
     if not 16 <= arguments.compareWidth <= 2048 or not 1 <= arguments.compareSamples <= 65536:
         raise UsageError("patina view: --compareWidth is 16 to 2048, --compareSamples 1 to 65536")
     text, warnings = _library(arguments) if arguments.library else _page(arguments)
-    statistics.report(warnings, sys.stderr, json=False)
+    statistics.report(warnings, json=False)
     outputs.write_text(arguments.output, text)
     print(f"{arguments.output}: {len(text) / 1e6:.2f} MB")
 
 
 def _library(arguments):
-    from patina.library import page
-
     if arguments.material or arguments.demo:
         raise UsageError("patina view: --library brings its own materials")
     outputs.check_all([arguments.output])
@@ -68,8 +62,6 @@ def _library(arguments):
 
 
 def _page(arguments):
-    from patina.view import build
-
     if arguments.demo:
         if arguments.material:
             raise UsageError("patina view: --demo brings its own materials")

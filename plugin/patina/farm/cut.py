@@ -7,6 +7,7 @@ the first group and the second range.
 import re
 from dataclasses import dataclass
 
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 
 MOST = 1 << 20  # parts: who lists those that are missing makes each of them
@@ -85,12 +86,11 @@ def ranges(ends, count):
     return list(zip(cuts, cuts[1:] + [ends[-1]]))
 
 
-def tiles(module, settings, part):
-    """:param module: _patina
-    :returns: the tiles of a part
+def tiles(settings, part):
+    """:returns: the tiles of a part
     :raises CommandError: where the image has fewer tiles than groups"""
     window = settings.get("dataWindow") or (0, 0, -1, -1)
-    every = module.tiles_of_part(settings["width"], settings["height"], window)
+    every = _patina.tiles_of_part(settings["width"], settings["height"], window)
     if part.cut.tiles > len(every):
         raise CommandError(f"an image of {len(every)} tiles cannot be cut into {part.cut.tiles} groups")
-    return module.tiles_of_part(settings["width"], settings["height"], window, part.tile_group, part.cut.tiles)
+    return _patina.tiles_of_part(settings["width"], settings["height"], window, part.tile_group, part.cut.tiles)

@@ -18,7 +18,7 @@ def of_file(path):
     inputs.check_regular(path)
     status = os.stat(path)
     if status.st_size < KEPT_FROM:
-        return _read(path)
+        return content(path)
     place = _place(path)
     state = [status.st_size, status.st_mtime_ns]
     with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
@@ -26,13 +26,14 @@ def of_file(path):
             kept = json.load(file)
         if kept["state"] == state:
             return str(kept["digest"])
-    digest = _read(path)
+    digest = content(path)
     with contextlib.suppress(OSError):
         _keep(place, {"state": state, "digest": digest})
     return digest
 
 
-def _read(path):
+def content(path):
+    """:returns: SHA-256 of a file, hexadecimal"""
     digest = hashlib.sha256()
     with open(path, "rb") as file:
         for chunk in iter(lambda: file.read(_CHUNK), b""):

@@ -17,6 +17,7 @@ import time
 from dataclasses import dataclass, field
 from multiprocessing import resource_tracker
 
+import patina
 from patina.cli import interrupts
 from patina.cli.errors import CommandError, TemporaryError, UsageError
 from patina.farm import certificates, identity, pods
@@ -222,8 +223,6 @@ def _first(error):
 
 def environment():
     """:returns: dict of what a worker's Python needs to find this Patina, and to show Dask's pages to nobody"""
-    import patina
-
     module = sys.modules.get("_patina")
     paths = [os.path.dirname(os.path.dirname(os.path.abspath(patina.__file__)))]
     if module:

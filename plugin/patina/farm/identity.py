@@ -6,6 +6,7 @@ import json
 import os
 
 from patina import __version__, inputs
+from patina.cli.compiled import _patina
 from patina.farm import digests
 
 FORMAT = 2
@@ -69,13 +70,12 @@ def _digest(path):
         return "missing"
 
 
-def of_render(module, stage, settings, camera, others):
-    """:param module: _patina
-    :param settings: dict of render settings
+def of_render(stage, settings, camera, others):
+    """:param settings: dict of render settings
     :param others: dict of what else was asked for
     :returns: dict that JSON can hold"""
     kept = {name: value for name, value in settings.items() if name not in (*_OF_PARTS, *_OF_RUNS)}
-    what = {"format": FORMAT, **of_machine(module), "camera": camera, "files": _files(stage),
+    what = {"format": FORMAT, **of_machine(_patina), "camera": camera, "files": _files(stage),
             "environment": of_environment(), "settings": kept, **others}
     return json.loads(json.dumps(what, default=str))
 

@@ -8,6 +8,7 @@ import time
 import uuid
 
 from patina.cli import outputs
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError, TemporaryError
 from patina.cli.progress import Progress
 from patina.farm import engines, identity, owner, partial, sender, simulation, work, worker
@@ -20,14 +21,14 @@ EMPTY_TASKS = 500  # to measure the sender by, for --simulate
 class Job:
     """Frames, an engine, and what became of them."""
 
-    def __init__(self, module, engine, arguments, record, shots, files):
+    def __init__(self, engine, arguments, record, shots, files):
         """:param record: parsed arguments of `patina record`
         :param shots: list of (time code, image)
         :param files: that workers must be able to read"""
-        self.module, self.engine, self.arguments, self.record = module, engine, arguments, record
+        self.engine, self.arguments, self.record = engine, arguments, record
         self.frames = [work.Frame(time_code, image, arguments.cut, self._frame_flags(time_code),
                                   ["--allowMixed"] if arguments.allowMixed else []) for time_code, image in shots]
-        machine = identity.of_machine(module)
+        machine = identity.of_machine(_patina)
         if arguments.allowMixed:
             machine = {"version": machine["version"]}
         folders = sorted({os.path.dirname(os.path.abspath(frame.image)) for frame in self.frames})
@@ -93,7 +94,7 @@ class Job:
                 continue
             there = set()
             if self.arguments.resume and frame.cut.parts > 1:
-                there = work.parts_there(self.module, frame, self._wanted())
+                there = work.parts_there(_patina, frame, self._wanted())
             frames.append(frame)
             waiting += frame.tasks(there)
         return waiting, frames

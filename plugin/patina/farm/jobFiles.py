@@ -4,6 +4,7 @@ import os
 import re
 
 from patina import inputs
+from patina.cli.usd import Tf, UsdUtils, reader
 from patina.farm import identity
 
 _TILE = re.compile(r"<(UDIM|UVTILE)>", re.IGNORECASE)
@@ -13,11 +14,9 @@ def of(module, record):
     """:param module: _patina
     :param record: parsed arguments of `patina record`
     :returns: (absolute paths of what is there, names of what is not)"""
-    from patina.stage import compat
-
     found, missing = set(), set()
     roots = [record.stage, *([record.sessionLayer] if record.sessionLayer else []), *(record.layer or [])]
-    with compat.QuietDiagnostics():  # each file that is not there is told here, in other words
+    with reader.compat.QuietDiagnostics():  # each file that is not there is told here, in other words
         for root in roots:
             _add(root, found, missing)
     for document in [file for file in found if file.endswith(".mtlx")]:
@@ -29,8 +28,6 @@ def of(module, record):
 
 def _add(root, found, missing):
     """Adds a layer with all that it reaches."""
-    from pxr import Tf, UsdUtils
-
     try:
         layers, assets, unresolved = UsdUtils.ComputeAllDependencies(root)
     except Tf.ErrorException:  # a layer below is broken: the render tells, and what the stage did open is noted

@@ -3,6 +3,7 @@
 import json
 import os
 
+import patina
 from patina.cli import outputs
 from patina.cli.errors import CommandError, UsageError
 from patina.farm import identity
@@ -150,7 +151,5 @@ def _flags(arguments):
 
 def _launcher():
     """:returns: the launcher of a checkout, or the command's name where Patina is installed"""
-    import patina
-
     launcher = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(patina.__file__)))), "patina")
     return launcher if os.path.isfile(launcher) else "patina"

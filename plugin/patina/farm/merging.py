@@ -5,46 +5,47 @@ import json
 
 from patina import messages
 from patina.cli import denoiser, planText, statistics
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.farm import partial
 
 
-def merge(module, parts, image, threads=0):
+def merge(parts, image, threads=0):
     """Merges all parts and writes the image.
 
     :param parts: parts.Parts without missing ones
     :returns: statistics.Statistics of the frame
     :raises CommandError: where a file is damaged or the image cannot be written"""
     try:
-        return _merge(module, parts, image, threads)
+        return _merge(parts, image, threads)
     except partial.FOREIGN as error:
         raise partial.foreign(parts.first.file) from error
 
 
-def _merge(module, parts, image, threads):
+def _merge(parts, image, threads):
     first = parts.first
     arguments = argparse.Namespace(**first.arguments)
     arguments.image, arguments.threads, arguments.denoise = image, threads, first.denoise
     if arguments.denoise:
-        denoiser.prepare(module)
-    errors, limit = module.PartialErrors() if first.noise > 0.0 else None, 0
-    film, reports = _film(module, parts, 0, errors)
+        denoiser.prepare(_patina)
+    errors, limit = _patina.PartialErrors() if first.noise > 0.0 else None, 0
+    film, reports = _film(parts, 0, errors)
     if errors:  # the whole was done before tiles that did not know it
         limit = errors.samples_of_whole(first.noise, int(first.settings["minSamples"]))
         if limit:
-            film, reports = _film(module, parts, limit, None)
+            film, reports = _film(parts, limit, None)
     if errors and arguments.denoise:
-        film = _within_denoised(module, parts, threads, errors, limit) or film
+        film = _within_denoised(parts, threads, errors, limit) or film
     merged = _MergedStatistics(arguments, first.frame, image, reports)
     merged.rendered(_state(reports), film)
     if arguments.denoise:
-        error = module.denoised_error(film, threads)
+        error = _patina.denoised_error(film, threads)
         if error >= 0.0:
             merged.current()["denoisedError"] = error
-        left = denoiser.run_where_it_helps(module, film, merged.current(), threads)
+        left = denoiser.run_where_it_helps(_patina, film, merged.current(), threads)
         merged.note([left] if left else [])
     try:
-        module.write_images(film, image, first.options,
+        _patina.write_images(film, image, first.options,
                             merged.metadata(arguments, first.settings, first.camera))
     except RuntimeError as error:
         raise CommandError(str(error)) from error
@@ -52,7 +53,7 @@ def _merge(module, parts, image, threads):
     return merged
 
 
-def _within_denoised(module, parts, threads, errors, limit):
+def _within_denoised(parts, threads, errors, limit):
     """:param limit: the count at which it was done by its means; 0: at none
     :returns: the film at the count at which the image rendered at once was done, since it would be within the tolerance
         when denoised; None where it never was"""
@@ -60,20 +61,20 @@ def _within_denoised(module, parts, threads, errors, limit):
     for samples in errors.steps_of_whole(int(first.settings["minSamples"])):
         if 0 < limit <= samples:
             break
-        film = _film(module, parts, samples, None)[0]
-        if 0.0 <= module.denoised_error(film, threads) <= first.noise:
+        film = _film(parts, samples, None)[0]
+        if 0.0 <= _patina.denoised_error(film, threads) <= first.noise:
             return film
     return None
 
 
-def _film(module, parts, samples, errors):
+def _film(parts, samples, errors):
     """:param samples: the most of a tile; 0: all
     :param errors: _patina.PartialErrors that is told those of the tiles, or None
     :returns: the film of all parts, and their reports"""
-    film, reports = module.Film(), []
+    film, reports = _patina.Film(), []
     for description in parts.in_order():
         try:
-            text = module.merge_partial(film, description.file, description.noise, int(description.settings["minSamples"]),
+            text = _patina.merge_partial(film, description.file, description.noise, int(description.settings["minSamples"]),
                                         samples, errors)
             reports.append(_report(text))
         except RuntimeError as error:
@@ -117,8 +118,9 @@ class _MergedStatistics(statistics.Statistics):
     def __init__(self, arguments, frame, image, reports):
         super().__init__(arguments)
         self.begin_frame(frame, [image])
+        spent = self.current()["seconds"]
         for report in reports:
             for phase, seconds in report["seconds"].items():
-                self.seconds[phase] = self.seconds.get(phase, 0.0) + seconds
+                spent[phase] = spent.get(phase, 0.0) + seconds
             known = [(one["prim"], one["input"], one["message"]) for one in self._own]
             self._own += [one for one in report["warnings"] if (one["prim"], one["input"], one["message"]) not in known]

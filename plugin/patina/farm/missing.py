@@ -4,6 +4,7 @@ import contextlib
 import os
 
 from patina import inputs
+from patina.cli import main, record, recordFlags
 from patina.cli.errors import CommandError, UsageError
 from patina.farm import partial
 
@@ -13,8 +14,6 @@ def render(description, part, file, arguments):
     :param file: takes the part
     :param arguments: of the command that asks for it
     :raises CommandError: where it cannot be rendered, or would be another frame's"""
-    from patina.cli import record
-
     inputs.forget()  # parts that were merged are no inputs of the render
     flags = _flags(description.arguments)
     flags.image, flags.part, flags.partial, flags.json = os.path.abspath(arguments.image), part, os.path.abspath(file), None
@@ -31,8 +30,6 @@ def render(description, part, file, arguments):
 def _flags(typed):
     """:param typed: dict of a part's arguments
     :returns: arguments of `patina record` with these values; names that this version does not know are left out"""
-    from patina.cli import main, recordFlags
-
     parser = main._Parser(prog="patina record")
     recordFlags.add_arguments(parser)
     flags = parser.parse_intermixed_args(["stage"])

@@ -4,6 +4,7 @@ import json
 import os
 
 from patina.cli import frames, outputs, shots
+from patina.cli.compiled import _patina
 from patina.cli.errors import TemporaryError, UsageError
 from patina.farm import cut, identity, partial
 
@@ -51,8 +52,8 @@ def of(job):
 
         def _render(self, film, shot, settings, camera):
             part = self.arguments.part
-            tiles = cut.tiles(self.module, settings, part)
-            ranges = cut.ranges(self.module.span_ends(settings["samples"]), part.cut.ranges)
+            tiles = cut.tiles(settings, part)
+            ranges = cut.ranges(_patina.span_ends(settings["samples"]), part.cut.ranges)
             begin, end = ranges[part.range_index]
             self._writer, self._sums = None, {}
             for first, last in self._pieces(settings, begin, end):
@@ -62,7 +63,7 @@ def of(job):
                 if self.interrupted:
                     raise TemporaryError(f"interrupted; part {part} is not written")
                 if not self._writer:
-                    self._writer = self.module.PartialWriter(
+                    self._writer = _patina.PartialWriter(
                         self.arguments.partial, self._description(shot, settings, camera, (begin, end)), tiles)
                 self._writer.add(film)
                 partial.add_up(self._sums, self.renderer.progress()["statistics"])
@@ -72,7 +73,7 @@ def of(job):
         def _pieces(self, settings, begin, end):
             """:returns: ranges of samples that each make a film: sums from the first sample on, or of one span. With a
             tolerance the image at once may be done wherever a span ends: so far a film from the first sample on is kept"""
-            ends = [one for one in self.module.span_ends(settings["samples"]) if begin < one <= end]
+            ends = [one for one in _patina.span_ends(settings["samples"]) if begin < one <= end]
             if begin == 0:
                 least = max(2, settings["minSamples"]) if settings["tolerance"] > 0.0 else end
                 return [(0, one) for one in ends if least <= one < end] + [(0, end)]
@@ -81,14 +82,14 @@ def of(job):
 
         def _description(self, shot, settings, camera, samples):
             a, state = self.arguments, self.renderer.progress()
-            others = {"back end": state["backend"], "frame": self.statistics.frame, "cut": str(a.part.cut),
+            others = {"back end": state["backend"], "frame": shot.frame, "cut": str(a.part.cut),
                       "purposes": self.purposes, "complexity": a.complexity, "mask": a.mask, "set": a.set,
                       "material purpose": getattr(a, "materialPurpose", "full"),
                       "camera light": not a.disableCameraLight, "denoise": bool(a.denoise)}
-            made = identity.of_render(self.module, self.stage, settings, camera, others)
+            made = identity.of_render(self.stage, settings, camera, others)
             noise = state["statistics"].get("noiseTolerance", 0.0) if settings["tolerance"] > 0.0 else 0.0
             options = shots.image_options(a, shot, shot.outputs[0], settings)
-            return partial.describe(a.part, samples, made, self.typed, options, self.statistics.frame, camera, settings,
+            return partial.describe(a.part, samples, made, self.typed, options, shot.frame, camera, settings,
                                     noise, folder=os.path.dirname(self.stage.GetRootLayer().realPath), home=os.getcwd(),
                                     denoise=bool(a.denoise),
                                     decimals=frames.times(self.typed, self.stage)[1])
@@ -104,6 +105,6 @@ def of(job):
             self._writer.commit(json.dumps({
                 "statistics": {**state["statistics"], **self._sums}, "plans": state["plans"],
                 "sceneChoices": state["sceneChoices"], "backend": state["backend"], "warnings": self.statistics.warnings(),
-                "seconds": self.statistics.seconds}, default=str))
+                "seconds": self.statistics.current()["seconds"]}, default=str))
 
     return PartJob

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parts that lie in files: whether they belong together, and which are missing."""
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.farm import cut, identity, partial
 
@@ -7,13 +8,13 @@ from patina.farm import cut, identity, partial
 class Parts:
     """The parts of one frame."""
 
-    def __init__(self, module, files, mixed=False):
+    def __init__(self, files, mixed=False):
         """:param mixed: parts of other builds and instruction sets go together, too
         :raises CommandError: naming the file that does not belong to the first, and what differs"""
         self.found = {}  # number -> Description
         self.first = None
         for file in files:
-            description = partial.read(module, file)
+            description = partial.read(_patina, file)
             self.first = self.first or description
             self._check(description, mixed)
             self.found.setdefault(description.part.number, description)

@@ -2,21 +2,14 @@
 """The page of `patina view --library`: every material with its pictures and its source, in one file."""
 import html
 import os
-import re
 
-from patina import library, pagePolicy, report
+from patina import pagePolicy
 from patina.chart import png
-from patina.cli import statistics
 from patina.cli.progress import Progress
 from patina.library import catalog, pictures
+from patina.report.page import WEB
 
-_WEB = os.path.join(os.path.dirname(os.path.abspath(library.__file__)), "web")
-_STYLE = os.path.join(os.path.dirname(os.path.abspath(report.__file__)), "web", "report.css")
-
-
-def _text(path):
-    with open(path, encoding="utf-8") as file:
-        return file.read()
+_WEB = os.path.join(os.path.dirname(os.path.abspath(__file__)), "web")
 
 
 def document(width, samples, chosen=None):
@@ -31,12 +24,9 @@ def document(width, samples, chosen=None):
         warnings += [{**warning, "prim": entry.name, "input": ""} for warning in told]
         cards.setdefault(entry.group, []).append(_card(entry, shown, width))
     progress.clear()
-    script = _text(os.path.join(_WEB, "library.js"))
-    parts = {"STYLE": _text(_STYLE) + _text(os.path.join(_WEB, "library.css")), "SCRIPT": script,
-             "POLICY": pagePolicy.meta(script), "COUNT": str(len(chosen)),
-             "BODY": "".join(_section(group, found) for group, found in cards.items())}
-    page = _text(os.path.join(_WEB, "library.html"))
-    return re.sub("PATINA_(POLICY|STYLE|COUNT|BODY|SCRIPT)", lambda mark: parts[mark.group(1)], page), warnings
+    page, style, script = (pagePolicy.text(_WEB, name) for name in ("library.html", "library.css", "library.js"))
+    return pagePolicy.filled(page, script, STYLE=pagePolicy.text(WEB, "report.css") + style, COUNT=str(len(chosen)),
+                             BODY="".join(_section(group, found) for group, found in cards.items())), warnings
 
 
 def _section(group, cards):

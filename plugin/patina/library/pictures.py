@@ -5,7 +5,7 @@ import random
 
 import numpy as np
 
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.library import catalog
 from patina.view import images, reference, shapes, surroundings
 
@@ -42,7 +42,7 @@ def render(entry, width, samples):
     """:param width: pixels of a side
     :returns: list of (back end in words, linear picture), and a list of warnings"""
     warnings = []
-    network = compiled.load().read_mtlx(entry.path, warnings)[0]
+    network = _patina.read_mtlx(entry.path, warnings)[0]
     shape = lock() if entry.group in catalog.STRANDS else shapes.built_in()[0][1]
     studio = surroundings.environments([], [], 1024, False)[0]
     environment = {**studio, "pixels": images.unpacked(studio)}

@@ -12,7 +12,8 @@ import tempfile
 import numpy as np
 
 from patina import __version__
-from patina.cli import compiled, outputs
+from patina.cli import main, outputs
+from patina.cli.compiled import _patina
 from patina.regression import welch
 
 FIRST_SEED, OTHER_SEEDS = 1, 100001  # golden renders and new ones share no random numbers
@@ -28,8 +29,6 @@ def render(stage, seed, arguments):
     """:param arguments: of `patina record`
     :returns: linear colour, float32 array (height, width, 3)
     :raises RenderError: where the command fails, or the image has values that are no numbers"""
-    from patina.cli import main
-
     said = io.StringIO()
     with tempfile.TemporaryDirectory(prefix="patina-") as folder:
         image = os.path.join(folder, "image.exr")
@@ -52,7 +51,7 @@ def checked_color(path):
 
 def color_of(path):
     """:returns: linear colour of an OpenEXR file, float32 array (height, width, 3)"""
-    found = compiled.load().read_image(path)
+    found = _patina.read_image(path)
     return np.array(found.pixels)[..., [found.channels.index(c) for c in "RGB"]].astype(np.float32)
 
 

@@ -13,11 +13,11 @@ patina.regression.plugin --patina-scenes FOLDER`. The tests need SciPy.
 import importlib.util
 import os
 import shlex
-import time
 import warnings
 
 import pytest
 
+from patina.cli.compiled import _patina
 from patina.regression.scenes import Folder, SceneError
 
 REPORTED = "patina stage"  # of a test's user properties, which pytest-xdist brings from its processes
@@ -159,21 +159,25 @@ class _Stage(pytest.Item):
         if result.image is not None:
             told["text"] = f"a tile that differs by {100 * result.sees:.2g} % would show in most places"
 
-    def _show(self, told, folder, image):
-        """Puts the pictures of a stage into what is told of it, where there is a page."""
-        if not self.config.getoption("--patina-report"):
-            return
+    def _images(self, folder, image):
+        """:returns: dict of linear pictures: the golden one, the new one and their difference, as far as they are there"""
         from patina.chart.scenePage import signed
-        from patina.regression import golden, reportPage
+        from patina.regression import golden
 
         kept = folder.golden(self.name, ".exr")
-        before = golden.color_of(kept) if os.path.exists(kept) else None
-        if before is not None:
-            told["pictures"].append(reportPage.picture("golden", before))
+        found = {"golden": golden.color_of(kept)} if os.path.exists(kept) else {}
         if image is not None:
-            told["pictures"].append(reportPage.picture("new", image))
-        if before is not None and image is not None and before.shape == image.shape:
-            told["pictures"].append(reportPage.picture(DIFFERENCE, signed(image, before)))
+            found["new"] = image
+        if len(found) == 2 and found["golden"].shape == image.shape:
+            found[DIFFERENCE] = signed(image, found["golden"])
+        return found
+
+    def _show(self, told, folder, image):
+        """Puts the pictures of a stage into what is told of it, where there is a page."""
+        if self.config.getoption("--patina-report"):
+            from patina.regression import reportPage
+
+            told["pictures"] += [reportPage.picture(name, linear) for name, linear in self._images(folder, image).items()]
 
     def _how(self):
         command = os.environ.get("PATINA_COMMAND")  # of the launcher
@@ -187,21 +191,16 @@ class _Stage(pytest.Item):
         :returns: lines that say where they are"""
         if image is None:
             return []
-        from patina.chart.scenePage import signed
-        from patina.regression.golden import color_of
-
         out = os.path.abspath(self.config.getoption("--patina-out") or os.path.join(folder.path, "failed"))
         path = os.path.join(out, *(self.name + ".exr").split("/"))
         _write(path, image)
-        lines = [f"new: {path}"]
-        golden = folder.golden(self.name, ".exr")
-        if os.path.exists(golden):
-            lines.append(f"golden: {golden}")
-            pixels = color_of(golden)
-            if pixels.shape == image.shape:
-                picture = path[:-len(".exr")] + ".difference.png"
-                _write(picture, signed(image, pixels))
-                lines.append(f"difference: {picture} ({DIFFERENCE})")
+        lines, images = [f"new: {path}"], self._images(folder, image)
+        if "golden" in images:
+            lines.append(f"golden: {folder.golden(self.name, '.exr')}")
+        if DIFFERENCE in images:
+            picture = path[:-len(".exr")] + ".difference.png"
+            _write(picture, images[DIFFERENCE])
+            lines.append(f"difference: {picture} ({DIFFERENCE})")
         return lines
 
     def repr_failure(self, excinfo, style=None):
@@ -214,7 +213,6 @@ class _Stage(pytest.Item):
 
 
 def _write(path, image):
-    from patina.cli import compiled
 
     os.makedirs(os.path.dirname(path), exist_ok=True)
-    compiled.load().write_image(path, image.astype("float32"))
+    _patina.write_image(path, image.astype("float32"))

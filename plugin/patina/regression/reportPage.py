@@ -5,6 +5,8 @@ import html
 import time
 
 from patina import __version__, pagePolicy
+from patina.chart import png
+from patina.cli import outputs
 
 LARGEST = 640  # pixels on the longer side of a picture
 # Outcomes, in the order of the page, and what they mean.
@@ -24,8 +26,6 @@ figcaption { font-size: .85em; color: #555 } table { border-collapse: collapse }
 def picture(caption, linear):
     """:param linear: (height, width, 3), as png takes it
     :returns: what a page shows: caption, data URI, size"""
-    from patina.chart import png
-
     step = max(1, -(-max(linear.shape[:2]) // LARGEST))
     return {"caption": caption, "uri": png.data_uri(linear[::step, ::step]), "size": linear.shape[1::-1]}
 
@@ -33,8 +33,6 @@ def picture(caption, linear):
 def write(path, stages, about):
     """:param stages: list of dicts: name, outcome, text, seconds, pictures
     :param about: list of (what, value) above the table"""
-    from patina.cli import outputs
-
     order = {outcome: i for i, outcome in enumerate(OUTCOMES)}
     stages = sorted(stages, key=lambda stage: (order[stage["outcome"]], stage["name"]))
     count = sum(stage["outcome"] in FAILED for stage in stages)

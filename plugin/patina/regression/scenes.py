@@ -39,12 +39,12 @@ def _checked(values, place):
     if any(a == "--seed" or a.startswith("--seed=") for a in arguments):
         raise SceneError(f"{place}: --seed is chosen by the test")
     renders, margin = values.get("renders", 2), values.get("margin", 0.0)
-    if isinstance(renders, bool) or not isinstance(renders, int) or not 2 <= renders <= 1000:
+    if type(renders) is not int or not 2 <= renders <= 1000:
         raise SceneError(f"{place}: renders is a whole number from 2 to 1000")
-    if isinstance(margin, bool) or not isinstance(margin, (int, float)) or not 0.0 <= margin < float("inf"):
+    if type(margin) not in (int, float) or not 0.0 <= margin < float("inf"):
         raise SceneError(f"{place}: margin is a number of 0 or more")
     sees = values.get("sees", 0.05)
-    if isinstance(sees, bool) or not isinstance(sees, (int, float)) or not margin < sees < float("inf"):
+    if type(sees) not in (int, float) or not margin < sees < float("inf"):
         raise SceneError(f"{place}: sees is a number above the margin")
     return dict(values, arguments=tuple(arguments)) if "arguments" in values else values
 

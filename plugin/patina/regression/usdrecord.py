@@ -6,6 +6,7 @@ import shlex
 import subprocess
 import tempfile
 
+from patina.cli.usd import UsdLux, reader
 from patina.regression.golden import RenderError, checked_color
 
 # Flags of `patina record` that usdrecord has too; all take a value.
@@ -21,16 +22,11 @@ def _seen(file):
 
     :returns: path of the camera that `patina record` takes, or None; whether the stage has lights
     :raises RenderError: where the stage cannot be opened"""
-    from pxr import UsdLux
-
-    from patina.stage import StageError, StageOptions, cameras, open_stage
-    from patina.stage.context import Context
-
     try:
-        stage = open_stage(file)
-    except StageError as error:
+        stage = reader.open_stage(file)
+    except reader.StageError as error:
         raise RenderError(str(error)) from None
-    found = cameras.chosen_before(Context(stage, None, StageOptions()))
+    found = reader.cameras.chosen_before(reader.context.Context(stage, None, reader.StageOptions()))
     return found and found.path, any(prim.HasAPI(UsdLux.LightAPI) for prim in stage.Traverse())
 
 

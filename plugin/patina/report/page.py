@@ -2,22 +2,17 @@
 """Puts the page of a render together."""
 import html
 import os
-import re
 
-from patina import pagePolicy, report
+from patina import pagePolicy
 from patina.cli import planText, shots
+from patina.cli.compiled import _patina
 from patina.report import pictures, sections
 from patina.view.page import as_json, finite
 
 LABELS = {"color": "image", "color.noisy": "image before denoising", "sampleCount": "samples", "primId": "prims",
           "instanceId": "instances", "elementId": "faces", "denoisingAlbedo": "albedo for denoising",
           "denoisingNormal": "normal for denoising"}
-_WEB = os.path.join(os.path.dirname(os.path.abspath(report.__file__)), "web")
-
-
-def _web(name):
-    with open(os.path.join(_WEB, name), encoding="utf-8") as file:
-        return file.read()
+WEB = os.path.join(os.path.dirname(os.path.abspath(__file__)), "web")
 
 
 def document(job, film, shot, settings, info):
@@ -29,7 +24,7 @@ def document(job, film, shot, settings, info):
     window = settings.get("dataWindow") or (0, 0, film.width - 1, film.height - 1)
     if window[2] < window[0] or window[3] < window[1]:
         window = (0, 0, film.width - 1, film.height - 1)
-    data = {"layers": _layers(job.module, film, options, error, settings["aovs"]), "probe": pictures.probe(film, error),
+    data = {"layers": _layers(film, options, error, settings["aovs"]), "probe": pictures.probe(film, error),
             "colors": pictures.colormap(), "prims": job.scene.paths("geometry"), "origin": [0, 0]}
     for layer in data["layers"]:
         layer["label"] = LABELS.get(layer["name"], layer["name"])
@@ -38,18 +33,16 @@ def document(job, film, shot, settings, info):
         settings=settings, warnings=job.statistics.warnings(), notes=job.statistics.notes(), interrupted=job.interrupted,
         error=error, samples=film.resolve("sampleCount"), window=window, materials=_materials(job),
         plan_lines=planText.choice_lines(job.renderer.progress()["sceneChoices"])))
-    script = _web("report.js")
-    parts = {"TITLE": html.escape(f"{os.path.basename(shot.image)}: Patina"), "STYLE": _web("report.css"), "BODY": body,
-             "DATA": as_json(finite(data)[0]), "SCRIPT": script, "POLICY": pagePolicy.meta(script)}
-    # In one go: what is put in may hold the names of these places.
-    return re.sub("PATINA_(POLICY|TITLE|STYLE|BODY|DATA|SCRIPT)", lambda mark: parts[mark.group(1)], _web("report.html"))
+    page, style, script = (pagePolicy.text(WEB, name) for name in ("report.html", "report.css", "report.js"))
+    return pagePolicy.filled(page, script, TITLE=html.escape(f"{os.path.basename(shot.image)}: Patina"), STYLE=style, BODY=body,
+                             DATA=as_json(finite(data)[0]))
 
 
-def _layers(module, film, options, error, aovs):
+def _layers(film, options, error, aovs):
     """:returns: list of pictures, those that say most first"""
     counts = film.resolve("sampleCount")
     unseen = counts <= 0
-    made = [{"name": "color", "uri": pictures.shown(module, film, options), "legend": None},
+    made = [{"name": "color", "uri": pictures.shown(film, options), "legend": None},
             pictures.heat("error", error, unit="%", log=True, missing=unseen),
             pictures.heat("sampleCount", counts.astype(float), missing=unseen)]
     names = list(dict.fromkeys(["albedo", "normal", "depth", "primId", *aovs]))
@@ -70,5 +63,5 @@ def _materials(job, most=60):
     for path in paths[:most]:
         plan = state["plans"].get(path)
         methods = dict(job.settings["methods"], **({c["point"]: c["method"] for c in plan["choices"]} if plan else {}))
-        found.append((path, plan, job.module.explain_material(job.scene.material(path), [], methods)))
+        found.append((path, plan, _patina.explain_material(job.scene.material(path), [], methods)))
     return found

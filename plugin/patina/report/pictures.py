@@ -6,6 +6,7 @@ import tempfile
 import numpy as np
 
 from patina.chart import png
+from patina.cli.compiled import _patina
 from patina.view import blobs
 
 LARGEST = 1920  # pixels on the longer side of a page's pictures
@@ -20,18 +21,18 @@ def step_of(width, height):
     return max(1, -(-max(width, height) // LARGEST))
 
 
-def shown(module, film, options):
+def shown(film, options):
     """:param options: of the image's file
     :returns: data URI of the colour as a display shows it"""
     plain = {name: options[name] for name in ("display", "view", "raw", "rendering_color_space") if name in options}
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "color.png")
-        module.write_images(film, path, dict(plain, aovs=["color", "alpha"], bits=8))
+        _patina.write_images(film, path, dict(plain, aovs=["color", "alpha"], bits=8))
         step = step_of(film.width, film.height)
         if step > 1:
-            image = module.read_image(path)
+            image = _patina.read_image(path)
             pixels = np.array(image.pixels)[::step, ::step, :3]
-            module.write_image(path, np.ascontiguousarray(pixels), options={"raw": True, "bits": 8})
+            _patina.write_image(path, np.ascontiguousarray(pixels), options={"raw": True, "bits": 8})
         with open(path, "rb") as file:
             return "data:image/png;base64," + blobs.base64.b64encode(file.read()).decode()
 

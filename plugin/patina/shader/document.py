@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A network as a MaterialX 1.39 document."""
 import re
+import struct
 import xml.etree.ElementTree as tree
 
 from patina import messages
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.shader import standardNames
 
 VERSION = "1.39"
@@ -111,7 +112,7 @@ class _Writer:
 
 
 def _definition(node):
-    definition = compiled.load().node_definition(node["id"])
+    definition = _patina.node_definition(node["id"])
     if definition is None:
         raise Unwritable(f"{node['path']}: the node {node['id']} has no definition")
     return definition
@@ -137,8 +138,6 @@ def _number(x):
 
 
 def _single(x):
-    import struct
-
     return struct.unpack("f", struct.pack("f", x))[0] if abs(x) < 3e38 else x
 
 

@@ -3,6 +3,7 @@
 import importlib
 import importlib.util
 import re
+import xml.etree.ElementTree as tree
 
 from patina import messages
 
@@ -78,8 +79,6 @@ def harmless(text, warnings):
     """
     :returns: a document whose texts cannot end the string literal, or the word, that the generators make of them as they are
     """
-    import xml.etree.ElementTree as tree
-
     root = tree.fromstring(text)
     parents = {child: parent for parent in root.iter() for child in parent}
     for element in root.iter():

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Patina's own shaders: the text that its pages run, with the functions of one material and a host that one may replace."""
 import re
+from patina.cli.compiled import _patina
 
-from patina.cli import compiled
 
 VERSIONS = {"glsl": "#version 450 core", "essl": "#version 300 es"}
 HEAD = """\
@@ -27,16 +27,16 @@ def shader(network, target, methods, largest):
     :param largest: width and height that textures are brought down to
     :returns: the text, and the dict of `_patina.web_material`
     """
-    module = compiled.load()
-    material = module.web_material(network, methods, largest)
+    material = _patina.web_material(network, methods, largest)
     text = "#include \"shaders/web/inputs.glsl\"\n"
-    text += "".join(f"vec4 primvar{slot}(vec4 fallback) {{ return {_primvar(name, kind)}; }}\n"
+    text += "".join(f"vec4 primvar{slot}(vec4 fallback) {{ return {primvar(name, kind)}; }}\n"
                     for slot, (name, kind) in enumerate(material["primvars"]))
     text += material["text"] + "#include \"shaders/web/standalone.frag.glsl\"\n"
-    return HEAD.format(version=VERSIONS[target]) + _lean(module.whole_shader(text)), material
+    return HEAD.format(version=VERSIONS[target]) + _lean(_patina.whole_shader(text)), material
 
 
-def _primvar(name, kind):
+def primvar(name, kind):
+    """:returns: what a shader reads a primvar from"""
     if kind == "vector2":
         return "vec4(vUv, 0.0, 1.0)"
     return "vec4(vColor, 1.0)" if name == "displayColor" else "fallback"

@@ -27,6 +27,17 @@ def resolve(context, attribute):
     return file
 
 
+def existing(context, prim, name, id_):
+    """:param id_: of the message that tells of a file which is not there
+    :returns: the file that an authored asset names, or ''"""
+    attribute = prim.GetAttribute(name)
+    file = resolve(context, attribute) if attribute and attribute.HasAuthoredValue() else ""
+    if file and not os.path.exists(file):
+        context.warn(prim.GetPath(), name, id_, file)
+        return ""
+    return file
+
+
 def _file_of(context, attribute):
     value = attribute.Get(context.time)
     path = getattr(value, "path", value)

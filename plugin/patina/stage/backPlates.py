@@ -3,10 +3,11 @@
 
 Cameras see them. They light nothing, cast no shadow, and are in no reflection.
 """
-import os
-
+import _patina
 import numpy as np
 from pxr import Gf
+
+from patina import networks
 
 from . import assets, marks
 from .context import get, number, vector
@@ -18,11 +19,10 @@ _ONLY_CAMERAS = {"patina:visibility:indirect": False, "patina:visibility:shadow"
 _ALPHAS = {1: ("float", None), 2: ("vector2", 1), 4: ("color4", 3)}  # by channels: type of the node, channel
 
 
-def emit(context, cameras, chosen, module):
+def emit(context, cameras, chosen):
     """Draws the plates that the camera of the picture shows.
 
-    :param cameras: list of Found
-    :param module: `_patina`"""
+    :param cameras: list of Found"""
     for found in cameras:
         for schema in found.prim.GetAppliedSchemas():
             if not schema.startswith("BackPlateAPI:"):
@@ -30,10 +30,10 @@ def emit(context, cameras, chosen, module):
             name = schema.partition(":")[2]
             seen = get(found.prim, f"backPlate:{name}:plateVisibility", context.time, "solo")
             if seen == "all" or seen == "solo" and found is chosen:
-                _emit(context, found, f"backPlate:{name}:", f"{found.path}/{name}", module)
+                _emit(context, found, f"backPlate:{name}:", f"{found.path}/{name}")
 
 
-def _emit(context, found, prefix, path, module):
+def _emit(context, found, prefix, path):
     prim = found.prim
     size = np.array([number(context, prim, side + "Aperture", fallback) * _APERTURE_UNIT
                      for side, fallback in (("horizontal", 20.955), ("vertical", 15.2908))])
@@ -56,34 +56,32 @@ def _emit(context, found, prefix, path, module):
     context.edit.set_mesh(
         path, points=points, face_vertex_counts=np.array([4], np.int32), face_vertex_indices=np.arange(4, dtype=np.int32),
         double_sided=True, transform=transform_of(context, prim, None, lambda offset: place),
-        material=_material(context, prim, prefix, path + "/material", module), primvars=[("st", "vertex", _ST, None)],
+        material=_material(context, prim, prefix, path + "/material"), primvars=[("st", "vertex", _ST, None)],
         **{**fields, "marks": {**fields.get("marks", {}), **_ONLY_CAMERAS}})
     context.count("backPlates")
 
 
-def _material(context, prim, prefix, path, module):
+def _material(context, prim, prefix, path):
     """:returns: path of a material that glows as the plate says"""
-    network = module.Network(path)
+    network = _patina.Network(path)
     surface = path + "/surface"
     network.add_node(surface, "ND_surface_unlit")
-    picture = _picture(context, prim, prefix + "image")
+    picture = assets.existing(context, prim, prefix + "image", "backPlateFileMissing")
     if picture:
         color = _image(network, path + "/image", "color3", picture,
                        context.color_spaces.space_of(prim.GetAttribute(prefix + "image"), reads_colors=True) or "auto")
         network.connect(surface, "emission_color", _graded(context, prim, prefix + "luma:", network, color))
     else:
         network.set_input(surface, "emission_color", "color3", (0.0, 0.0, 0.0))
-    alpha = _picture(context, prim, prefix + "alpha:image")
+    alpha = assets.existing(context, prim, prefix + "alpha:image", "backPlateFileMissing")
     if alpha:
-        channels = len(module.read_image(alpha).channels)
+        channels = len(_patina.read_image(alpha).channels)
         if channels in _ALPHAS:
             type_, index = _ALPHAS[channels]
             opacity = _image(network, path + "/alpha", type_, alpha, "raw")
             if index is not None:
-                network.add_node(path + "/channel", "ND_extract_" + type_)
-                network.connect(path + "/channel", "in", opacity)
-                network.set_input(path + "/channel", "index", "integer", index)
-                opacity = path + "/channel"
+                opacity = networks.add(network, path + "/channel", "ND_extract_" + type_, {"index": ("integer", index)},
+                                       **{"in": opacity})
             network.connect(surface, "opacity", opacity)
         else:
             context.warn(prim.GetPath(), prefix + "alpha:image", "backPlateChannels", channels)
@@ -92,22 +90,10 @@ def _material(context, prim, prefix, path, module):
     return path
 
 
-def _picture(context, prim, name):
-    """:returns: a file that is there, or ''"""
-    attribute = prim.GetAttribute(name)
-    file = assets.resolve(context, attribute) if attribute and attribute.HasAuthoredValue() else ""
-    if file and not os.path.exists(file):
-        context.warn(prim.GetPath(), name, "backPlateFileMissing", file)
-        return ""
-    return file
-
-
 def _image(network, path, type_, file, space):
-    network.add_node(path, "ND_image_" + type_)
-    network.set_input(path, "file", "filename", file, space)
-    for side in ("uaddressmode", "vaddressmode"):
-        network.set_input(path, side, "string", "clamp")
-    return path
+    clamp = ("string", "clamp")
+    return networks.add(network, path, "ND_image_" + type_, {"file": ("filename", file, space), "uaddressmode": clamp,
+                                                             "vaddressmode": clamp})
 
 
 def _graded(context, prim, prefix, network, color):
@@ -121,9 +107,6 @@ def _graded(context, prim, prefix, network, color):
         gamma = np.ones(3)
     for operation, value, idle in (("multiply", gain - lift, 1.0), ("add", lift, 0.0), ("power", 1.0 / gamma, 1.0)):
         if (value != idle).any():
-            node = f"{color}_{operation}"
-            network.add_node(node, f"ND_{operation}_color3")
-            network.connect(node, "in1", color)
-            network.set_input(node, "in2", "color3", tuple(map(float, value)))
-            color = node
+            color = networks.add(network, f"{color}_{operation}", f"ND_{operation}_color3",
+                                 {"in2": ("color3", tuple(map(float, value)))}, in1=color)
     return color

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cameras: those of the stage, and the one that frames a stage without any."""
-import functools
 import itertools
 import math
 from dataclasses import dataclass
 
+import _patina
 import numpy as np
 from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdRender, UsdUtils
 
 from . import assets, compat, kinds, marks
-from .context import array, get, number, shown
+from .context import array_of, get, number, shown
 from .errors import StageError, one_line
 from .state import Found, State, Walked
 from .transforms import matrix_at, transform_of
@@ -17,6 +17,9 @@ from .transforms import matrix_at, transform_of
 FRAMING = "/patinaFramingCamera"
 _APERTURE, _FOCAL = (20.955, 15.2908), 50.0  # of that camera
 _MARGIN = 1.05
+_INPUTS = _patina.camera_inputs()  # (attribute, key of the scene, fallback) each, of hdDelegate/scene/cameraTypes.inc
+# Attribute -> name of hdDelegate/scene/cameraInputs.def; a name of its own is stronger than a primvar.
+_INPUT_NAMES = {prefix + name: name for prefix in ("primvars:", "") for name in _patina.camera_input_names()}
 
 
 def choose(context, walked):
@@ -111,27 +114,10 @@ def shutter_of(context, found):
     return (opens, closes)
 
 
-@functools.lru_cache(maxsize=None)
-def _inputs():
-    """:returns: list of (attribute, key of the scene, fallback) of hdDelegate/scene/cameraTypes.inc"""
-    import _patina
-
-    return _patina.camera_inputs()
-
-
-@functools.lru_cache(maxsize=None)
-def _input_names():
-    """:returns: attribute -> name of hdDelegate/scene/cameraInputs.def; a name of its own is stronger than a primvar"""
-    import _patina
-
-    names = _patina.camera_input_names()
-    return {**{"primvars:" + name: name for name in names}, **{name: name for name in names}}
-
-
 def inputs_of(context, prim):
     """:returns: dict of what the camera has beyond UsdGeomCamera, by names of cameraInputs.def"""
     authored, found = set(prim.GetAuthoredPropertyNames()), {}
-    for attribute_name, name in _input_names().items():
+    for attribute_name, name in _INPUT_NAMES.items():
         attribute = prim.GetAttribute(attribute_name) if attribute_name in authored else None
         value = attribute.Get(context.time) if attribute else None
         if hasattr(value, "path"):
@@ -157,13 +143,13 @@ class Placed:
 def emit(context, found):
     """:returns: a Placed"""
     prim, time = found.prim, context.time
-    fields = {key: number(context, prim, name, fallback) for name, key, fallback in _inputs()}
+    fields = {key: number(context, prim, name, fallback) for name, key, fallback in _INPUTS}
     try:
         near, far = map(float, get(prim, "clippingRange", time, (1.0, 1e6)))
     except (TypeError, ValueError):
         context.warn(prim.GetPath(), "clippingRange", "clippingRangeUnusable")
         near, far = 1.0, 1e6
-    planes = array(context, prim, "clippingPlanes", get(prim, "clippingPlanes", time), 4)
+    planes = array_of(context, prim, "clippingPlanes", 4)
     opens, closes = context.shutter
     transform = transform_of(context, prim, None)
     matrices = transform[1] if isinstance(transform, tuple) else [transform]

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Models that stand as cards: textured sides of their extents, a cross of three planes, or pictures where they were taken."""
-import os
-
+import _patina
 import numpy as np
+
+from patina import networks
 
 from . import assets
 from .context import get, shown
@@ -20,14 +21,7 @@ _ST = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], np.float32)
 def faces_of(context, prim, geometry):
     """:param geometry: cross, box or fromTexture
     :returns: dict from face to texture (empty for none), of the faces that are drawn"""
-    textures = {}
-    for face in _FACES:
-        attribute = prim.GetAttribute("model:cardTexture" + face)
-        file = assets.resolve(context, attribute) if attribute and attribute.HasAuthoredValue() else ""
-        if file and not os.path.exists(file):
-            context.warn(prim.GetPath(), "model:cardTexture" + face, "cardFileMissing", file)
-            file = ""
-        textures[face] = file
+    textures = {face: assets.existing(context, prim, "model:cardTexture" + face, "cardFileMissing") for face in _FACES}
     if geometry == "fromTexture":
         return {face: file for face, file in textures.items() if file}
     if any(textures.values()):
@@ -73,44 +67,37 @@ def quad_of_picture(metadata):
     return points
 
 
-def emit(context, found, low, high, common, color, module):
+def emit(context, found, low, high, common, color):
     """:param common: fields of the meshes: group, transform"""
     prim = found.prim
     geometry = get(prim, "model:cardGeometry", context.time, "cross")
     if geometry not in ("cross", "box", "fromTexture"):
-        context.warn(prim.GetPath(), "model:cardGeometry",
-                     "cardGeometryUnknown", shown(geometry))
+        context.warn(prim.GetPath(), "model:cardGeometry", "cardGeometryUnknown", shown(geometry))
     for face, file in faces_of(context, prim, geometry).items():
         path = f"{found.path}/card{face}"
         points = quad(face, low, high, geometry != "box")
         if geometry == "fromTexture":
             try:
-                points = quad_of_picture(module.read_image(file).metadata)
+                points = quad_of_picture(_patina.read_image(file).metadata)
             except RuntimeError as error:
                 context.warn(prim.GetPath(), "model:cardTexture" + face, "cardLeftOut", error)
                 continue
         context.edit.set_mesh(
             path, points=points, face_vertex_counts=np.array([4], np.int32),
             face_vertex_indices=np.arange(4, dtype=np.int32), double_sided=True,
-            material=_material(context, path + "/material", file, module) if file else "",
+            material=_material(context, path + "/material", file) if file else "",
             primvars=[("st", "vertex", _ST, None), ("displayColor", "constant", np.array([color], np.float32))],
             **common)
 
 
-def _material(context, path, file, module):
+def _material(context, path, file):
     """As UsdImaging makes it. :returns: path of a material that shows a picture and cuts out where it is transparent"""
-    network = module.Network(path)
-    network.add_node(path + "/surface", "UsdPreviewSurface")
-    network.add_node(path + "/texture", "UsdUVTexture")
-    network.add_node(path + "/st", "UsdPrimvarReader_float2")
-    network.set_input(path + "/st", "varname", "string", "st")
-    network.set_input(path + "/texture", "file", "asset", file)
-    for side in ("wrapS", "wrapT"):
-        network.set_input(path + "/texture", side, "token", "clamp")
-    network.connect(path + "/texture", "st", path + "/st", "result")
-    network.connect(path + "/surface", "diffuseColor", path + "/texture", "rgb")
-    network.connect(path + "/surface", "opacity", path + "/texture", "a")
-    network.set_input(path + "/surface", "opacityThreshold", "float", 0.1)
-    network.set_terminal("surface", path + "/surface", "surface")
+    network, clamp = _patina.Network(path), ("token", "clamp")
+    st = networks.add(network, path + "/st", "UsdPrimvarReader_float2", {"varname": ("string", "st")})
+    texture = networks.add(network, path + "/texture", "UsdUVTexture",
+                           {"file": ("asset", file), "wrapS": clamp, "wrapT": clamp}, st=(st, "result"))
+    surface = networks.add(network, path + "/surface", "UsdPreviewSurface", {"opacityThreshold": ("float", 0.1)},
+                           diffuseColor=(texture, "rgb"), opacity=(texture, "a"))
+    network.set_terminal("surface", surface, "surface")
     context.edit.set_material(path, network)
     return path

@@ -70,15 +70,19 @@ class ColorSpaces:
         value = _value(prim, input_)
         if value is None:
             return fallback
-        try:
-            numbers = np.array(value, dtype=np.float64).reshape(-1)
-        except (TypeError, ValueError):
-            numbers = np.zeros(0)
-        if isinstance(value, str) or len(numbers) != len(fallback) or not np.isfinite(numbers).all():
-            self._edit.warn(str(prim.GetPath()), input_,
-                            "colorSpaceNumbers", fallback)
-            return fallback
-        return tuple(map(float, numbers))
+        numbers = None if isinstance(value, str) else finite(np.reshape(value, -1), len(fallback))
+        if numbers is None:
+            self._edit.warn(str(prim.GetPath()), input_, "colorSpaceNumbers", fallback)
+        return fallback if numbers is None else numbers
+
+
+def finite(value, count, dtype=np.float64):
+    """:returns: a tuple of so many finite numbers; None where the value is anything else"""
+    try:
+        numbers = np.array(value, dtype=dtype)
+    except (TypeError, ValueError):
+        return None
+    return tuple(map(float, numbers)) if numbers.shape == (count,) and np.isfinite(numbers).all() else None
 
 
 def _value(prim, name):

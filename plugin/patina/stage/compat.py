@@ -5,6 +5,8 @@ import zipfile
 
 from pxr import Ar, Tf, Usd, UsdShade, UsdUtils
 
+from .errors import one_line
+
 
 def exposure_scale(camera, time):
     """:returns: linear factor of the image"""
@@ -72,9 +74,7 @@ def _from_zip(file, inner):
 
 def bound_materials(prims, purpose="full"):
     """:returns: list of (Material, strength) for a purpose, then the general one"""
-    result = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, purpose or UsdShade.Tokens.allPurpose)
-    materials, relationships = result
-    return list(zip(materials, relationships))
+    return list(zip(*UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, purpose or UsdShade.Tokens.allPurpose)))
 
 
 class QuietDiagnostics:
@@ -91,3 +91,13 @@ class QuietDiagnostics:
             if text and text not in self.texts:
                 self.texts.append(text)
         self._delegate = None
+
+
+def attempt(call, *arguments):
+    """:returns: (what a call of pxr gives, None where it fails; what it says of that, empty for nothing)"""
+    with QuietDiagnostics() as quiet:
+        try:
+            found, problem = call(*arguments), ""
+        except Tf.ErrorException as error:
+            found, problem = None, one_line(error)
+    return found, quiet.texts[0] if quiet.texts else problem

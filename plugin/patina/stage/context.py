@@ -4,9 +4,8 @@ import numpy as np
 from pxr import Gf, Usd, UsdGeom
 
 from . import cycles
-from .colorSpaces import ColorSpaces
+from .colorSpaces import ColorSpaces, finite
 from .errors import StageError, one_line
-from .fallbacks import Fallbacks
 
 MAX_MOTION_SAMPLES = 16
 LONGEST_FIELD = 500  # characters; values of a stage may be of any length
@@ -158,6 +157,16 @@ def get(prim, name, time, fallback=None):
     return fallback if value is None else value
 
 
+def targets(prim, name):
+    """:returns: paths that a relationship leads to; none where the prim has no such relationship"""
+    return prim.GetRelationship(name).GetForwardedTargets() if prim.HasRelationship(name) else []
+
+
+def sampled(times, values):
+    """:returns: what `_patina` takes of values at these times"""
+    return values[0] if len(values) == 1 else (list(times), values)
+
+
 def number(context, prim, name, fallback, value=None):
     """:param value: where it was read already
     :returns: a finite float; the fallback, after a warning where something else is authored"""
@@ -177,19 +186,21 @@ def vector(context, prim, name, fallback, value=None):
         value = get(prim, name, context.time)
     if value is None:
         return fallback
-    try:
-        numbers = np.array(value, dtype=np.float32)
-    except (TypeError, ValueError):
-        numbers = np.zeros(0)
     count = 3 if fallback is None else len(fallback)
-    if numbers.shape != (count,) or not np.isfinite(numbers).all():
-        used = "the default" if fallback is None else fallback
-        if count == 3:
-            context.warn(prim.GetPath(), name, "noThreeNumbers", used)
-        else:
-            context.warn(prim.GetPath(), name, "numbersUnfit", count, used)
-        return fallback
-    return tuple(map(float, numbers))
+    numbers = finite(value, count, np.float32)
+    if numbers is not None:
+        return numbers
+    used = "the default" if fallback is None else fallback
+    if count == 3:
+        context.warn(prim.GetPath(), name, "noThreeNumbers", used)
+    else:
+        context.warn(prim.GetPath(), name, "numbersUnfit", count, used)
+    return fallback
+
+
+def array_of(context, prim, name, components, dtype=np.float32):
+    """:returns: an attribute's value as array() gives it"""
+    return array(context, prim, name, get(prim, name, context.time), components, dtype)
 
 
 def array(context, prim, name, value, components, dtype=np.float32):
@@ -213,6 +224,31 @@ def array(context, prim, name, value, components, dtype=np.float32):
             context.warn(prim.GetPath(), name, "arrayUnusable", components, kind)
         return np.zeros(shape, dtype)
     return found.astype(dtype, copy=False)
+
+
+class Fallbacks:
+    """Values of inputs that nobody authored: those of the schemas. They follow from a prim's type and its API schemas. Asking
+    each light for each of them takes most of the time of reading many lights."""
+
+    def __init__(self):
+        self._prim, self._names, self._key, self._known = None, (), None, {}
+
+    def is_authored(self, prim, name):
+        """:returns: whether the prim, the last one or another, has an opinion about an input, by its name or its older name"""
+        if self._prim != prim:
+            self._prim, self._names = prim, frozenset(prim.GetAuthoredPropertyNames())
+            self._key = (prim.GetTypeName(), tuple(prim.GetAppliedSchemas()))
+        return "inputs:" + name in self._names or name in self._names
+
+    def of(self, name, attribute_of):
+        """Of the prim that is_authored() was asked about.
+
+        :param attribute_of: gives the attribute, or None; called where the value is not known yet"""
+        key = (self._key, name)
+        if key not in self._known:
+            attribute = attribute_of()
+            self._known[key] = attribute.Get() if attribute else None
+        return self._known[key]
 
 
 class Guard:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Coordinate systems that are bound to prims and those below them (UsdShadeCoordSysAPI, of several names or as it was before
 OpenUSD 23.05), as primvars of their matrices."""
+import _patina
 import numpy as np
 from pxr import UsdGeom
 
@@ -23,8 +24,6 @@ def authored(prim, names, above):
 
 def primvars_of(context, found):
     """:returns: primvars of the matrices into the spaces that are bound to a prim, as of read_primvars()"""
-    import _patina
-
     primvars = []
     for name, path in found.state.spaces:
         matrix, local = _matrix(context, found, context.stage.GetPrimAtPath(path))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Point instancers that hold themselves, by any way through prototypes and native instances."""
 import bisect
+import graphlib
+import itertools
 
 from pxr import Usd
 
@@ -12,27 +14,17 @@ MOST_STEPS = 5000000  # a stage that would take more is taken for one that has s
 def are_in(stage):
     """:returns: whether a point instancer lies below one of its own prototypes, or below a prototype of one that does"""
     below = _holders(stage)
-    paths = sorted(below)
-    done, steps = set(), 0
-    for start in paths:
-        stack, open_ones = [(start, None)], set()
-        while stack:
-            path, rest = stack.pop()
-            if rest is None:
-                if path in done:
-                    continue
-                open_ones.add(path)
-                rest = (held for root in below[path] for held in _within(paths, root))  # lazy: steps bound it
-            for held in rest:
-                steps += 1
-                if held in open_ones or steps > MOST_STEPS:
-                    return True
-                if held not in done:
-                    stack += [(path, rest), (held, None)]
-                    break
-            else:
-                open_ones.discard(path)
-                done.add(path)
+    paths, graph, steps = sorted(below), graphlib.TopologicalSorter(), 0
+    for path, roots in below.items():
+        for held in itertools.chain.from_iterable(_within(paths, root) for root in roots):
+            steps += 1
+            if steps > MOST_STEPS:
+                return True
+            graph.add(path, held)
+    try:
+        graph.prepare()
+    except graphlib.CycleError:
+        return True
     return False
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Model draw modes: models that stand as a box, an origin or cards."""
+import _patina
 import numpy as np
 from pxr import Kind, Usd, UsdGeom
 
@@ -22,10 +23,8 @@ def of(prim, inherited):
     return mode, bool(component or get(prim, "model:applyDrawMode", 0.0, False))
 
 
-def emit(context, found, module):
-    """Draws a model's extents as lines or as cards, or the unit axes of its origin.
-
-    :param module: `_patina`"""
+def emit(context, found):
+    """Draws a model's extents as lines or as cards, or the unit axes of its origin."""
     prim, mode = found.prim, found.state.draw_mode
     if context.cyclic:
         return
@@ -37,14 +36,14 @@ def emit(context, found, module):
               **marks.fields(found)}
     context.count("drawModes")
     if mode == "cards":
-        cards.emit(context, found, low, high, common, color, module)
+        cards.emit(context, found, low, high, common, color)
         return
     if mode == "origin":
         points = [p for axis in np.eye(3) for p in ((0.0, 0.0, 0.0), axis)]
     else:
         corners = [[(low, high)[i >> (2 - a) & 1][a] for a in range(3)] for i in range(8)]
         points = [corners[i] for edge in _EDGES for i in edge]
-    width = module.STAND_IN_WIDTH * float(np.linalg.norm(np.ptp(points, axis=0)))
+    width = _patina.STAND_IN_WIDTH * float(np.linalg.norm(np.ptp(points, axis=0)))
     context.edit.set_curves(
         found.path, basis="linear", points=np.array(points, dtype=np.float32),
         curve_vertex_counts=np.full(len(points) // 2, 2, np.int32),

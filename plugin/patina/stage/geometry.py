@@ -4,7 +4,7 @@ import numpy as np
 from pxr import UsdGeom
 
 from . import coordSystems, kinds, marks, meshes, parametric, skeletons, skinning, splats, volumes
-from .context import array, get, number, shown
+from .context import array, array_of, get, number, sampled, shown
 from .primvars import add_builtin, read_primvars, text
 from .transforms import transform_of
 
@@ -42,29 +42,14 @@ def emit(context, found, kind, bound, categories, fallbacks):
     if subsets:
         common["subsets"] = [_subset(context, subset, path, group) for subset, path in subsets]
     context.count(kind)
-    if kind == "mesh":
-        meshes.emit(context, found, common, points_of(context, prim, skin), skin)
-    elif kind == "curves":
-        _curves(context, found, common, skin)
-    elif kind == "points":
-        _add_builtins(context, prim, UsdGeom.Points(prim), common["primvars"])
-        context.edit.set_points(found.path, points=points_of(context, prim, skin), **common)
-    elif kind == "nurbsPatch":
-        parametric.emit_patch(context, found, common, points_of(context, prim, skin))
-    elif kind == "tetMesh":
-        parametric.emit_tets(context, found, common, points_of(context, prim, skin))
-    elif kind in ("nurbsCurves", "hermiteCurves"):
-        emit_form = parametric.emit_nurbs_curves if kind == "nurbsCurves" else parametric.emit_hermite
-        _add_builtins(context, prim, UsdGeom.Curves(prim), common["primvars"])
-        emit_form(context, found, common, points_of(context, prim, skin))
-    elif kind == "skeleton":
-        skeletons.emit(context, found, common)
-    elif kind == "splats":
-        splats.emit(context, found, common)
-    elif kind == "volume":
-        volumes.emit(context, found, common)
-    else:
+    if kind in _SIZES:
         _implicit(context, found, kind, common)
+    elif kind in _POINT_BASED:
+        if kind in _WIDE:
+            _add_builtins(context, prim, _WIDE[kind](prim), common["primvars"])
+        _POINT_BASED[kind](context, found, common, points_of(context, prim, skin))
+    else:
+        {"skeleton": skeletons, "splats": splats, "volume": volumes}[kind].emit(context, found, common)
 
 
 def _subset(context, subset, material, group):
@@ -93,10 +78,7 @@ def points_of(context, prim, skin=None):
 
 
 def _sampled(context, prim, offsets, values):
-    arrays = [array(context, prim, "points", v, 3) for v in values]
-    if len(arrays) == 1:
-        return arrays[0]
-    return (list(offsets), arrays)
+    return sampled(offsets, [array(context, prim, "points", v, 3) for v in values])
 
 
 def _add_builtins(context, prim, schema, primvars):
@@ -104,9 +86,12 @@ def _add_builtins(context, prim, schema, primvars):
     add_builtin(context, prim, "normals", schema.GetNormalsInterpolation(), primvars)
 
 
-def _curves(context, found, common, skin):
+def _points(context, found, common, points):
+    context.edit.set_points(found.path, points=points, **common)
+
+
+def _curves(context, found, common, points):
     prim = found.prim
-    _add_builtins(context, prim, UsdGeom.BasisCurves(prim), common["primvars"])
     linear = get(prim, "type", context.time, "cubic") == "linear"
     basis = "linear" if linear else get(prim, "basis", context.time, "bezier")
     wrap = get(prim, "wrap", context.time, "nonperiodic")
@@ -116,9 +101,8 @@ def _curves(context, found, common, skin):
     if wrap not in ("nonperiodic", "periodic", "pinned"):
         context.warn(prim.GetPath(), "wrap", "wrapUnknown", shown(wrap))
         wrap = "nonperiodic"
-    counts = array(context, prim, "curveVertexCounts", get(prim, "curveVertexCounts", context.time), 1, np.int32)
-    context.edit.set_curves(found.path, points=points_of(context, prim, skin), basis=basis, wrap=wrap,
-                            curve_vertex_counts=counts, **common)
+    counts = array_of(context, prim, "curveVertexCounts", 1, np.int32)
+    context.edit.set_curves(found.path, points=points, basis=basis, wrap=wrap, curve_vertex_counts=counts, **common)
 
 
 def _implicit(context, found, kind, common):
@@ -135,3 +119,9 @@ def _implicit(context, found, kind, common):
     axis = found.authored("axis", time)
     axis = _AXES.get(axis if isinstance(axis, str) else "Z", 2)
     context.edit.set_implicit(found.path, shape=kind, axis=axis, **sizes, **common)
+
+
+_POINT_BASED = {"mesh": meshes.emit, "curves": _curves, "points": _points, "nurbsPatch": parametric.emit_patch,
+                "tetMesh": parametric.emit_tets, "nurbsCurves": parametric.emit_nurbs_curves,
+                "hermiteCurves": parametric.emit_hermite}
+_WIDE = {"points": UsdGeom.Points, **dict.fromkeys(("curves", "nurbsCurves", "hermiteCurves"), UsdGeom.Curves)}  # with widths

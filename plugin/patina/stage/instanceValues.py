@@ -78,7 +78,7 @@ class InstanceValues:
         name = primvar.GetPrimvarName()
         if name == "lightGroup":
             return None
-        item = None if "primvars:" + name in marks.names() else read_primvar(self.context, primvar, primvar.GetAttr().GetPrim())
+        item = None if "primvars:" + name in marks.NAMES else read_primvar(self.context, primvar, primvar.GetAttr().GetPrim())
         if item is None:
             return np.zeros(0, np.float32)
         _, _, values, indices = item

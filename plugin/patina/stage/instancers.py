@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import Usd, UsdGeom
 
-from .context import array, get, merged
+from .context import array_of, get, merged, sampled
 from .primvars import in_rendering_space, numbers
 from .transforms import is_finite, matrix_at, sample_times
 
@@ -12,7 +12,7 @@ def emit_instancer(context, found, names, linking):
     """A point instancer. Instances that it hides or that are broken are left out."""
     prim, group = found.prim, found.state.group
     path = prim.GetPath()
-    indices = array(context, prim, "protoIndices", get(prim, "protoIndices", context.time), 1, np.int32)
+    indices = array_of(context, prim, "protoIndices", 1, np.int32)
     if not len(indices):
         return
     schema, _stage = _usable(context, UsdGeom.PointInstancer(prim), len(indices))
@@ -37,7 +37,7 @@ def emit_instancer(context, found, names, linking):
     categories = linking.categories(found)
     context.edit.set_instancer(
         found.path, group=group.name, prototypes=names, prototype_indices=indices[keep],
-        transforms=transforms[0] if len(transforms) == 1 else (offsets, transforms),
+        transforms=sampled(offsets, transforms),
         ids=ids[keep].astype(np.int64).astype(np.int32), primvars=_primvars(context, prim, keep),
         categories=[categories] * int(keep.sum()) if categories else None, asset_name=found.state.asset or None)
     context.count("pointInstancers")
@@ -128,8 +128,7 @@ def _primvars(context, prim, keep):
         if values is None:
             continue
         if len(values) != len(keep):
-            context.warn(prim.GetPath(), primvar.GetName(),
-                         "instanceValuesLeftOut", len(values), len(keep))
+            context.warn(prim.GetPath(), primvar.GetName(), "instanceValuesLeftOut", len(values), len(keep))
             continue
         values = in_rendering_space(context, prim, primvar.GetAttr(), values)
         found.append((primvar.GetPrimvarName(), "vertex", values[keep], None))
@@ -174,7 +173,6 @@ def emit_instances(context, outer, prototype, founds, linking, values):
     context.edit.set_instancer(
         founds[0].path, group=outer, prototypes=[prototype],
         prototype_indices=np.zeros(len(founds), dtype=np.int32),
-        transforms=samples[0] if len(samples) == 1 else (times, samples),
-        categories=categories if any(categories) else None, primvars=values.of(founds),
+        transforms=sampled(times, samples), categories=categories if any(categories) else None, primvars=values.of(founds),
         **_names(context, founds))
     context.count("instances", len(founds))

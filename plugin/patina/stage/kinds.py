@@ -2,6 +2,7 @@
 """Which prims are drawn, and as what."""
 import functools
 
+import _patina
 from pxr import Tf, Usd, UsdGeom, UsdLux
 
 GPRIMS = {
@@ -12,15 +13,8 @@ GPRIMS = {
     "NurbsCurves": "nurbsCurves", "HermiteCurves": "hermiteCurves", "ParticleField": "splats", "Skeleton": "skeleton",
 }
 UNSUPPORTED = {"PortalLight", "PluginLight"}
+LIGHTS = {schema: word for schemas, word in _patina.light_types().items() for schema in schemas.split()}  # for set_light()
 OTHER = {"Camera": "camera", "PointInstancer": "instancer", "SkelRoot": "skelRoot"}
-
-
-@functools.lru_cache(maxsize=None)
-def lights():
-    """:returns: UsdLux type -> word for set_light()"""
-    import _patina
-
-    return {schema: word for schemas, word in _patina.light_types().items() for schema in schemas.split()}
 
 
 @functools.lru_cache(maxsize=None)
@@ -60,7 +54,7 @@ class Kinds:
         for name in schemas_of(prim):
             if name in GPRIMS or name in OTHER:
                 return GPRIMS.get(name) or OTHER[name]
-            if name in lights():
+            if name in LIGHTS:
                 return "light"
             if name in UNSUPPORTED:
                 return "unsupported"

@@ -1,56 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
 """Light filters: prims of RenderMan's types that a light names by `light:filters`."""
-import functools
-
+import _patina
 import numpy as np
 from pxr import UsdGeom
 
 from . import assets
-from .context import number, shown, vector
+from .context import number, shown, targets, vector
 from .transforms import transform_of
 
 _PREFIXES = ("inputs:ri:lightFilter:", "inputs:", "ri:lightFilter:", "")
-
-
-@functools.lru_cache(maxsize=None)
-def _types():
-    import _patina
-
-    return {schema: word for schemas, word in _patina.light_filter_types().items() for schema in schemas.split()}
-
-
-@functools.lru_cache(maxsize=None)
-def _inputs():
-    import _patina
-
-    return [(names.split(), key, type_) for names, key, type_ in _patina.light_filter_inputs()]
-
-
-@functools.lru_cache(maxsize=None)
-def _ignored():
-    """:returns: dict: name of an input that is not evaluated -> values at which that changes nothing"""
-    import _patina
-
-    return {name: idle.split() for names, idle in _patina.ignored_light_filter_inputs().items() for name in names.split()}
+_TYPES = {schema: word for schemas, word in _patina.light_filter_types().items() for schema in schemas.split()}
+_INPUTS = [(names.split(), key, type_) for names, key, type_ in _patina.light_filter_inputs()]
+# Name of an input that is not evaluated -> values at which that changes nothing.
+_IGNORED = {name: idle.split() for names, idle in _patina.ignored_light_filter_inputs().items() for name in names.split()}
 
 
 def of(context, light, group):
     """:returns: what set_light() takes as `filters`; one that cannot be used is left out with a warning"""
-    if not light.HasRelationship("light:filters"):
-        return []
     filters = []
-    for path in light.GetRelationship("light:filters").GetForwardedTargets():
+    for path in targets(light, "light:filters"):
         prim = context.stage.GetPrimAtPath(path)
         if not prim:
             context.warn(light.GetPath(), "light:filters", "filterMissing", path)
             continue
         name = _type_name(prim)
-        if name not in _types():
-            known = ", ".join(sorted(_types()))
-            context.warn(light.GetPath(), "light:filters",
-                         "filterTypeUnknown", path, name, known)
+        if name not in _TYPES:
+            context.warn(light.GetPath(), "light:filters", "filterTypeUnknown", path, name, ", ".join(sorted(_TYPES)))
             continue
-        filters.append({"path": str(path), "type": _types()[name], "transform": _transform(context, prim, group),
+        filters.append({"path": str(path), "type": _TYPES[name], "transform": _transform(context, prim, group),
                         **_read(context, prim, name)})
     return filters
 
@@ -80,7 +57,7 @@ def _attribute(prim, names):
 
 def _read(context, prim, name):
     fields = {}
-    for names, key, type_ in _inputs():
+    for names, key, type_ in _INPUTS:
         attribute = _attribute(prim, names)
         value = attribute.Get(context.time) if attribute else None
         if value is None:
@@ -88,7 +65,7 @@ def _read(context, prim, name):
         read = _value(context, prim, attribute, type_, value)
         if read is not None:
             fields[key] = read
-    if _types()[name] == "rod":
+    if _TYPES[name] == "rod":
         fields.setdefault("intensity", 0.0)  # rods are there to block
     _tell_of_others(context, prim)
     return fields
@@ -96,14 +73,14 @@ def _read(context, prim, name):
 
 def _tell_of_others(context, prim):
     """Warns of inputs that are not evaluated."""
-    known = {name for names, _, _ in _inputs() for name in names}
+    known = {name for names, _, _ in _INPUTS for name in names}
     for attribute in prim.GetAuthoredAttributes():
         prefix = next((p for p in _PREFIXES[:-1] if attribute.GetName().startswith(p)), None)
         name = attribute.GetName()[len(prefix or ""):]
         if prefix is None or name in known or not attribute.HasAuthoredValue():
             continue
         value = attribute.Get(context.time)
-        if not _is_idle(value, _ignored().get(name, ())):
+        if not _is_idle(value, _IGNORED.get(name, ())):
             context.warn(prim.GetPath(), attribute.GetName(), "inputIgnored", shown(value))
 
 

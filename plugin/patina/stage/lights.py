@@ -1,24 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """UsdLux lights."""
-import functools
-
+import _patina
 import numpy as np
 from pxr import Gf, UsdGeom, UsdLux, UsdShade
 
 from . import assets, kinds, lightFilters, portals
-from .context import number, shown, vector
+from .context import get, number, shown, targets, vector
 from .networks import network_of_light
 from .primvars import text
 from .transforms import transform_of
 
-
 _TINTS = "materialGlowTintsLight"
+_INPUTS = _patina.light_inputs()  # (group, input, key of the scene, type) each, of hdDelegate/scene/lightTypes.inc
 
 
 def emit(context, found, linking):
     prim, group = found.prim, found.state.group
     is_mesh = prim.IsA(UsdGeom.Mesh)
-    type_ = "mesh" if is_mesh else kinds.lights().get(kinds.schema_among(prim, kinds.lights()))
+    type_ = "mesh" if is_mesh else kinds.LIGHTS.get(kinds.schema_among(prim, kinds.LIGHTS))
     fields = {"type": type_, "group": group.name}
     if context.options.render_pass and found.state.marks.get("patina:visibility:camera") == 0.0 and not is_mesh:
         fields["camera_visible"] = False
@@ -28,10 +27,7 @@ def emit(context, found, linking):
     fields["filters"] = lightFilters.of(context, prim, group)
     _report_network(context, prim, is_mesh)
     if any(a.HasAuthoredConnections() for a in prim.GetAuthoredAttributes() if a.GetName().startswith("inputs:")):
-        import _patina
-
-        fields["network"] = network_of_light(context, prim, found.path, _patina)
-
+        fields["network"] = network_of_light(context, prim, found.path)
     after = None
     if type_ == "dome":
         fields["portals"] = portals.of(context, prim, group)
@@ -40,7 +36,7 @@ def emit(context, found, linking):
         fields["geometry"] = found.path if is_mesh else _geometry_of(context, prim, group)
         if not fields["geometry"]:
             return
-        mode = _plain(context, prim, "light:materialSyncMode") or _TINTS
+        mode = get(prim, "light:materialSyncMode", context.time) or _TINTS
         fields["material_sync_mode"] = str(shown(mode))
         if is_mesh and _input(context, prim, "intensity", authored=True) is None:
             fields["intensity"] = 1.0
@@ -52,24 +48,14 @@ def emit(context, found, linking):
 
 def glow_of(context, prim):
     """:returns: what lights others of the glow of a volume that is a light, over what its material gives off"""
-    import _patina
-
     fields = {}
     _read_inputs(context, prim, "volume", fields)
-    mode = _plain(context, prim, "light:materialSyncMode")
+    mode = get(prim, "light:materialSyncMode", context.time)
     radiance = _patina.light_radiance(**fields)
     if mode not in (None, _TINTS) or min(radiance) < 0.0 or not np.isfinite(radiance).all():
         context.warn(prim.GetPath(), "light:materialSyncMode", "volumeLightIgnored")
         return None
     return radiance
-
-
-@functools.lru_cache(maxsize=None)
-def _inputs():
-    """:returns: list of (group, input, key of the scene, type) of hdDelegate/scene/lightTypes.inc"""
-    import _patina
-
-    return _patina.light_inputs()
 
 
 def _report_network(context, prim, is_mesh):
@@ -130,8 +116,6 @@ def _color(context, prim, name):
     rendering = context.options.rendering_color_space
     if not color or not space and not rendering:
         return color
-    import _patina
-
     converted = _patina.color_to_rendering(list(color), space, rendering)
     if converted is None:
         context.warn(prim.GetPath(), "inputs:" + name, "valueSpaceUnknown", space)
@@ -149,21 +133,16 @@ def _source_of(attribute):
     return sources[0] if is_input else attribute
 
 
-def _plain(context, prim, name):
-    attribute = prim.GetAttribute(name)
-    return attribute.Get(context.time) if attribute else None
-
-
 def _is_shaped(prim):
     """:returns: whether the ShapingAPI is applied, or authored on stages older than that rule"""
-    names = [name for group, name, _, _ in _inputs() if group == "Shaping"]
+    names = [name for group, name, _, _ in _INPUTS if group == "Shaping"]
     return prim.HasAPI(UsdLux.ShapingAPI) or any(prim.HasAttribute("inputs:" + n) or prim.HasAttribute(n) for n in names)
 
 
 def _read_inputs(context, prim, light_type, fields):
     """Values that are none leave the scene's own fallback, which is the schema's."""
     shaped = fields["shaping_cone_authored"] = _is_shaped(prim)
-    for group, name, key, type_ in _inputs():
+    for group, name, key, type_ in _INPUTS:
         if group == "Shaping" and not shaped or group == "Image" and light_type not in ("dome", "rect"):
             continue
         if type_ == "std::string":
@@ -194,7 +173,7 @@ def _dome_pole(context, prim):
     up axis; a DomeLight stands on +Y until its own transform says otherwise"""
     if "DomeLight_1" not in kinds.schemas_of(prim):
         return None
-    pole = _plain(context, prim, "poleAxis") or "scene"
+    pole = get(prim, "poleAxis", context.time) or "scene"
     if pole == "scene":
         pole = UsdGeom.GetStageUpAxis(context.stage)
     if pole != "Z":
@@ -204,8 +183,7 @@ def _dome_pole(context, prim):
 
 
 def _geometry_of(context, prim, group):
-    targets = prim.GetRelationship("geometry").GetForwardedTargets() if prim.HasRelationship("geometry") else []
-    target = context.stage.GetPrimAtPath(targets[0]) if targets else None
+    target = next(map(context.stage.GetPrimAtPath, targets(prim, "geometry")), None)
     if not target or not target.IsA(UsdGeom.Mesh):
         context.warn(prim.GetPath(), "geometry", "lightNamesNoMesh")
         return ""

@@ -1,25 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Marks of prims: the primvars of hdDelegate/scene/primMarks.def, and the assets that prims belong to."""
-import functools
-
+import _patina
 from pxr import Kind, Usd
 
 _PREFIX = "primvars:"
-
-
-@functools.lru_cache(maxsize=None)
-def names():
-    """:returns: names of attributes"""
-    import _patina
-
-    return frozenset(_PREFIX + name for name in _patina.mark_names())
+NAMES = frozenset(_PREFIX + name for name in _patina.mark_names())  # of attributes
 
 
 def authored(context, prim, properties, inherited):
     """:param properties: names of the prim's authored ones
     :param inherited: what this gave for its parent
     :returns: dict of marks and their values, by name without "primvars:" """
-    own = names().intersection(properties)
+    own = NAMES.intersection(properties)
     if not own:
         return inherited
     found = dict(inherited)
@@ -37,7 +29,6 @@ def single(value):
     if isinstance(value, str):
         return value
     return float(value) if isinstance(value, (bool, int, float)) else None
-
 
 
 def asset(prim, path, inherited):

@@ -3,6 +3,7 @@
 import numpy as np
 from pxr import UsdGeom
 
+from . import skinning
 from .context import array, shown
 from .primvars import add_builtin
 
@@ -22,8 +23,8 @@ _TOKENS = {
 }
 
 
-def emit(context, found, common, points, skin):
-    prim, time = found.prim, context.time
+def emit(context, found, common, points):
+    prim, time, skin = found.prim, context.time, skinning.skin_of(found)
     fields = {}
     for name, key in _INTS.items():
         fields[key] = array(context, prim, name, found.authored(name, time), 1, np.int32)

@@ -7,6 +7,7 @@ from `_patina.read_mtlx`.
 """
 import os
 
+import _patina
 from pxr import Sdf, Usd
 
 from patina import inputs
@@ -23,7 +24,7 @@ def network_of(material):
     return _networks.get(mark) if isinstance(mark, str) else None  # a file may hold any value there
 
 
-def supply(context, stage, errors, module):
+def supply(context, stage, errors):
     """Adds what pxr could not reference.
 
     :param errors: of compat.composition_errors()
@@ -36,21 +37,18 @@ def supply(context, stage, errors, module):
             left.append((path, text))
     if not wanted:
         return left
-    if not hasattr(module, "read_mtlx"):
-        return errors
     with Usd.EditContext(stage, stage.GetSessionLayer()):
         for path in sorted(wanted):
             prim = stage.GetPrimAtPath(path)
             if prim:
                 with Guard(context, prim):
-                    _supply_prim(context, prim, module)
+                    _supply_prim(context, prim)
     return left
 
 
-def _supply_prim(context, prim, module):
+def _supply_prim(context, prim):
     done = set()
-    for spec, offset in prim.GetPrimStackWithLayerOffsets():
-        del offset
+    for spec, _ in prim.GetPrimStackWithLayerOffsets():
         for items in (spec.referenceList, spec.payloadList):
             for item in items.GetAddedOrExplicitItems():
                 if not item.assetPath.endswith(".mtlx"):
@@ -59,7 +57,7 @@ def _supply_prim(context, prim, module):
                 if (file, item.primPath) in done:
                     continue
                 done.add((file, item.primPath))
-                layer = _layer_of(context, prim, file, module)
+                layer = _layer_of(context, prim, file)
                 if layer:
                     target = item.primPath or Sdf.Path("/MaterialX")
                     if layer.GetPrimAtPath(target):
@@ -73,7 +71,7 @@ _KEEP = []  # anonymous layers live as long as someone holds them
 _layers = {}
 
 
-def _layer_of(context, prim, file, module):
+def _layer_of(context, prim, file):
     if not os.path.exists(file):
         context.warn(prim.GetPath(), "references", "fileMissing", file)
         return None
@@ -83,7 +81,7 @@ def _layer_of(context, prim, file, module):
     if stamp in _layers:
         return _layers[stamp]
     warnings = []
-    networks = module.read_mtlx(file, warnings, context.meters_per_unit)
+    networks = _patina.read_mtlx(file, warnings, context.meters_per_unit)
     context.repeat(warnings)
     layer = Sdf.Layer.CreateAnonymous(os.path.basename(file) + ".usda")
     for network in networks:

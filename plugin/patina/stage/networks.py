@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """UsdShade networks -> `_patina.Network`."""
+import _patina
 import numpy as np
 from pxr import Sdf, Tf, UsdShade
 
@@ -14,13 +15,12 @@ _CLOCKS = ("ND_frame_float", "ND_time_float")
 _TEXT = ("string", "token", "asset")
 
 
-def network_of(context, material, path, module):
+def network_of(context, material, path):
     """:param path: of the material in the scene
-    :param module: `_patina`
     :returns: its Network; without terminals when it has none that can be used"""
     document = mtlxFiles.network_of(material)
     if document is None:
-        network = _Translation(context, material.GetPrim(), path, module).of_material(material)
+        network = _Translation(context, material.GetPrim(), path).of_material(material)
     else:
         network = document
         inputs.note_network(document)
@@ -28,10 +28,10 @@ def network_of(context, material, path, module):
     return network
 
 
-def network_of_light(context, light, path, module):
+def network_of_light(context, light, path):
     """:param light: prim
     :returns: the Network of nodes that its inputs are connected to, each a terminal of the input's name"""
-    network = _Translation(context, light, path, module).of_inputs()
+    network = _Translation(context, light, path).of_inputs()
     _set_frame(network, context)
     return network
 
@@ -46,16 +46,13 @@ def _set_frame(network, context):
 
 
 class _Translation:
-    def __init__(self, context, prim, path, module):
+    def __init__(self, context, prim, path):
         """:param prim: Material or light"""
-        self.context, self.prim, self.time = context, prim, context.time
+        self.context, self.prim = context, prim
         self.source, self.shown = str(prim.GetPath()), path
-        self.network = module.Network(path)
-        self._factor_of = module.unit_factor
+        self.network = _patina.Network(path)
         self._names = {}  # path on the stage -> path in the network
         self._todo = []
-        self._spaces = context.color_spaces
-        self._definition_of = module.node_definition
 
     def of_inputs(self):
         for input_ in UsdShade.ConnectableAPI(self.prim).GetInputs(onlyAuthored=True):
@@ -80,7 +77,7 @@ class _Translation:
         for name in ("mtlx:light", "light"):
             output = material.GetOutput(name)
             sources = UsdShade.Utils.GetValueProducingAttributes(output, True) if output else []
-            if sources and not "surface" in self.network.terminals():
+            if sources and "surface" not in self.network.terminals():
                 self._terminal("surface", UsdShade.Shader(sources[0].GetPrim()), "out")
             elif sources:
                 self._warn(self.prim, output.GetFullName(), "materialLightIgnored")
@@ -101,7 +98,7 @@ class _Translation:
     def _known_output(self, shader, terminal, output):
         """:returns: the output of a terminal's node; of one with another name the node's output for the terminal, or its first:
             Hydra does not tell renderers which output it is"""
-        definition = self._definition_of(shader.GetShaderId() or "")
+        definition = _patina.node_definition(shader.GetShaderId() or "")
         names = [name for name, _ in definition["outputs"]] if definition else []
         return output if output in names or not names else terminal if terminal in names else names[0]
 
@@ -186,8 +183,8 @@ class _Translation:
 
     def _value(self, node, name, attribute, prim):
         type_ = attribute.GetTypeName()
-        space = self._spaces.space_of(attribute, _reads_colors(prim))
-        value = attribute.Get(self.time)
+        space = self.context.color_spaces.space_of(attribute, _reads_colors(prim))
+        value = attribute.Get(self.context.time)
         if value is None:
             return
         if type_.isArray or isinstance(value, Sdf.UnregisteredValue):  # of a type that USD does not know
@@ -208,7 +205,7 @@ class _Translation:
         unit = _unit_of(attribute) if identifier.startswith("ND_") and not isinstance(value, (bool, int)) else ""
         if not unit:
             return value
-        factor = self._factor_of(unit, identifier, name, self.context.meters_per_unit)
+        factor = _patina.unit_factor(unit, identifier, name, self.context.meters_per_unit)
         if factor is None:
             self._warn(prim, name, "unitUnknown", unit)
         return value if factor is None else value * factor

@@ -2,10 +2,10 @@
 """Opens a stage, or says in one line why not."""
 import os
 
-from pxr import Sdf, Tf, Usd
+from pxr import Sdf, Usd
 
 from . import compat
-from .errors import StageError, one_line
+from .errors import StageError
 
 
 def open_stage(path):
@@ -15,13 +15,12 @@ def open_stage(path):
         raise StageError(f"there is no file {path}")
     if os.path.isdir(path):
         raise StageError(f"{path} is a folder")
-    with compat.QuietDiagnostics() as quiet:
-        try:
-            layer = Sdf.Layer.FindOrOpen(path)
-            stage = Usd.Stage.Open(layer) if layer else None
-            problem = "it is no USD file"
-        except Tf.ErrorException as error:
-            stage, problem = None, one_line(error)
+    stage, problem = compat.attempt(_open, path)
     if not stage:
-        raise StageError(f"{path} cannot be opened: {quiet.texts[0] if quiet.texts else problem}")
+        raise StageError(f"{path} cannot be opened: {problem or 'it is no USD file'}")
     return stage
+
+
+def _open(path):
+    layer = Sdf.Layer.FindOrOpen(path)
+    return Usd.Stage.Open(layer) if layer else None

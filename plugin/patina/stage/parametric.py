@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from .context import array, get
+from .context import array, array_of, finite, get, sampled
 from .primvars import add_builtin, text
 
 _DIRECTION = {"VertexCount": "vertex_count", "Order": "order"}
@@ -22,8 +22,8 @@ def emit_patch(context, found, common, points):
         fields[f"{side}_range"] = _range(context, prim, f"{side}Range")
     if get(prim, "trimCurve:counts", time):
         for name, (components, kind) in _TRIM.items():
-            values = array(context, prim, f"trimCurve:{name}", get(prim, f"trimCurve:{name}", time), components, kind)
-            fields["trim_" + name.replace("Counts", "_counts")] = values.ravel()
+            fields["trim_" + name.replace("Counts", "_counts")] = array_of(
+                context, prim, f"trimCurve:{name}", components, kind).ravel()
         sense = text(context, prim, found.state.primvars, "ri:attributes:trimcurve:sense")
         fields["trim_keep_inside"] = sense == "outside"
     context.edit.set_nurbs_patch(found.path, points=points, weights=_doubles(context, prim, "pointWeights"),
@@ -32,10 +32,10 @@ def emit_patch(context, found, common, points):
 
 def emit_tets(context, found, common, points):
     """UsdGeomTetMesh: its surface."""
-    prim, time = found.prim, context.time
+    prim = found.prim
     add_builtin(context, prim, "normals", UsdGeom.PointBased(prim).GetNormalsInterpolation(), common["primvars"])
-    tets = array(context, prim, "tetVertexIndices", get(prim, "tetVertexIndices", time), 4, np.int32)
-    surface = array(context, prim, "surfaceFaceVertexIndices", get(prim, "surfaceFaceVertexIndices", time), 3, np.int32)
+    tets = array_of(context, prim, "tetVertexIndices", 4, np.int32)
+    surface = array_of(context, prim, "surfaceFaceVertexIndices", 3, np.int32)
     if not len(tets) and not len(surface):
         context.warn(prim.GetPath(), "tetVertexIndices", "noTetrahedra")
         return
@@ -50,26 +50,25 @@ def emit_hermite(context, found, common, points):
     samples = [array(context, prim, "tangents", tangents.Get(context.time_at(t)) if tangents else None, 3)
                for t in times]
     context.edit.set_hermite_curves(
-        found.path, points=points, tangents=samples[0] if len(samples) == 1 else (list(times), samples),
-        curve_vertex_counts=_counts(context, prim), **common)
+        found.path, points=points, tangents=sampled(times, samples), curve_vertex_counts=_counts(context, prim), **common)
 
 
 def emit_nurbs_curves(context, found, common, points):
     """UsdGeomNurbsCurves."""
-    prim, time = found.prim, context.time
-    counts, orders = _counts(context, prim), array(context, prim, "order", get(prim, "order", time), 1, np.int32)
-    ranges = array(context, prim, "ranges", get(prim, "ranges", time), 2, np.float64)
+    prim = found.prim
     context.edit.set_nurbs_curves(
-        found.path, points=points, curve_vertex_counts=counts, orders=orders, knots=_doubles(context, prim, "knots"),
-        ranges=ranges.ravel(), weights=_doubles(context, prim, "pointWeights"), **common)
+        found.path, points=points, curve_vertex_counts=_counts(context, prim),
+        orders=array_of(context, prim, "order", 1, np.int32), knots=_doubles(context, prim, "knots"),
+        ranges=array_of(context, prim, "ranges", 2, np.float64).ravel(), weights=_doubles(context, prim, "pointWeights"),
+        **common)
 
 
 def _counts(context, prim):
-    return array(context, prim, "curveVertexCounts", get(prim, "curveVertexCounts", context.time), 1, np.int32)
+    return array_of(context, prim, "curveVertexCounts", 1, np.int32)
 
 
 def _doubles(context, prim, name):
-    return array(context, prim, name, get(prim, name, context.time), 1, np.float64)
+    return array_of(context, prim, name, 1, np.float64)
 
 
 def _integer(context, prim, name):
@@ -80,13 +79,9 @@ def _integer(context, prim, name):
 def _range(context, prim, name):
     """:returns: the ends of what is drawn; None, after a warning where something is authored, for all that knots span"""
     value = get(prim, name, context.time)
-    if value is None:
-        return None
-    try:
-        found = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        found = np.zeros(0)
-    if found.shape == (2,) and np.isfinite(found).all() and found[0] < found[1]:
-        return found
-    context.warn(prim.GetPath(), name, "knotRangeUnusable")
+    found = finite(value, 2)
+    if found and found[0] < found[1]:
+        return np.array(found)
+    if value is not None:
+        context.warn(prim.GetPath(), name, "knotRangeUnusable")
     return None

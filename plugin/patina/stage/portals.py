@@ -3,14 +3,14 @@
 from pxr import Usd
 
 from . import kinds
-from .context import number
+from .context import number, targets
 from .transforms import transform_of
 
 
 def of(context, dome, group):
     """:returns: what set_light() takes as `portals`"""
     portals = []
-    for path in _targets(dome):
+    for path in targets(dome, "portals"):
         prim = context.stage.GetPrimAtPath(path)
         if not prim or "PortalLight" not in kinds.schemas_of(prim):
             context.warn(dome.GetPath(), "portals", "noPortalLight", path)
@@ -27,10 +27,6 @@ def is_used(context, prim):
     if "PortalLight" not in kinds.schemas_of(prim):
         return False
     if context.portals is None:
-        domes = (p for p in Usd.PrimRange(context.stage.GetPseudoRoot()) if p.HasRelationship("portals"))
-        context.portals = {path for dome in domes for path in _targets(dome)}
+        every = Usd.PrimRange(context.stage.GetPseudoRoot())
+        context.portals = {path for prim in every for path in targets(prim, "portals")}
     return prim.GetPath() in context.portals
-
-
-def _targets(dome):
-    return dome.GetRelationship("portals").GetForwardedTargets() if dome.HasRelationship("portals") else []

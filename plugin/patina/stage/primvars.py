@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Primvars as arrays."""
+import _patina
 import numpy as np
 from pxr import UsdGeom
 
 from .context import get
 
-# Not for shading: they drive skinning.
-_IGNORED = ("skel:",)
+_IGNORED = "skel:"  # not for shading: they drive skinning
 # What a mesh has as many of as values.
 _COUNTED = {"uniform": "faceVertexCounts", "varying": "points", "vertex": "points", "faceVarying": "faceVertexIndices"}
 INTERPOLATIONS = ("constant", "uniform", "varying", "vertex", "faceVarying")
@@ -38,8 +38,7 @@ def read_primvar(context, primvar, prim):
     size = primvar.GetElementSize()
     if size > 1 and not _fits_only_singly(context, prim, values, size, indices, interpolation):
         if len(values) % size:
-            context.warn(prim.GetPath(), "primvars:" + name,
-                         "elementSizeUnfit", len(values), size)
+            context.warn(prim.GetPath(), "primvars:" + name, "elementSizeUnfit", len(values), size)
             return None
         values = values.reshape(len(values) // size, -1)
     if values[0:1].size > 16:
@@ -84,8 +83,6 @@ def in_rendering_space(context, prim, attribute, values):
     space, rendering = context.color_spaces.space_of(attribute), context.options.rendering_color_space
     if not space and not (rendering and attribute.GetRoleName() == "Color"):
         return values
-    import _patina
-
     converted = _patina.colors_to_rendering(values, space, rendering)
     if converted is None:
         context.warn(prim.GetPath(), attribute.GetName(), "valuesSpaceUnknown", space)

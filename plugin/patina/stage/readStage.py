@@ -31,12 +31,10 @@ def read_stage(stage, edit, options=None):
 
 
 def _read(context):
-    import _patina
-
     stage, edit = context.stage, context.edit
     errors = compat.composition_errors(stage)
     context.reported = {text for _, text in errors}
-    for path, text in mtlxFiles.supply(context, stage, errors, _patina):
+    for path, text in mtlxFiles.supply(context, stage, errors):
         context.warn(path, "", "compositionError", text)
     edit.set_meters_per_unit(UsdGeom.GetStageMetersPerUnit(stage))
     edit.set_rendering_color_space(context.options.rendering_color_space)
@@ -47,16 +45,16 @@ def _read(context):
     context.shutter = cameras.shutter_of(context, chosen)
     linking = Linking(context)
     has_lights = _emit_lights(context, walked, linking)
-    _emit_geometry(context, walked, bindings, linking, _patina)
+    _emit_geometry(context, walked, bindings, linking)
     camera = None
     for found in walked.cameras:
         with Guard(context, found.prim, needed=found is chosen):
             placed = cameras.emit(context, found)
             camera = placed if found is chosen else camera
-    backPlates.emit(context, walked.cameras, chosen, _patina)
+    backPlates.emit(context, walked.cameras, chosen)
     for path, material in bindings.materials.items():
         with Guard(context, material.GetPrim()):
-            edit.set_material(path, networks.network_of(context, material, path, _patina))
+            edit.set_material(path, networks.network_of(context, material, path))
             context.count("materials")
     info = _info(context, walked)
     if not camera:
@@ -77,7 +75,7 @@ def _emit_lights(context, walked, linking):
     return bool(founds) or walked.dark > 0
 
 
-def _emit_geometry(context, walked, bindings, linking, module):
+def _emit_geometry(context, walked, bindings, linking):
     kinds = Kinds()
     valued = {name for _, _, signature in walked.instances for name, _ in signature}  # stand above a material's
     for found, bound in zip(walked.gprims, bindings.resolve(walked.gprims)):
@@ -92,7 +90,7 @@ def _emit_geometry(context, walked, bindings, linking, module):
             instancers.emit_instances(context, outer, prototype, founds, linking, walked.values)
     for found in walked.boxes:
         with Guard(context, found.prim):
-            drawModes.emit(context, found, module)
+            drawModes.emit(context, found)
 
 
 def _info(context, walked):

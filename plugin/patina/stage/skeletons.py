@@ -3,6 +3,8 @@
 import numpy as np
 from pxr import UsdGeom, UsdSkel
 
+from .context import sampled
+
 _FACES = np.array([0, 2, 1, 0, 3, 2, 0, 4, 3, 0, 1, 4], np.int32)  # of a pyramid with its tip first
 _THICKNESS = 0.1  # of a bone's length: half its base
 _ACROSS = ((1, 2), (0, 2), (0, 1))  # axes of the parent that span the base, by the one along the bone
@@ -42,7 +44,7 @@ def emit(context, found, common):
         context.skinned.append((found.prim, samples[0]))
     common["double_sided"] = True
     context.edit.set_mesh(
-        found.path, points=samples[0] if len(samples) == 1 else (times, samples), scheme="none",
+        found.path, points=sampled(times, samples), scheme="none",
         face_vertex_counts=np.full(4 * len(bones), 3, np.int32),
         face_vertex_indices=(_FACES + 5 * np.arange(len(bones), dtype=np.int32)[:, None]).ravel(), **common)
 

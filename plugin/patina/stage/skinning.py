@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
 
-from .context import array, get, merged
+from .context import array, array_of, get, merged
 from .transforms import as_transform, matrix_at, sample_times
 
 
@@ -118,7 +118,7 @@ class Skin:
         if get(prim, "normals", time) is None and get(prim, "primvars:normals", time) is None:
             return None
         points = array(context, prim, "points", self.points(context, 0.0), 3)
-        counts, indices = (array(context, prim, name, get(prim, name, time), 1, np.int32).astype(np.int64)
+        counts, indices = (array_of(context, prim, name, 1, np.int32).astype(np.int64)
                            for name in ("faceVertexCounts", "faceVertexIndices"))
         # Each count is checked before their sum: a sum that wraps would fit, and numpy would write beyond its arrays.
         if not len(counts) or counts.min() < 3 or counts.max() > len(indices) or counts.sum() != len(indices):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """UsdVolVolume: fields of OpenVDB files."""
-from pxr import UsdGeom, UsdVol
+from pxr import UsdVol
 
 from . import kinds, lights
 from .assets import resolve
@@ -20,14 +20,10 @@ def emit(context, found, common):
         if "OpenVDBAsset" not in kinds.schemas_of(prim):
             context.warn(path, "", "fieldTypeNotRead", prim.GetTypeName() or "none")
             continue
-        if _moved(context, prim, found.prim):
+        world = context.xform_cache().GetLocalToWorldTransform
+        if world(prim) != world(found.prim):
             context.warn(path, "xformOpOrder", "fieldTransformIgnored")
         names.append(name)
         files.append(resolve(context, prim.GetAttribute("filePath")))
         grids.append(get(prim, "fieldName", context.time) or name)
     context.edit.set_volume(found.path, field_names=names, field_files=files, field_grids=grids, **common)
-
-
-def _moved(context, field, volume):
-    cache = UsdGeom.XformCache(context.time)
-    return not cache.GetLocalToWorldTransform(field) == cache.GetLocalToWorldTransform(volume)

@@ -11,7 +11,7 @@ from pxr import Usd, UsdGeom
 from patina import limits
 
 from . import coordSystems, drawModes, marks, portals, skeletons
-from .context import Guard, get
+from .context import Guard, get, targets
 from .instanceValues import InstanceValues
 from .kinds import GPRIM_KINDS, Kinds
 from .levels import Levels, is_root
@@ -24,10 +24,6 @@ _PURPOSES = ("default", "render", "proxy", "guide")
 MAX_NESTED = 8  # point instancers in each other, as many as renderers follow
 _COUNTED = {"prims": "prims of a kind", "instances": "instances"}  # by limits
 _PROXIES = Usd.TraverseInstanceProxies()  # what is skinned differs from instance to instance
-
-
-def _prototypes_of(instancer):
-    return instancer.GetRelationship("prototypes").GetForwardedTargets()
 
 
 class Walk:
@@ -134,8 +130,7 @@ class Walk:
         if "purpose" in names:
             purpose = get(prim, "purpose", self.context.time) or state.purpose
             if purpose not in _PURPOSES and purpose not in self.context.purposes:
-                self.context.warn(prim.GetPath(), "purpose",
-                                  "purposeUnknown", purpose)
+                self.context.warn(prim.GetPath(), "purpose", "purposeUnknown", purpose)
             state = state.with_(purpose=purpose)
         if any(name.startswith("primvars:") for name in names):
             api = UsdGeom.PrimvarsAPI(prim)
@@ -221,7 +216,7 @@ class Walk:
 
     def _instancer(self, found):
         names = []
-        for index, target in enumerate(_prototypes_of(found.prim)):
+        for index, target in enumerate(targets(found.prim, "prototypes")):
             names.append(self._prototype(found.prim, target, found.state.group, f"{found.path}[{index}]"))
         self.walked.instancers.append((found, names))
 
@@ -284,7 +279,7 @@ class Walk:
                     if prim.IsInstance():
                         todo.append(prim.GetPrototype())
                     elif self._kinds.of(prim)[0] == "instancer":
-                        roots.update((target, self.context.stage.GetPrimAtPath(target)) for target in _prototypes_of(prim))
+                        roots.update((at, self.context.stage.GetPrimAtPath(at)) for at in targets(prim, "prototypes"))
             self._outsides[path] = [root for root in roots.values() if root and not root.IsInPrototype()]
         return self._outsides[path]
 

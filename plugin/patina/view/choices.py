@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Inputs that no slider can move: each value that they may have is a program of its own, made
 beforehand while there are few; what is left is shown as fixed, with the reason."""
+import collections
 import itertools
 import os
 
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.view import live
 
 MAX_PROGRAMS = 24  # of a material
@@ -23,21 +24,9 @@ _REASONS = {"filename": "the page holds the image of this file alone",
             "matrix33": "matrices have no sliders", "matrix44": "matrices have no sliders"}
 
 
-class Choice:
-    """An input with a list of values. `at` is the place of the authored one."""
-
-    def __init__(self, node, node_id, name, kind, options, at, authored):
-        self.node, self.node_id, self.name, self.kind = node, node_id, name, kind
-        self.options, self.at, self.authored = options, at, authored
-
-    @property
-    def key(self):
-        return f"{self.node}.{self.name}"
-
-
-class Fixed:
-    def __init__(self, node, name, kind, text, reason):
-        self.node, self.name, self.kind, self.text, self.reason = node, name, kind, text, reason
+# An input with a list of values; `at` is the place of the authored one. An input that stays, and why.
+Choice = collections.namedtuple("Choice", "node node_id name kind options at authored")
+Fixed = collections.namedtuple("Fixed", "node name text reason")
 
 
 def _options(name, kind, words):
@@ -60,12 +49,11 @@ def _plain(kind, value):
 
 def find(network, live_inputs):
     """:returns: the Choices and the Fixed inputs of the nodes below the surface, without the live ones"""
-    module = compiled.load()
     moved = {(i.node, i.name) for i in live_inputs}
     choices, fixed = [], []
     for node in live.reachable(network):
-        defaults, words = module.node_defaults(node["id"]), module.node_words(node["id"])
-        for name, kind in module.node_inputs(node["id"]).items():
+        defaults, words = _patina.node_defaults(node["id"]), _patina.node_words(node["id"])
+        for name, kind in _patina.node_inputs(node["id"]).items():
             if kind not in ("boolean", *_REASONS) or name in node["connections"] or (node["path"], name) in moved:
                 continue
             authored = node["inputs"].get(name)
@@ -80,7 +68,7 @@ def find(network, live_inputs):
                 choices.append(Choice(node["path"], node["id"], name, kind, options, at, authored is not None))
             elif authored is not None:
                 text = os.path.basename(value) if kind == "filename" else str(value)
-                fixed.append(Fixed(node["path"], name, kind, text, _REASONS[kind]))
+                fixed.append(Fixed(node["path"], name, text, _REASONS[kind]))
     return choices, fixed
 
 

@@ -2,25 +2,18 @@
 """The path-traced pictures of --compare: each material on the first shape, or on every one, from the first camera."""
 import numpy as np
 
-from patina.cli import compiled
+from patina.cli import openStage
+from patina.cli.compiled import _patina
 from patina.view import images, reference, stageScene
 
 
 def lit_scene(file, set_texts=()):
     """:returns: a scene with the direct lights of a stage that the page has, and nothing else; an empty one without a stage"""
-    module = compiled.load()
-    scene = module.Scene()
     if not file:
-        return scene
-    from patina import stage as reader
-    from patina.cli import openStage, overrides
-
-    stage = openStage.open_stage(file)
-    overrides.apply(stage, set_texts)
-    with scene.edit() as edit:
-        reader.read_stage(stage, edit, reader.StageOptions(headlight=False))
-    kept = {path for path, _ in module.web_lights(scene)["lights"][:stageScene.MAX_LIGHTS]}
-    kept |= set(module.web_light_meshes(scene))
+        return _patina.Scene()
+    _, scene, _ = openStage.scene_of(file, set_texts, headlight=False)
+    kept = {path for path, _ in _patina.web_lights(scene)["lights"][:stageScene.MAX_LIGHTS]}
+    kept |= set(_patina.web_light_meshes(scene))
     with scene.edit() as edit:
         for kind in ("geometry", "instancers", "lights", "cameras", "materials"):
             for path in scene.paths(kind):

@@ -33,6 +33,12 @@ _COUNTS = {"color": 3, "switch": 1}  # of the numbers that such a control moves
 MAX_PRESETS = 1000  # each is a button
 
 
+def _check(right, path, words):
+    """:raises CommandError: where a file is not as it should be"""
+    if not right:
+        raise CommandError(f"--controls: {path}{words}")
+
+
 def _range(name, values):
     low, high, unit = 0.0, 1.0, ""
     for names, (minimum, maximum), its_unit in _RANGES:
@@ -51,6 +57,11 @@ def _folder(node):
     return node.rstrip("/").rpartition("/")[2].rpartition(":")[2]
 
 
+def key(item):
+    """:returns: what a page calls a live.LiveInput, a choices.Choice or a choices.Fixed"""
+    return f"{item.node}.{item.name}"
+
+
 def _entry(live):
     """:param live: a live.LiveInput"""
     values = [v if math.isfinite(v) else 0.0 for v in live.value]
@@ -58,7 +69,7 @@ def _entry(live):
                 and not any(word in live.name.lower() for word in _NO_COLORS))
     low, high, unit = _range(live.name, values)
     kind = "color" if is_color and len(values) == 3 else "switch" if live.kind == "boolean" else "number"
-    return {"input": f"{live.node}.{live.name}", "label": live.name.replace("_", " "), "folder": _folder(live.node),
+    return {"input": key(live), "label": live.name.replace("_", " "), "folder": _folder(live.node),
             "kind": kind, "min": low, "max": high, "step": 1.0 if live.kind == "integer" else 0.0, "default": values,
             "unit": unit}
 
@@ -71,10 +82,10 @@ def entries(inputs, choices, fixed):
     found = [(i.node, _entry(i)) for i in inputs]
     for c in choices:
         options = [text for text, _ in c.options]
-        found.append((c.node, {"input": c.key, "label": c.name.replace("_", " "), "folder": _folder(c.node),
+        found.append((c.node, {"input": key(c), "label": c.name.replace("_", " "), "folder": _folder(c.node),
                                "kind": "choice", "options": options, "default": options[c.at]}))
     for f in fixed:
-        found.append((f.node, {"input": f"{f.node}.{f.name}", "label": f.name.replace("_", " "),
+        found.append((f.node, {"input": key(f), "label": f.name.replace("_", " "),
                                "folder": _folder(f.node), "kind": "fixed", "default": f.text, "reason": f.reason}))
     order = {node: k for k, node in reversed(list(enumerate(node for node, _ in found)))}
     return [made for _, made in sorted(found, key=lambda pair: order[pair[0]])]
@@ -88,6 +99,11 @@ def _numbers(value, count):
     return isinstance(value, list) and len(value) == count and all(_number(v) for v in value)
 
 
+# What a file may say of a control, and whether it is right.
+_FIELDS = {**dict.fromkeys(("label", "folder", "unit"), lambda v: isinstance(v, str)),
+           "kind": lambda v: v in ("color", "number", "switch"), **dict.fromkeys(("min", "max", "step"), _number)}
+
+
 def read(path):
     """:returns: the JSON of a --controls file, not yet matched with a material"""
     try:
@@ -97,13 +113,13 @@ def read(path):
         raise CommandError(f"--controls: {path} cannot be read ({error})") from error
     except (ValueError, RecursionError) as error:
         raise CommandError(f"--controls: {path} is no JSON ({error})") from error
-    if not isinstance(found, dict) or not all(isinstance(found.get(key, []), list) for key in ("controls", "presets")):
-        raise CommandError(f"--controls: {path} needs lists `controls` and `presets`")
-    if len(found.get("presets", [])) > MAX_PRESETS:
-        raise CommandError(f"--controls: {path}: `presets` holds more than the {MAX_PRESETS} that a page shows")
+    _check(isinstance(found, dict) and all(isinstance(found.get(key, []), list) for key in ("controls", "presets")), path,
+           " needs lists `controls` and `presets`")
+    _check(len(found.get("presets", [])) <= MAX_PRESETS, path,
+           f": `presets` holds more than the {MAX_PRESETS} that a page shows")
     texts = found.get("sentences", {})
-    if not isinstance(texts, dict) or not all(isinstance(t, str) for t in [*texts.values(), found.get("title", "")]):
-        raise CommandError(f"--controls: {path}: `sentences` holds texts by material, `title` is a text")
+    _check(isinstance(texts, dict) and all(isinstance(t, str) for t in [*texts.values(), found.get("title", "")]), path,
+           ": `sentences` holds texts by material, `title` is a text")
     return found
 
 
@@ -118,10 +134,8 @@ def merged(entries, wanted, path):
     known = {entry["input"]: entry for entry in entries}
     result, unknown, seen = [], [], set()
     for item in wanted["controls"]:
-        if not isinstance(item, dict) or not isinstance(item.get("input"), str):
-            raise CommandError(f"--controls: {path}: each control needs a text `input`")
-        if item["input"] in seen:
-            raise CommandError(f"--controls: {path}: `controls` has {item['input']} twice")
+        _check(isinstance(item, dict) and isinstance(item.get("input"), str), path, ": each control needs a text `input`")
+        _check(item["input"] not in seen, path, f": `controls` has {item['input']} twice")
         seen.add(item["input"])
         if item["input"] not in known:
             unknown.append(item["input"])
@@ -131,19 +145,14 @@ def merged(entries, wanted, path):
             made.update({key: item[key] for key in ("label", "folder") if isinstance(item.get(key), str)})
             result.append(made)
             continue
-        for key, test in (("label", lambda v: isinstance(v, str)), ("folder", lambda v: isinstance(v, str)),
-                          ("unit", lambda v: isinstance(v, str)), ("kind", lambda v: v in ("color", "number", "switch")),
-                          ("min", _number), ("max", _number), ("step", _number)):
+        for key, test in _FIELDS.items():
             if key in item:
-                if not test(item[key]):
-                    raise CommandError(f"--controls: {path}: `{key}` of {item['input']} is not what it should be")
+                _check(test(item[key]), path, f": `{key}` of {item['input']} is not what it should be")
                 made[key] = item[key]
         count = len(made["default"])
-        if _COUNTS.get(made["kind"], count) != count:
-            raise CommandError(f"--controls: {path}: `kind` of {item['input']} does not fit: a color has 3 numbers, a switch "
-                               f"has 1, this input has {count}")
-        if not made["min"] < made["max"]:
-            raise CommandError(f"--controls: {path}: `min` of {item['input']} is not below `max`")
+        _check(_COUNTS.get(made["kind"], count) == count, path, f": `kind` of {item['input']} does not fit: a color has 3 "
+               f"numbers, a switch has 1, this input has {count}")
+        _check(made["min"] < made["max"], path, f": `min` of {item['input']} is not below `max`")
         result.append(made)
     return result, unknown
 
@@ -154,16 +163,15 @@ def presets(wanted, material, path):
     options = {c["input"]: c["options"] for c in material["controls"] if c["kind"] == "choice"}
     found = []
     for item in wanted.get("presets", []):
-        if not isinstance(item, dict) or not isinstance(item.get("name"), str) or not isinstance(item.get("values"), dict):
-            raise CommandError(f"--controls: {path}: each preset needs a text `name` and an object `values`")
+        _check(isinstance(item, dict) and isinstance(item.get("name"), str) and isinstance(item.get("values"), dict), path,
+               ": each preset needs a text `name` and an object `values`")
         values = {key: value for key, value in item["values"].items() if key in sizes or key in options}
         for key, value in values.items():
+            about = f": preset {item['name']}: {key}"
             if key in options:
-                if value not in options[key]:
-                    raise CommandError(f"--controls: {path}: preset {item['name']}: {key} is one of "
-                                       + ", ".join(options[key]))
-            elif not _numbers(value, sizes[key]):
-                raise CommandError(f"--controls: {path}: preset {item['name']}: {key} needs a list of {sizes[key]} numbers")
+                _check(value in options[key], path, f"{about} is one of {', '.join(options[key])}")
+            else:
+                _check(_numbers(value, sizes[key]), path, f"{about} needs a list of {sizes[key]} numbers")
         if values:
             found.append({"name": item["name"], "values": values})
     return found

@@ -2,7 +2,8 @@
 """The texts of the page's shaders."""
 import re
 
-from patina.cli import compiled
+from patina.cli.compiled import _patina
+from patina.shader import own
 from patina.view import live
 
 MAX_UNIFORMS = 128  # WebGL2 promises 224 vectors; more values come by a texture
@@ -17,7 +18,7 @@ def lean(text):
 
 def library():
     """The GLSL that all pages share."""
-    load = compiled.load().shader_text
+    load = _patina.shader_text
     return {name: lean(load(f"shaders/web/{file}.glsl")) for name, file in (
         ("head", "head"), ("page", "page.frag"), ("surface", "surface.vert"),
         ("backdrop", "backdrop.frag"), ("backdropVertex", "backdrop.vert"))}
@@ -37,12 +38,8 @@ def primvar_functions(primvars, count):
         if re.fullmatch(live.PREFIX + r"\d+", name) and int(name[len(live.PREFIX):]) < count:
             i = int(name[len(live.PREFIX):])
             value = f"liveAt({i})" if count > MAX_UNIFORMS else f"live[{i}]"
-        elif kind == "vector2":
-            value = "vec4(vUv, 0.0, 1.0)"
-        elif name == "displayColor":
-            value = "vec4(vColor, 1.0)"
         else:
-            value = "fallback"
+            value = own.primvar(name, kind)
         text += f"vec4 primvar{slot}(vec4 fallback) {{ return {value}; }}\n"
     return text
 

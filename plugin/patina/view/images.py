@@ -7,7 +7,7 @@ import numpy as np
 
 from patina import inputs
 from patina.chart.png import display_values
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.view import blobs
 
 
@@ -23,7 +23,7 @@ def shrunk(image, largest):
 def latlong(path, largest):
     """:returns: dict of width, height, format and data of an environment file"""
     inputs.note(path)
-    image = np.asarray(compiled.load().read_image(path).pixels, dtype=np.float32)[..., :3]
+    image = np.asarray(_patina.read_image(path).pixels, dtype=np.float32)[..., :3]
     image = shrunk(np.maximum(np.nan_to_num(image), 0.0), largest)
     return half_rgb(image)
 

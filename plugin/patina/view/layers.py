@@ -4,13 +4,11 @@ import math
 import os
 import re
 
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.cli.materials import is_document
+from patina.cli.usd import TYPES
 from patina.view import live
 
-_TYPES = {"boolean": "bool", "integer": "int", "float": "float", "vector2": "float2", "vector3": "float3",
-          "vector4": "float4", "color3": "color3f", "color4": "color4f", "string": "string", "filename": "asset",
-          "matrix33": "matrix3d", "matrix44": "matrix4d"}
 _NAME = re.compile(r"[A-Za-z_]\w*(:[A-Za-z_]\w*)*", re.ASCII)
 
 
@@ -73,15 +71,15 @@ def whole_material(name, network, moved, folder):
     prims = [{"path": root, "spec": "def Material", "lines": lines}]
     for node in nodes:
         own = [f"uniform token info:id = {_quoted(node['id'])}"]
-        known = compiled.load().node_inputs(node["id"])
+        known = _patina.node_inputs(node["id"])
         for key, value in node["inputs"].items():
-            if (node["path"], key) in open_inputs or value["type"] not in _TYPES or not _NAME.fullmatch(key):
+            if (node["path"], key) in open_inputs or value["type"] not in TYPES or not _NAME.fullmatch(key):
                 continue
             if known.get(key, value["type"]) != value["type"]:  # a word where a number should be
                 continue
             text = _value(value["type"], live.linear(value), folder)
             if text:
-                own.append(f"{_TYPES[value['type']]} inputs:{key} = {text}")
+                own.append(f"{TYPES[value['type']]} inputs:{key} = {text}")
         for key, (source, output) in node["connections"].items():
             if source in paths and _NAME.fullmatch(key) and _NAME.fullmatch(output or "out"):
                 own.append(f"token inputs:{key}.connect = <{paths[source]}.outputs:{output or 'out'}>")

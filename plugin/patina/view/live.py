@@ -2,21 +2,18 @@
 """Makes the inputs of a network live: each becomes a primvar of its own whose fallback is the
 authored value. So the text of the material keeps them open, the page hands in what its sliders say,
 and every other host, which has no such primvars, shows the material as authored."""
+import collections
 import math
+from patina import networks
+from patina.cli.compiled import _patina
 
-from patina.cli import compiled
 
 PREFIX = "patinaLive"
 COMPONENTS = {"boolean": 1, "integer": 1, "float": 1, "vector2": 2, "vector3": 3, "vector4": 4, "color3": 3, "color4": 4}
 LIMIT = 1024  # more would be neither found nor compiled
 
 
-class LiveInput:
-    """An input of a node that a slider moves."""
-
-    def __init__(self, node, node_id, name, kind, value, authored):
-        self.node, self.node_id, self.name, self.kind = node, node_id, name, kind
-        self.value, self.authored = value, authored
+LiveInput = collections.namedtuple("LiveInput", "node name kind value authored")  # of a node, moved by a slider
 
 
 def _numbers(value):
@@ -34,7 +31,7 @@ def linear(value):
     :returns: its value, a colour's in linear Rec.709"""
     if not value["type"].startswith("color") or not value["color_space"]:
         return value["value"]
-    return compiled.load().color_to_rendering(value["value"], value["color_space"]) or value["value"]
+    return _patina.color_to_rendering(value["value"], value["color_space"]) or value["value"]
 
 
 def reachable(network):
@@ -54,10 +51,9 @@ def live_inputs(network, limit=LIMIT):
 
     :returns: list of LiveInput of the nodes below the surface, and how many there were beyond the limit
     """
-    module = compiled.load()
     found = []
     for node in reachable(network):
-        types, defaults = module.node_inputs(node["id"]), module.node_defaults(node["id"])
+        types, defaults = _patina.node_inputs(node["id"]), _patina.node_defaults(node["id"])
         for name, kind in types.items():
             if kind not in COMPONENTS or name in node["connections"]:
                 continue
@@ -66,7 +62,7 @@ def live_inputs(network, limit=LIMIT):
                 continue
             value = _numbers(linear(authored) if authored else defaults[name])
             if len(value) == COMPONENTS[kind]:
-                found.append(LiveInput(node["path"], node["id"], name, kind, value, authored is not None))
+                found.append(LiveInput(node["path"], name, kind, value, authored is not None))
     found = _without_plans(network, found)
     # Authored inputs come before those left at their defaults.
     ranked = sorted(range(len(found)), key=lambda i: (not found[i].authored, i))
@@ -76,7 +72,7 @@ def live_inputs(network, limit=LIMIT):
 
 def _without_warnings(network, found):
     """Leaves out what is told of only because it is open: inputs that are not shown, where they ask for nothing."""
-    compile_one = compiled.load().web_material
+    compile_one = _patina.web_material
 
     def told(changed):
         made = compile_one(changed, {}, 1)
@@ -108,7 +104,7 @@ def _without_plans(network, found):
     whole = [i for i, live_input in enumerate(found) if live_input.kind in ("boolean", "integer")]
     if not whole:
         return found
-    compile_one = compiled.load().web_material
+    compile_one = _patina.web_material
     calm = len(compile_one(network, {}, 1)["warnings"])
     made = compile_one(with_live(network, found, whole), {}, 1)
     names = {name for name, _ in made["primvars"]} if len(made["warnings"]) <= calm else set()
@@ -118,23 +114,13 @@ def _without_plans(network, found):
 
 def with_live(network, inputs, chosen):
     """A copy of the network with inputs[i] live for i in chosen; primvar PREFIX<i>."""
-    module = compiled.load()
     opened = {(inputs[i].node, inputs[i].name): i for i in chosen}
-    copy = module.Network(network.path)
-    for node in network.nodes():
-        copy.add_node(node["path"], node["id"])
-        for name, value in node["inputs"].items():
-            if (node["path"], name) not in opened:
-                copy.set_input(node["path"], name, value["type"], value["value"], value["color_space"])
-        for name, (source, output) in node["connections"].items():
-            copy.connect(node["path"], name, source, output)
+    copy = networks.copied(network, opened)
     for (node, name), i in opened.items():
-        source = f"<{PREFIX}{i}>"
-        copy.add_node(source, f"ND_geompropvalue_{inputs[i].kind}")
-        copy.set_input(source, "geomprop", "string", f"{PREFIX}{i}")
         kind, value = inputs[i].kind, inputs[i].value
         whole = int(value[0]) if kind in ("boolean", "integer") else value[0]
-        copy.set_input(source, "default", kind, whole if len(value) == 1 else value)
+        source = networks.add(copy, f"<{PREFIX}{i}>", f"ND_geompropvalue_{kind}", {
+            "geomprop": ("string", f"{PREFIX}{i}"), "default": (kind, whole if len(value) == 1 else value)})
         copy.connect(node, name, source, "")
     for name, (node, output) in network.terminals().items():
         copy.set_terminal(name, node, output)

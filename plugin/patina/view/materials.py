@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A material as the page has it: two texts, its inputs, their controls."""
 from patina import messages
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.view import choices, controls, glslText, images, live, plan
 
@@ -80,10 +80,9 @@ def build(name, network, methods, textures):
     :param textures: a Textures, which gets those of the material
     :returns: dict for the page, the lobes that its texts use, and warnings as texts
     """
-    module = compiled.load()
 
     def compiler(forced):
-        return lambda changed, largest=1: module.web_material(changed, forced, largest)
+        return lambda changed, largest=1: _patina.web_material(changed, forced, largest)
 
     compile_one = compiler(methods)
     inputs, beyond, (made, lean, lobes, chosen) = _authored(name, network, compile_one, textures)
@@ -112,15 +111,15 @@ def build(name, network, methods, textures):
         programs.append(made)
         return len(programs) - 1
 
-    fixed += [choices.Fixed(c.node, c.name, c.kind, c.options[c.at][0], "every value is a program of its own, and "
+    fixed += [choices.Fixed(c.node, c.name, c.options[c.at][0], "every value is a program of its own, and "
                             f"a page has room for {choices.MAX_PROGRAMS} of them")
               for c in (found[i] for i in left)]
     entries = controls.entries(inputs, [c for i, c in enumerate(found) if i not in left], fixed)
     planned = {**plan.build(network, methods, with_methods, add),
                "effects": plan.effects(network, inputs, chosen, entries, methods)}
     material = {"name": name, "programs": programs, "places": places,
-                "inputs": [{"input": f"{i.node}.{i.name}", "kind": i.kind, "value": list(i.value)} for i in inputs],
-                "choices": [{"input": c.key, "kind": c.kind, "values": [v for _, v in c.options], "at": c.at}
+                "inputs": [{"input": controls.key(i), "kind": i.kind, "value": list(i.value)} for i in inputs],
+                "choices": [{"input": controls.key(c), "kind": c.kind, "values": [v for _, v in c.options], "at": c.at}
                             for c in found],
                 "controls": entries,
                 "presets": [], "sentence": "", "plan": planned}

@@ -3,17 +3,10 @@
 import html
 import json
 import math
-import os
-import re
 
 from patina import pagePolicy
 from patina.cli.errors import CommandError
 from patina.view import albedo, blobs, bundle, glslText
-
-
-def _web(name):
-    with open(os.path.join(bundle.WEB, name), encoding="utf-8") as file:
-        return file.read()
 
 
 def as_json(data):
@@ -53,8 +46,5 @@ def document(data, lobes):
     script = bundle.script()
     if "</script" in script.lower():
         raise CommandError("the page's script cannot stand in a page")
-    parts = {"TITLE": html.escape(data["title"]), "STYLE": _web("page.css"), "DATA": as_json(whole), "SCRIPT": script,
-             "POLICY": pagePolicy.meta(script)}
-    # In one go: what is put in may hold the names of these places.
-    page = re.sub("PATINA_(POLICY|TITLE|STYLE|DATA|SCRIPT)", lambda mark: parts[mark.group(1)], _web("page.html"))
-    return page, warnings
+    return pagePolicy.filled(pagePolicy.text(bundle.WEB, "page.html"), script, TITLE=html.escape(data["title"]),
+                             STYLE=pagePolicy.text(bundle.WEB, "page.css"), DATA=as_json(whole)), warnings

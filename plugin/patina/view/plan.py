@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from patina.cli import compiled
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 from patina.view import live
 
@@ -37,7 +37,7 @@ def albedo(network, methods):
     """
     wo, u = _directions()
     try:
-        weights = np.asarray(compiled.load().MaterialProbe(network, methods).sample(wo, u)["weight"], float)
+        weights = np.asarray(_patina.MaterialProbe(network, methods).sample(wo, u)["weight"], float)
     except (RuntimeError, ValueError):
         return None
     each = weights.reshape(len(_NODES), SAMPLES, 3).mean(axis=1)
@@ -71,7 +71,7 @@ def effects(network, inputs, chosen, entries, methods):
 
 def _text_of(network, methods):
     """:returns: lines of the plan as `patina explain` has them: what is kept, what is left out, and the methods"""
-    text = compiled.load().explain_material(network, [], methods)
+    text = _patina.explain_material(network, [], methods)
     lines = _AFTER_GRAPH.split(text)[-1].rstrip("\n").split("\n")
     cuts = [line[len(_CUT):] for line in lines if line.startswith(_CUT)]
     kept = [line for line in lines if not line.startswith((_CUT, "method "))]
@@ -80,7 +80,7 @@ def _text_of(network, methods):
 
 def _figures(network, methods, point):
     """Predicted error and times at one choice point; an empty dict where the planner has none."""
-    plan = compiled.load().plan_material(network, methods, -1.0)
+    plan = _patina.plan_material(network, methods, -1.0)
     return next((choice for choice in plan["choices"] if choice["point"] == point), {})
 
 
@@ -95,7 +95,7 @@ def build(network, methods, program_of, add):
     :returns: dict for the page: kept and leftOut as lines, albedo, and for each choice point its methods
     """
     kept, cuts, taken = _text_of(network, methods)
-    points = dict(compiled.load().choice_points())
+    points = dict(_patina.choice_points())
     own, _ = program_of(methods)
     start = albedo(network, methods)
     room = MAX_CHARACTERS
@@ -118,7 +118,7 @@ def build(network, methods, program_of, add):
 
 def _draw(row, point, forced, own, program_of, add, room):
     """Gives a method a program where it changes the shader. :returns: characters that are left"""
-    figures = compiled.load().method_figures(point, row["name"])
+    figures = _patina.method_figures(point, row["name"])
     if figures and figures["cost"] > MAX_COST:
         row["why"] = f"{figures['cost']:.0f} times the time of the default: too slow for a page"
         return room

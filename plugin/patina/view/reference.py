@@ -6,15 +6,10 @@ import tempfile
 
 import numpy as np
 
-from patina.cli import compiled
-from patina.cli.errors import CommandError
+from patina.cli.compiled import _patina
+from patina.experiment import draw
 
 FOCAL_LENGTH = 50.0
-
-
-def _rows(columns):
-    """A matrix of columns as Gf has it: row vectors, so the very same numbers."""
-    return [float(x) for x in columns]
 
 
 def _look_at(eye, target, up):
@@ -36,13 +31,12 @@ def _camera(edit, camera, eye):
 def _dome(edit, folder, environment):
     """:param environment: dict of pixels (linear, top row first), radiance and toLocal"""
     file = os.path.join(folder, "environment.exr")
-    compiled.load().write_image(file, np.ascontiguousarray(environment["pixels"], np.float32))
+    _patina.write_image(file, np.ascontiguousarray(environment["pixels"], np.float32))
     transform = np.eye(4)
     # Columns of the way there are rows here; the way back is its transpose.
     transform[:3, :3] = np.array(environment["toLocal"]).reshape(3, 3).T
-    color = np.asarray(environment["radiance"], float)
-    edit.set_light("/environment", type="dome", transform=_rows(transform.ravel()), texture_file=file,
-                   color=[float(x) for x in color], intensity=1.0)
+    edit.set_light("/environment", type="dome", transform=transform.ravel().tolist(), texture_file=file,
+                   color=list(map(float, environment["radiance"])), intensity=1.0)
 
 
 def _mesh(edit, mesh, to_world):
@@ -51,7 +45,7 @@ def _mesh(edit, mesh, to_world):
     edit.set_mesh("/shape", points=np.asarray(mesh["points"], np.float32),
                   face_vertex_counts=np.full(count, 3, np.int32),
                   face_vertex_indices=np.asarray(mesh["indices"], np.int32), scheme="none", material="/material",
-                  transform=_rows(to_world),
+                  transform=list(map(float, to_world)),  # columns, as Gf has row vectors: the very same numbers
                   primvars=[("normals", "vertex", np.asarray(mesh["normals"], np.float32)),
                             ("st", "vertex", np.asarray(mesh["uv"], np.float32))])
 
@@ -65,10 +59,9 @@ def render(network, mesh, to_world, environment, camera, eye, width, samples, ba
     :param more: further render settings
     :returns: float array (width, width, 3), top row first
     """
-    module = compiled.load()
-    scene = scene or module.Scene()
-    film, renderer = module.Film(), module.make_renderer(backend)
-    settings = dict(module.default_render_settings(), width=width, height=width, samples=samples, tolerance=-1.0,
+    scene = scene or _patina.Scene()
+    film = _patina.Film()
+    settings = dict(_patina.default_render_settings(), width=width, height=width, samples=samples, tolerance=-1.0,
                     filterRadius=0.5, **more)
     with tempfile.TemporaryDirectory() as folder:
         with scene.edit() as edit:
@@ -80,13 +73,5 @@ def render(network, mesh, to_world, environment, camera, eye, width, samples, ba
                 mesh(edit)
             else:
                 _mesh(edit, mesh, to_world)
-        renderer.start(scene, "/camera", settings, film)
-        try:
-            while not renderer.wait(0.2):  # signals are heard in between
-                pass
-        finally:
-            renderer.stop()
-    state = renderer.progress()
-    if state["failed"]:
-        raise CommandError(state["error"])
+        draw(_patina.make_renderer(backend), scene, "/camera", settings, film)
     return np.asarray(film.resolve("color"))[..., :3].copy()

@@ -3,7 +3,8 @@
 import numpy as np
 
 from patina import messages
-from patina.cli import compiled, openStage, overrides
+from patina.cli import openStage
+from patina.cli.compiled import _patina
 from patina.cli.errors import CommandError
 
 MAX_SHAPES = 4
@@ -13,16 +14,10 @@ MAX_LIGHTS = 256  # each is a row of a texture, a folder of the panel, and work 
 
 class StageScene:
     def __init__(self, file, set_texts):
-        from patina import stage as reader
-
         self.file = file
-        stage = openStage.open_stage(file)
-        overrides.apply(stage, set_texts)
-        self.scene = compiled.load().Scene()
-        with self.scene.edit() as edit:
-            info = reader.read_stage(stage, edit, reader.StageOptions(headlight=False))
+        _, self.scene, info = openStage.scene_of(file, set_texts, headlight=False)
         self.z_up = info.up_axis == "Z"
-        found = compiled.load().web_lights(self.scene)
+        found = _patina.web_lights(self.scene)
         self.lights = [{"name": path.removesuffix("/light_of_mesh").rpartition("/")[2], "row": [float(x) for x in row]}
                        for path, row in found["lights"][:MAX_LIGHTS]]
         self.domes, self.light_table = found["domes"][:MAX_ENVIRONMENTS], found["table"]
@@ -38,7 +33,7 @@ class StageScene:
         :param wanted: prim paths; without any, the first prims that show one of the materials
         :returns: list of (name, mesh, columns of the transform)
         """
-        known = compiled.load().web_shapes(self.scene)
+        known = _patina.web_shapes(self.scene)
         paths = [path for path, _ in known]
         if wanted:
             for path in wanted:
@@ -50,7 +45,7 @@ class StageScene:
         made = []
         for path in chosen:
             try:
-                mesh = compiled.load().web_mesh(self.scene, path)
+                mesh = _patina.web_mesh(self.scene, path)
             except ValueError as error:
                 raise CommandError(f"--shape: {error}") from error
             made.append((path.rpartition("/")[2], _finished(mesh), list(mesh["toWorld"])))

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 # Ends as a command does: OpenUSD's own threads may outlive what they need.
@@ -74,6 +75,22 @@ def read(tmp_path):
         file = tmp_path / "stage.usda"
         file.write_text("#usda 1.0\n" + _statements(text))
         return Reading(Usd.Stage.Open(str(file)), **options)
+
+    return run
+
+
+@pytest.fixture
+def pictures():
+    """A function: pictures(reading, width) yields (back end, colours of its square picture) of both."""
+    import _patina
+
+    from patina.experiment import draw
+
+    def run(reading, width):
+        for backend in ("embree", "raster"):
+            film, settings = _patina.Film(), {"width": width, "height": width, "samples": 4, "seed": 1}
+            draw(_patina.make_renderer(backend), reading.scene, reading.info.camera, settings, film)
+            yield backend, np.array(film.resolve("color"))[..., :3]
 
     return run
 

@@ -7,14 +7,9 @@ from patina.stage import StageError, cameras
 
 
 def test_every_field(read, numbers):
-    reading = read("""def Camera "c" {
-        float horizontalAperture = 36
-        float verticalAperture = 24
-        float horizontalApertureOffset = 1
-        float verticalApertureOffset = 2
-        float focalLength = 35
-        float fStop = 2.8
-        float focusDistance = 4
+    same = {"horizontalAperture": 36, "verticalAperture": 24, "horizontalApertureOffset": 1, "verticalApertureOffset": 2,
+            "focalLength": 35, "fStop": 2.8, "focusDistance": 4}
+    reading = read('def Camera "c" { ' + "".join(f"float {name} = {value}\n" for name, value in same.items()) + """
         float2 clippingRange = (0.5, 50)
         float4[] clippingPlanes = [(0, 0, 1, 2)]
         double shutter:open = -0.25
@@ -24,9 +19,7 @@ def test_every_field(read, numbers):
         double3 xformOp:translate = (1, 2, 3)
         uniform token[] xformOpOrder = ["xformOp:translate"] }""", frame=1.0)
     camera = reading.prim("/c")
-    expected = {"horizontalAperture": 36, "verticalAperture": 24, "horizontalApertureOffset": 1,
-                "verticalApertureOffset": 2, "focalLength": 35, "fStop": 2.8, "focusDistance": 4, "clipNear": 0.5,
-                "clipFar": 50, "shutterOpen": -0.25, "shutterClose": 0.25, "exposureScale": 4}
+    expected = {**same, "clipNear": 0.5, "clipFar": 50, "shutterOpen": -0.25, "shutterClose": 0.25, "exposureScale": 4}
     assert {name: float(camera[name]) for name in expected} == pytest.approx(expected)
     assert camera["orthographic"] == "true" and camera["clippingPlanes"] == "0 0 1 2"
     assert numbers(camera["transform"])[12:] == [1, 2, 3, 1]

@@ -21,24 +21,22 @@ SHADER = """
 """
 
 
+TYPED = {  # input of a shader -> what the scene has of it
+    "float inputs:roughness = 0.25": "float roughness = 0.25",
+    "int inputs:useSpecularWorkflow = 1": "integer useSpecularWorkflow = 1",
+    'color3f inputs:diffuseColor = (1, 0.5, 0) (colorSpace = "lin_rec709")': "color3 diffuseColor = 1 0.5 0",
+    "normal3f inputs:normal = (0, 0, 1)": "vector3 normal = 0 0 1",
+    'token inputs:mode = "word"': 'string mode = "word"',
+    "bool inputs:flag = 1": "boolean flag = 1",
+    "matrix4d inputs:m = ((1,0,0,0),(0,1,0,0),(0,0,1,0),(2,0,0,1))": "matrix44 m = 1 0 0 0 0 1 0 0 0 0 1 0 2 0 0 1",
+    "double inputs:d = 0.5": "float d = 0.5"}
+
+
 def test_values_of_each_type(read):
-    m = read(material(SHADER % """
-        float inputs:roughness = 0.25
-        int inputs:useSpecularWorkflow = 1
-        color3f inputs:diffuseColor = (1, 0.5, 0) (colorSpace = "lin_rec709")
-        normal3f inputs:normal = (0, 0, 1)
-        token inputs:mode = "word"
-        bool inputs:flag = 1
-        matrix4d inputs:m = ((1,0,0,0),(0,1,0,0),(0,0,1,0),(2,0,0,1))
-        double inputs:d = 0.5
-        float inputs:unset
-    """)).prim("/m")
+    m = read(material(SHADER % "\n".join([*TYPED, "float inputs:unset"]))).prim("/m")
     assert m["terminal surface"] == "/m/s.surface" and m["node /m/s"] == "UsdPreviewSurface"
-    assert m["float roughness"] == "0.25" and m["integer useSpecularWorkflow"] == "1"
-    assert m["color3 diffuseColor"] == "1 0.5 0" and m["colorSpace diffuseColor"] == "lin_rec709"
-    assert m["vector3 normal"] == "0 0 1" and m["string mode"] == '"word"' and m["boolean flag"] == "1"
-    assert m["matrix44 m"].endswith("2 0 0 1") and m["float d"] == "0.5"
-    assert not any("unset" in key for key in m)
+    assert not set(TYPED.values()) - {f"{name} = {value}" for name, value in m.items()}, m
+    assert m["colorSpace diffuseColor"] == "lin_rec709" and not any("unset" in key for key in m)
 
 
 def test_frame_and_time_come_from_the_stage(read):
@@ -208,8 +206,8 @@ def test_materials_alone_are_read_past_broken_ones(tmp_path, statements, monkeyp
     stage, warnings = Usd.Stage.Open(str(tmp_path / "stage.usda")), []
     assert [path for path, _ in read_materials(stage, warnings)] == ["/m", "/n"] and not warnings
 
-    def fails(context, prim, path, module, own=readMaterials.network_of):
-        return own(context, prim, path, module) if path == "/n" else {}["x"]
+    def fails(context, prim, path, own=readMaterials.network_of):
+        return own(context, prim, path) if path == "/n" else {}["x"]
 
     monkeypatch.setattr(readMaterials, "network_of", fails)
     assert [path for path, _ in read_materials(stage, warnings)] == ["/n"]

@@ -10,32 +10,33 @@ QUAD = """
 
 
 def test_every_field_of_a_subdivided_mesh(read):
+    tokens = {"interpolateBoundary": "edgeOnly", "faceVaryingLinearInterpolation": "all", "triangleSubdivisionRule": "smooth"}
+    arrays = {"int[] holeIndices": [0], "int[] creaseIndices": [0, 1], "int[] creaseLengths": [2],
+              "float[] creaseSharpnesses": [3.5], "int[] cornerIndices": [2], "float[] cornerSharpnesses": [10]}
     mesh = read("""def Mesh "m" {
         uniform token subdivisionScheme = "loop"
-        uniform token interpolateBoundary = "edgeOnly"
-        uniform token faceVaryingLinearInterpolation = "all"
-        uniform token triangleSubdivisionRule = "smooth"
         uniform token orientation = "leftHanded"
         uniform bool doubleSided = 1
-        int[] holeIndices = [0]
-        int[] creaseIndices = [0, 1]
-        int[] creaseLengths = [2]
-        float[] creaseSharpnesses = [3.5]
-        int[] cornerIndices = [2]
-        float[] cornerSharpnesses = [10]
-        """ + QUAD + "}", complexity="high").prim("/m")
-    assert mesh["kind"] == "Mesh"
-    assert mesh["scheme"] == "loop"
-    assert mesh["interpolateBoundary"] == '"edgeOnly"'
-    assert mesh["faceVaryingLinearInterpolation"] == '"all"'
-    assert mesh["triangleSubdivisionRule"] == '"smooth"'
+        """ + "".join(f'uniform token {name} = "{value}"\n' for name, value in tokens.items())
+                + "".join(f"{declared} = {value}\n" for declared, value in arrays.items()) + QUAD + "}",
+                complexity="high").prim("/m")
+    assert mesh["kind"] == "Mesh" and mesh["scheme"] == "loop" and mesh["refineLevel"] == "2"
     assert mesh["leftHanded"] == "true" and "doubleSided" not in mesh
     assert mesh["points"] == "0 0 0, 1 0 0, 1 1 0, 0 1 0"
     assert mesh["faceVertexCounts"] == "4" and mesh["faceVertexIndices"] == "0 1 2 3"
-    assert mesh["holeIndices"] == "0"
-    assert mesh["creaseIndices"] == "0 1" and mesh["creaseLengths"] == "2" and mesh["creaseSharpnesses"] == "3.5"
-    assert mesh["cornerIndices"] == "2" and mesh["cornerSharpnesses"] == "10"
-    assert mesh["refineLevel"] == "2"
+    assert {name: mesh[name].strip('"') for name in tokens} == tokens
+    for declared, value in arrays.items():
+        assert mesh[declared.split()[1]] == " ".join(map(str, value)), declared
+
+
+PRIMVARS = {  # of a mesh -> what the scene has of it
+    "float primvars:own = 2": "own constant = 2",
+    'texCoord2f[] primvars:st = [(0, 0), (1, 1)] (interpolation = "faceVarying")': "st faceVarying x2 = 0 0, 1 1",
+    "int[] primvars:st:indices = [0, 1, 1, 0]": "st indices = 0 1 1 0",
+    'half3[] primvars:h = [(0.5, 0.25, 1)] (interpolation = "uniform")': "h uniform x3 = 0.5 0.25 1",
+    'double[] primvars:d = [1, 2, 3, 4] (interpolation = "vertex")': "d vertex = 1 2 3 4",
+    'float[] primvars:wide = [1, 2, 3, 4] (interpolation = "uniform"; elementSize = 4)': "wide uniform x4 = 1 2 3 4",
+    "matrix4d[] primvars:m = [((1,0,0,0),(0,1,0,0),(0,0,1,0),(5,0,0,1))]": "m constant x16 = 1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1"}
 
 
 def test_primvars_of_each_kind(read):
@@ -44,26 +45,11 @@ def test_primvars_of_each_kind(read):
         float primvars:shade = 0.5
         float primvars:own = 1
         def Mesh "m" {
-            float primvars:own = 2
-            texCoord2f[] primvars:st = [(0, 0), (1, 1)] (interpolation = "faceVarying")
-            int[] primvars:st:indices = [0, 1, 1, 0]
-            half3[] primvars:h = [(0.5, 0.25, 1)] (interpolation = "uniform")
-            double[] primvars:d = [1, 2, 3, 4] (interpolation = "vertex")
-            float[] primvars:wide = [1, 2, 3, 4] (interpolation = "uniform"; elementSize = 4)
             string primvars:text = "left out"
-            matrix4d[] primvars:m = [((1,0,0,0),(0,1,0,0),(0,0,1,0),(5,0,0,1))]
             int[] primvars:skel:jointIndices = [1]
-            """ + QUAD + "} }").prim("/x/m")
-    assert mesh["primvar displayColor constant x3"] == "1 0 0"
-    assert mesh["primvar shade constant"] == "0.5"
-    assert mesh["primvar own constant"] == "2"
-    assert mesh["primvar st faceVarying x2"] == "0 0, 1 1"
-    assert mesh["primvar st indices"] == "0 1 1 0"
-    assert mesh["primvar h uniform x3"] == "0.5 0.25 1"
-    assert mesh["primvar d vertex"] == "1 2 3 4"
-    assert mesh["primvar wide uniform x4"] == "1 2 3 4"
-    assert mesh["primvar m constant x16"].endswith("5 0 0 1")
-    assert not any("text" in key or "skel" in key for key in mesh)
+            """ + "\n".join(PRIMVARS) + QUAD + "} }").prim("/x/m")
+    expected = {*PRIMVARS.values(), "displayColor constant x3 = 1 0 0", "shade constant = 0.5"}
+    assert {f"{key[8:]} = {value}" for key, value in mesh.items() if key.startswith("primvar ")} == expected
 
 
 def test_an_element_size_that_nothing_fits_is_ignored(read):

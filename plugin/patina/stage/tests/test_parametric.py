@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-from patina.experiment import draw
-
 PATCH = """int uVertexCount = 3  int vVertexCount = 2  int uOrder = 3  int vOrder = 2
     double[] uKnots = [0, 0, 0, 1, 1, 1]  double[] vKnots = [0, 0, 1, 1]
     point3f[] points = [(0,0,0), (1,1,0), (2,0,0), (0,0,1), (1,1,1), (2,0,1)] """
@@ -112,27 +110,25 @@ def test_what_is_broken_is_named(read):
     assert any(w.startswith("/types vRange:") for w in reading.warnings) and reading.has("/types")
 
 
-def test_both_back_ends_draw_them(read):
+TRIMMED_SQUARE = """int uVertexCount = 2  int vVertexCount = 2  int uOrder = 2  int vOrder = 2
+        double[] uKnots = [0, 0, 1, 1]  double[] vKnots = [0, 0, 1, 1]
+        int[] trimCurve:counts = [1]  int[] trimCurve:orders = [2]  int[] trimCurve:vertexCounts = [5]
+        double[] trimCurve:knots = [0, 0, 1, 2, 3, 4, 4]"""
+
+
+def test_both_back_ends_draw_them(read, pictures):
     """A patch, tetrahedra and both kinds of curves, each in its quarter of a small image, are there in both. A square is cut
     out of the patch; of a second one nothing is left."""
-    import _patina
-
     reading = read("""def Camera "cam" { token projection = "orthographic"
         float horizontalAperture = 40  float verticalAperture = 40
         double3 xformOp:translate = (0, 0, 9)  uniform token[] xformOpOrder = ["xformOp:translate"] }
     def DomeLight "d" { }
-    def NurbsPatch "p" { int uVertexCount = 2  int vVertexCount = 2  int uOrder = 2  int vOrder = 2
-        double[] uKnots = [0, 0, 1, 1]  double[] vKnots = [0, 0, 1, 1]
+    def NurbsPatch "p" { """ + TRIMMED_SQUARE + """
         point3f[] points = [(-1.9,0.1,0), (-0.1,0.1,0), (-1.9,1.9,0), (-0.1,1.9,0)]
-        int[] trimCurve:counts = [1]  int[] trimCurve:orders = [2]  int[] trimCurve:vertexCounts = [5]
-        double[] trimCurve:knots = [0, 0, 1, 2, 3, 4, 4]
         double3[] trimCurve:points = [(0.35,0.1,1), (0.95,0.1,1), (0.95,0.9,1), (0.35,0.9,1), (0.35,0.1,1)]
         color3f[] primvars:displayColor = [(1, 0, 0)] }
-    def NurbsPatch "gone" { int uVertexCount = 2  int vVertexCount = 2  int uOrder = 2  int vOrder = 2
-        double[] uKnots = [0, 0, 1, 1]  double[] vKnots = [0, 0, 1, 1]
+    def NurbsPatch "gone" { """ + TRIMMED_SQUARE + """
         point3f[] points = [(-2,-2,1), (2,-2,1), (-2,2,1), (2,2,1)]
-        int[] trimCurve:counts = [1]  int[] trimCurve:orders = [2]  int[] trimCurve:vertexCounts = [5]
-        double[] trimCurve:knots = [0, 0, 1, 2, 3, 4, 4]
         double3[] trimCurve:points = [(0,0,1), (1,0,1), (1,1,1), (0,1,1), (0,0,1)] }
     def TetMesh "t" { point3f[] points = [(0.1,0.1,0), (1.9,0.1,0), (0.1,1.9,0), (0.1,0.1,1)]
         int4[] tetVertexIndices = [(0,1,2,3)]  color3f[] primvars:displayColor = [(0, 1, 0)] }
@@ -143,10 +139,7 @@ def test_both_back_ends_draw_them(read):
         point3f[] points = [(0.1,-1,0), (1,-1,0), (1.9,-1,0)]  float[] widths = [1] (interpolation = "constant")
         color3f[] primvars:displayColor = [(1, 1, 0)] }""")
     assert not reading.warnings
-    for backend in ("embree", "raster"):
-        film, renderer = _patina.Film(), _patina.make_renderer(backend)
-        draw(renderer, reading.scene, reading.info.camera, {"width": 16, "height": 16, "samples": 4, "seed": 1}, film)
-        image = np.array(film.resolve("color"))[..., :3]
+    for backend, image in pictures(reading, 16):
         assert (image[3:5, 5] > 0.99).all(), (backend, image[3:5, 5])  # the sky
         for name, (row, column), wanted in (("patch", (4, 1), (1, 0, 0)), ("tets", (5, 9), (0, 1, 0)),
                                             ("hermite", (12, 4), (0, 0, 1)), ("nurbs", (12, 12), (1, 1, 0))):

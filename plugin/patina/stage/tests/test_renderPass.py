@@ -4,6 +4,12 @@ import pytest
 
 from patina.stage import StageError
 
+PASS = """
+def RenderPass "pass" (prepend apiSchemas = ["CollectionAPI:renderVisibility", "CollectionAPI:cameraVisibility",
+                                              "CollectionAPI:prune", "CollectionAPI:matte"]) {
+    %s
+}
+"""
 SCENE = """
 def Xform "set" {
     def Sphere "a" { }
@@ -11,11 +17,7 @@ def Xform "set" {
     def SphereLight "lamp" { }
 }
 def Sphere "c" { }
-def RenderPass "pass" (prepend apiSchemas = ["CollectionAPI:renderVisibility", "CollectionAPI:cameraVisibility",
-                                              "CollectionAPI:prune", "CollectionAPI:matte"]) {
-    %s
-}
-"""
+""" + PASS
 NAMES = ("/set/a", "/set/b", "/set/lamp", "/c")
 
 
@@ -67,11 +69,7 @@ class Xform "thing" {
 def Xform "one" (prepend references = </thing>  instanceable = true) { }
 def Xform "two" (prepend references = </thing>  instanceable = true) { }
 def Xform "three" (prepend references = </thing>  instanceable = true) { }
-def RenderPass "pass" (prepend apiSchemas = ["CollectionAPI:renderVisibility", "CollectionAPI:cameraVisibility",
-                                              "CollectionAPI:prune", "CollectionAPI:matte"]) {
-    %s
-}
-"""
+""" + PASS
 
 
 def test_instances_are_in_a_collection_each_for_itself(read):

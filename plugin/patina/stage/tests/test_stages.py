@@ -1,18 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whole files: broken ones, composition errors, models drawn as boxes, and every asset that is there."""
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-
-def open_stage(path):
-    from patina.stage import open_stage as run
-    return run(str(path))
+from patina.stage import StageError, open_stage
 
 
 def test_files_that_cannot_be_opened(tmp_path):
-    from patina.stage import StageError
     from pxr import Usd
     whole = tmp_path / "whole.usdc"
     stage = Usd.Stage.CreateNew(str(whole))
@@ -26,7 +23,7 @@ def test_files_that_cannot_be_opened(tmp_path):
     (tmp_path / "cut.usdz").write_bytes(b"PK\3\4 and no more")
     for name in ("cut.usdc", "text.usda", "noise.usd", "empty.usdc", "cut.usdz", "missing.usda", "."):
         with pytest.raises(StageError) as error:
-            open_stage(tmp_path / name)
+            open_stage(str(tmp_path / name))
         assert "\n" not in str(error.value) and str(tmp_path) in str(error.value)
 
 
@@ -134,8 +131,6 @@ def _assets():
 
 @pytest.mark.parametrize("path", _assets(), ids=lambda p: os.path.basename(p or "none"))
 def test_every_asset_is_read(read, path):
-    from patina.stage import StageError
-    from pathlib import Path
     try:
         open_stage(path)
     except StageError as error:

@@ -4,14 +4,12 @@ import os
 import resource
 
 import pytest
+from pxr import Sdf, Usd, UsdShade
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-from pxr import Sdf, Usd, UsdShade  # noqa: E402
-
-from patina.cli import main, materials, tryStage  # noqa: E402
-import usda  # noqa: E402
+import _patina
+import mtlx
+from patina.cli import main, materials, tryStage
+import usda
 
 STAGE = usda.stage(
     usda.prim("Xform", "world",
@@ -91,10 +89,7 @@ def test_any_format_and_files_that_are_new(name, stage, tmp_path):
     assert bake(stage, "/world/looks/one", out) == 0, "it is no layer of the stage, and none hides it"
     assert surface(reopened(out), "/one" if name == "new.usda" else "/world/looks/one") == "ND_gltf_pbr_surfaceshader"
     document = tmp_path / "m.mtlx"
-    document.write_text('<?xml version="1.0"?><materialx version="1.39"><standard_surface name="s" type="surfaceshader">'
-                        '<input name="base" type="float" value="0.5"/></standard_surface><surfacematerial name="m" '
-                        'type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>'
-                        "</surfacematerial></materialx>")
+    document.write_text(mtlx.document(mtlx.shader("m", inputs={"base": 0.5})))
     assert main.main(["bake", str(document), out, "--to", "gltf_pbr", "--in-place"]) == 0
     found = reopened(out)
     assert surface(found, "/m") == "ND_gltf_pbr_surfaceshader"

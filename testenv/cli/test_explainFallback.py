@@ -2,11 +2,8 @@
 """`explain` of what cannot be shown, and names of materials with namespaces."""
 import json
 
-import pytest
-
-pytest.importorskip("_patina")
-
-from patina.cli import main, materials  # noqa: E402
+import mtlx
+from patina.cli import main, materials
 
 STAGE = """#usda 1.0
 def Material "lamp" {
@@ -42,15 +39,9 @@ def test_a_fallback_is_told_as_one(tmp_path, capsys):
 
 
 def test_names_may_hold_namespaces(tmp_path):
-    (tmp_path / "library.mtlx").write_text("""<materialx version="1.39" namespace="lib">
-        <standard_surface name="s" type="surfaceshader"/>
-        <surfacematerial name="gold" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
-        </surfacematerial></materialx>""")
+    (tmp_path / "library.mtlx").write_text(mtlx.document(mtlx.shader("gold"), attributes='namespace="lib"'))
     document = tmp_path / "main.mtlx"
-    document.write_text("""<materialx version="1.39"><xi:include href="library.mtlx"/>
-        <standard_surface name="s" type="surfaceshader"/>
-        <surfacematerial name="gold" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
-        </surfacematerial></materialx>""")
+    document.write_text(mtlx.document('<xi:include href="library.mtlx"/>', mtlx.shader("gold")))
     found, warnings = materials.load(str(document), every=True)
     assert sorted(name for name, _ in found) == ["gold", "lib:gold"] and not warnings
     (name, network), = materials.load(f"{document}:lib:gold")[0]

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import inProcess
+import mtlx
 from patina import limits
 
 HEAD = '#usda 1.0\ndef Camera "camera"\n{\n    double3 xformOp:translate = (0, 0, 6)\n' \
@@ -86,14 +87,6 @@ def test_a_limit_is_met(limit, tmp_path):
     assert limits.value(limit.partition("=")[0]) == limits.table()[limit.partition("=")[0]][0]
 
 
-MATERIAL = '<standard_surface name="s" type="surfaceshader"/><surfacematerial name="M" type="material">' \
-           '<input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>'
-
-
-def document(body):
-    return f'<?xml version="1.0"?><materialx version="1.39">{body}</materialx>'
-
-
 @pytest.mark.parametrize("limit, words", [
     ("includes=2", "more included documents than 2 (--limit includes)"),
     ("includeDepth=2", "more levels deep than 2 (--limit includeDepth)"),
@@ -106,9 +99,9 @@ def test_a_document_meets_a_limit(limit, words, tmp_path):
     many = "<a b=''/>" * 11000
     for name, body in (("1", "<xi:include href='2.mtlx'/>"), ("2", "<xi:include href='3.mtlx'/>"), ("3", ""), ("deep", deep),
                        ("many", many), ("long", " " * 10000)):
-        (tmp_path / f"{name}.mtlx").write_text(document(body))
+        (tmp_path / f"{name}.mtlx").write_text(mtlx.document(body))
     wanted = {"markup": "many", "nesting": "deep", "documentBytes": "long"}.get(limit.partition("=")[0], "1")
-    (tmp_path / "main.mtlx").write_text(document(f"<xi:include href='{wanted}.mtlx'/>" + MATERIAL))
+    (tmp_path / "main.mtlx").write_text(mtlx.document(f"<xi:include href='{wanted}.mtlx'/>", mtlx.shader("M")))
     albedo = ("bsdf", "albedo", tmp_path / "main.mtlx", "--wo", "0,0,1")
     plain, limited = inProcess.patina(*albedo), inProcess.patina(*albedo, "--limit", limit)
     assert limited.stdout == plain.stdout and words in limited.stderr and words not in plain.stderr, limited.stderr

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """--set changes inputs in the session layer, with the type that they have."""
 import pytest
+from pxr import Sdf, UsdLux, UsdShade
+from pxr import Usd
 
 from patina.cli import overrides
 from patina.cli.errors import CommandError, UsageError
-
-Usd = pytest.importorskip("pxr.Usd")
-from pxr import Sdf, UsdLux, UsdShade  # noqa: E402
 
 
 @pytest.fixture
@@ -58,7 +57,6 @@ def test_inputs_of_a_material_are_those_of_its_surface(stage):
 
 
 def test_input_that_is_not_authored_has_the_type_of_its_definition(stage):
-    pytest.importorskip("_patina")
     overrides.apply(stage, ["/m/s.clearcoat=1", "/m.emissiveColor=1,2,3"])
     assert value(stage, "/m/s.inputs:clearcoat") == 1.0
     assert value(stage, "/m/s.inputs:emissiveColor") == (1, 2, 3)

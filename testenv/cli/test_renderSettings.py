@@ -7,11 +7,9 @@ import os
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-from patina.cli import denoiser, main, products  # noqa: E402
-import usda  # noqa: E402
+import _patina
+from patina.cli import denoiser, main, products
+import usda
 
 STAGE = usda.stage(
     usda.camera(horizontalAperture=20, verticalAperture=10, at=(0, 0, 10)),

@@ -8,11 +8,9 @@ import time
 
 import pytest
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-from patina.cli import checkpoints, interrupts, main, record, snapshots  # noqa: E402
-from usda import prim, stage  # noqa: E402
+import _patina
+from patina.cli import checkpoints, interrupts, main, record, snapshots
+from usda import prim, stage
 
 STAGE = stage(prim("Sphere", "ball"), prim("DomeLight", "dome"), up="")
 LONG = ("-w", "64", "--samples", "65536", "--maxDepth", "1", "--quiet")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import _patina
 import hydraBuild
 import stages
 from patina import experiment
@@ -10,7 +11,6 @@ from rendering import color
 from test_oneTruth import MODES, compare, render_with_hydra
 from usda import prim
 
-_patina = pytest.importorskip("_patina")
 SPLATS = prim("Xform", "Prototype",
     prim("ParticleField3DGaussianSplat", "splats",
          "%(point)s positions%(h)s = [(0, 0, 0), (0.5, 0.25, 1), (-0.5, -0.5, 0.5)]",

@@ -8,16 +8,14 @@ import os
 import numpy as np
 import pytest
 
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
-import byDesign  # noqa: E402
-import equivalence  # noqa: E402
-import floorLights  # noqa: E402
-import inProcess  # noqa: E402
-import outOfView  # noqa: E402
-import sameImage  # noqa: E402
-from usda import material  # noqa: E402
-import usda  # noqa: E402
+import byDesign
+import equivalence
+import floorLights
+import inProcess
+import outOfView
+import sameImage
+from usda import material
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 

@@ -10,14 +10,12 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdShade
 
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
-import equivalence  # noqa: E402
-import inProcess  # noqa: E402
-import pairs  # noqa: E402
-import sameImage  # noqa: E402
-from usda import material  # noqa: E402
-import usda  # noqa: E402
+import equivalence
+import inProcess
+import pairs
+import sameImage
+from usda import material
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 

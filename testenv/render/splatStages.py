@@ -3,10 +3,11 @@
 
 The closed form is written from UsdVol's schema and the papers, in double precision, and shares nothing with the renderer."""
 import numpy as np
-from pxr import Gf, Usd, UsdGeom, UsdLux, UsdShade, UsdVol, Vt
+from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdShade, UsdVol, Vt
 from scipy.spatial.transform import Rotation
 from scipy.special import factorial, lpmv
 
+COLOR, FLOAT = Sdf.ValueTypeNames.Color3f, Sdf.ValueTypeNames.Float
 CUT = 1 / 1024  # shaders/lib/splat.glsl: kernels end where their alpha is that
 END = 1e-4  # and rays where so little is left
 DC = 0.5 * np.sqrt(1 / np.pi)  # of the harmonic of degree 0
@@ -144,7 +145,8 @@ def floor(stage, path="/floor", half=5.0, z=0.0, shader="ND_oren_nayar_diffuse_b
     lobe.SetShaderId(shader)
     for name, (type_, value) in inputs.items():
         lobe.CreateInput(name, type_).Set(value)
-    surface.CreateInput("bsdf", lobe.CreateOutput("out", _TOKEN).GetTypeName()).ConnectToSource(lobe.ConnectableAPI(), "out")
+    lobe.CreateOutput("out", Sdf.ValueTypeNames.Token)
+    surface.CreateInput("bsdf", Sdf.ValueTypeNames.Token).ConnectToSource(lobe.ConnectableAPI(), "out")
     material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "out")
     UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
     return mesh
@@ -162,12 +164,6 @@ def dome(stage, path="/dome"):
     light = UsdLux.DomeLight.Define(stage, path)
     light.CreateIntensityAttr(1.0)
     return light
-
-
-from pxr import Sdf  # noqa: E402
-
-_TOKEN = Sdf.ValueTypeNames.Token
-COLOR, FLOAT = Sdf.ValueTypeNames.Color3f, Sdf.ValueTypeNames.Float
 
 
 def sharp_image(stage, folder, pixels=32, samples=1, settings=(), aovs=("color", "alpha"), backend="embree"):

@@ -8,8 +8,6 @@ from patina import experiment
 from usdaText import render_text
 from usda import camera, floor, prim
 
-pytest.importorskip("pxr.Usd")
-pytest.importorskip("_patina")
 
 # Neither whole numbers, nor such that floats have so far away: the spacing of floats is 1/128 there.
 FAR = (100000.3337, 12.1, 50000.1234)

@@ -5,7 +5,6 @@ Eight seeds a side. The 51 means of tiles and of the whole, in three channels, m
 degrees of freedom that Welch's test has at least, a significance of 0.003 over all, for seeds that are fixed.
 """
 import numpy as np
-import pytest
 
 from usdaText import render_text
 from usda import camera, floor, material, prim
@@ -80,7 +79,6 @@ def _means(stage):
 
 
 def test_instances_light_as_one_mesh_of_them_does():
-    pytest.importorskip("pxr")
     instances, one = (_means(stage) for stage in _stages())
     error = np.sqrt((instances.var(axis=0, ddof=1) + one.var(axis=0, ddof=1)) / SEEDS)
     assert (one.mean(axis=0) > 0.0).all()

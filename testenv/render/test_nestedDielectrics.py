@@ -8,10 +8,8 @@ How many pixels may choose otherwise is chosen, not derived: an ior that is not 
 import numpy as np
 import pytest
 
-pytest.importorskip("_patina")
-
-from rendering import color, patina, record  # noqa: E402
-import usda  # noqa: E402
+from rendering import color, patina, record
+import usda
 
 GLASS, WATER, ICE = 1.5, 1.33, 1.31
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import _patina
 from patina.experiment import draw
 
 PATCH = """int uVertexCount = 3  int vVertexCount = 2  int uOrder = 3  int vOrder = 2
@@ -115,8 +116,6 @@ def test_what_is_broken_is_named(read):
 def test_both_back_ends_draw_them(read):
     """A patch, tetrahedra and both kinds of curves, each in its quarter of a small image, are there in both. A square is cut
     out of the patch; of a second one nothing is left."""
-    import _patina
-
     reading = read("""def Camera "cam" { token projection = "orthographic"
         float horizontalAperture = 40  float verticalAperture = 40
         double3 xformOp:translate = (0, 0, 9)  uniform token[] xformOpOrder = ["xformOp:translate"] }

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import _patina
 from patina.experiment import draw
 
 
@@ -166,8 +167,6 @@ def test_accelerations_bend_the_way_through_the_shutter(read):
 
 def test_colors_of_faces_show_in_both_back_ends(read):
     """A cube's first face is the one along +z; its points along +x are blue. A sphere's last 20 faces are around its pole."""
-    import _patina
-
     colors = ", ".join(["(1, 0, 0)"] * 80 + ["(0, 1, 0)"] * 20)
     reading = read(f"""def Camera "cam" {{ token projection = "orthographic"
         float horizontalAperture = 40  float verticalAperture = 40

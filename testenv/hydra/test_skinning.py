@@ -64,9 +64,7 @@ def test_a_leg_bends(tmp_path, scene_index, bend, shutter, samples):
 @pytest.mark.parametrize("bend", [BEND, BENDING], ids=["still", "animated"])
 def test_bones_are_guides(tmp_path, scene_index, bend):
     """Both hosts show the same pyramid for the one bone, where guides are asked for."""
-    stage = tmp_path / "leg.usda"
-    stage.write_text(STAGE.replace(BEND, bend).replace("SHUTTER_OPEN", "0").replace("SHUTTER_CLOSE", "0"))
-    shot = stages.Shot(str(stage), tmp_path, width=8, purposes=("default", "render", "guide"))
+    shot = stages.shot_of(STAGE.replace(BEND, bend).replace("SHUTTER_OPEN", "0").replace("SHUTTER_CLOSE", "0"), tmp_path, width=8, purposes=("default", "render", "guide"))
     dump = tmp_path / "hydra.txt"
     hydraBuild.run_host(shot.stage, tmp_path / "hydra.exr", *shot.host_flags(), "--purposes", "default,render,guide",
                         "--dump", dump, scene_index=scene_index)

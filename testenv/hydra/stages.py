@@ -112,7 +112,7 @@ def _wrapped(opened, path, lens, framed, light, folder):
     rows = ", ".join("(" + ", ".join(row.split()) + ")" for row in lens["transform"].split(","))
     if framed:
         names = ("focalLength", "focusDistance", "horizontalAperture", "verticalAperture")
-        text += usda.camera(name="framingCamera", clippingRange=f"({lens['clipNear']}, {lens['clipFar']})", matrix=f"( {rows} )",
+        text += usda.camera(name="framingCamera", clippingRange=(lens["clipNear"], lens["clipFar"]), matrix=f"( {rows} )",
                             **{name: lens[name] for name in names})
     out = os.path.join(str(folder), os.path.basename(path).rsplit(".", 1)[0] + "Wrapped.usda")
     with open(out, "w", encoding="utf-8") as file:

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import hydraBuild
-from glowingTiles import COLORS, TILE, WIDTH, looks, pictures
+from glowingTiles import COLORS, WIDTH, looks, pictures, tile
 import usda
 
 pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_usdrecord(),
@@ -16,13 +16,13 @@ def stage_of(*lines):
     return usda.stage(
         usda.camera(flat=(200, 50), clippingRange=(1, 100), at=(0, 0, 20)),
         usda.prim("Xform", "World",
-            usda.prim("Xform", "a", TILE % "a", at=(-7.5, 0, 0)),
-            usda.prim("Xform", "b", TILE % "b", at=(-2.5, 0, 0)),
+            usda.prim("Xform", "a", tile("a"), at=(-7.5, 0, 0)),
+            usda.prim("Xform", "b", tile("b"), at=(-2.5, 0, 0)),
             usda.prim("", "c", meta=("inherits = </asset>", "instanceable = true"), at=(2.5, 0, 0)),
-            usda.prim("PointInstancer", "d", "rel prototypes = </World/d/tile>", TILE % "d", protoIndices=[0],
+            usda.prim("PointInstancer", "d", "rel prototypes = </World/d/tile>", tile("d"), protoIndices=[0],
                       positions=[(7.5, 0, 0)]),
             looks()),
-        usda.prim("Xform", "asset", TILE % "c", specifier="class"),
+        usda.prim("Xform", "asset", tile("c"), specifier="class"),
         usda.prim("Scope", "Render",
             usda.prim("RenderSettings", "main", "uniform int2 resolution = (40, 10)", "int patina:samples = 4"),
             usda.prim("RenderPass", "pass", "rel renderSource = </Render/main>", *lines,

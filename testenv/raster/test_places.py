@@ -14,7 +14,6 @@ import equivalence
 import inProcess
 import pairs
 import sameImage
-from usda import material
 import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
@@ -82,9 +81,7 @@ def test_bumps_of_polygons_stand_in_the_world(tmp_path):
 
 def matte(path):
     """Binds a material of one lobe to all prims: the albedo of the usual surface takes a minute to compile in software."""
-    text = material("matte", {
-        "lobe": ("ND_oren_nayar_diffuse_bsdf", {"color": (0.6, 0.5, 0.4)}),
-        "surface": ("ND_surface", {"bsdf": "<lobe>"})})
+    text = usda.lobe("matte", "oren_nayar_diffuse_bsdf", color=(0.6, 0.5, 0.4))
     with open(os.path.join(os.path.dirname(path), "matte.usda"), "w", encoding="utf-8") as file:
         file.write("#usda 1.0\n" + text)
     stage = Usd.Stage.Open(path)

@@ -121,34 +121,16 @@ def test_a_disk_that_is_full_for_textures_names_the_texture(stage, tmp_path, cap
     assert f"cannot write '{tmp_path / 'out_world_looks_one_base_color.png'}'" in said and len(said.splitlines()) == 1
 
 
-MATERIAL = """
-        def Material "{}"
-        {{
-            token outputs:surface.connect = <{}/s.outputs:surface>
-            def Shader "s"
-            {{
-                uniform token info:id = "UsdPreviewSurface"
-                color3f inputs:diffuseColor.connect = <{}/t.outputs:rgb>
-                token outputs:surface
-            }}
-            def Shader "t"
-            {{
-                uniform token info:id = "UsdUVTexture"
-                asset inputs:file = @./{}@
-                float3 outputs:rgb
-            }}
-        }}
-"""
-
-
 def _of_materials(folder, paths, file="paint.png"):
     """:returns: a stage of such materials; the second one's texture is darker"""
-    text = "#usda 1.0\n"
+    scopes = {}
     for i, path in enumerate(paths):
         scope, name = path.strip("/").split("/")
-        text += f'def Scope "{scope}"\n{{{MATERIAL.format(name, path, path, f"{i}{file}")}}}\n'
+        scopes.setdefault(scope, []).append(usda.material(name, {
+            "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}), "t": ("UsdUVTexture", {"file": f"./{i}{file}"})},
+            inside=f"/{scope}", surface="s"))
         _patina.write_image(str(folder / f"{i}{file}"), [[[0.5 - 0.2 * i, 0.2, 0.1], [0.1, 0.2, 0.5]]] * 2)
-    (folder / "pair.usda").write_text(text.replace('}\ndef Scope "looks"\n{', "") if paths[0][:7] == paths[1][:7] else text)
+    (folder / "pair.usda").write_text(usda.stage(*(usda.prim("Scope", scope, *held) for scope, held in scopes.items()), up=""))
     return str(folder / "pair.usda")
 
 

@@ -4,21 +4,9 @@ import json
 
 import mtlx
 from patina.cli import main, materials
+import usda
 
-STAGE = """#usda 1.0
-def Material "lamp" {
-    token outputs:mtlx:surface.connect = </lamp/light.outputs:out>
-    def Shader "light" { uniform token info:id = "ND_point_light"
-        token outputs:out
-    }
-}
-def Material "red" {
-    token outputs:surface.connect = </red/s.outputs:surface>
-    def Shader "s" { uniform token info:id = "UsdPreviewSurface"
-        token outputs:surface
-    }
-}
-"""
+STAGE = usda.stage(usda.material("lamp", {"light": ("ND_point_light", {})}, surface="light"), usda.preview("red"), up="")
 
 
 def test_a_fallback_is_told_as_one(tmp_path, capsys):

@@ -113,10 +113,9 @@ def new_stage(*prims, lines=(), width=2.0, eye=(0, 0, 10), rotate=None, meters=1
     :param unit: factor of all lengths"""
     view = {"lens": lens} if lens else {"flat": (10 * width * unit, 10 * width * unit)}
     at = tuple((np.array(eye, float) * unit).tolist())
-    text = usda.stage(usda.camera(*lines, clippingRange=(near * unit, far * unit), at=at, turn=rotate, **view, **camera), *prims,
-                      metersPerUnit=meters)
+    seen = usda.camera(*lines, clippingRange=(near * unit, far * unit), at=at, turn=rotate, **view, **camera)
     stage = Usd.Stage.CreateInMemory()
-    stage.GetRootLayer().ImportFromString(text)
+    stage.GetRootLayer().ImportFromString(usda.stage(seen, *prims, metersPerUnit=meters))
     return stage
 
 

@@ -323,12 +323,13 @@ def test_instances_with_any_transform(tmp_path, backend):
 def test_motion_of_the_transform(tmp_path, backend, instanced):
     """A kernel that crosses the view while the shutter is open: the mean of its alpha over its way. Times are spread evenly,
     256 of them, so the standard error is below 0.5 / 16; the bound is five of these."""
-    prototype = usda.prim("Xform", "prototype", specifier="over" if instanced else "def")
-    stage = new_stage(prototype, *([copy("copy")] if instanced else []),
-                      lines=("double shutter:open = 0", "double shutter:close = 1"))
+    moving = copy("moving") if instanced else usda.prim("Xform", "moving")
+    stage = new_stage(moving, lines=("double shutter:open = 0", "double shutter:close = 1"))
     stage.SetStartTimeCode(0)
-    Cloud([0, 0, 0], 0.2, 0.8, 1.0).define(stage, "/prototype/splats")
-    operation = UsdGeom.Xform(stage.GetPrimAtPath("/copy" if instanced else "/prototype")).AddTranslateOp()
+    Cloud([0, 0, 0], 0.2, 0.8, 1.0).define(stage, "/prototype/splats" if instanced else "/moving/splats")
+    if instanced:
+        stage.GetPrimAtPath("/prototype").SetSpecifier(Sdf.SpecifierOver)
+    operation = UsdGeom.Xform(stage.GetPrimAtPath("/moving")).AddTranslateOp()
     for time, x in ((0, -0.5), (1, 0.5)):
         operation.Set(Gf.Vec3d(x, 0, 0), time)
     images, _ = sharp_image(stage, tmp_path, PIXELS, 256, backend=backend)

@@ -46,11 +46,9 @@ STAGES = {
 
 
 def alpha(folder, stage):
-    file, image = folder / "stage.usda", folder / "image.exr"
-    file.write_text(CAMERA + stage, encoding="utf-8")
-    inProcess.record(str(file), str(image), "--camera", "/camera", "-w", str(SIZE), "--samples", str(SAMPLES), "--backend",
-                     "raster", "--seed", "1")
-    return inProcess.pixels(str(image), "A")
+    image = inProcess.shot(folder, CAMERA + stage, "--camera", "/camera", "-w", SIZE, "--samples", SAMPLES, "--backend",
+                           "raster", "--seed", "1")
+    return inProcess.pixels(image, "A")
 
 
 @pytest.mark.parametrize("name", sorted(STAGES))

@@ -6,8 +6,9 @@ import os
 import numpy as np
 import pytest
 
-from rendering import color, patina, pixels, record, scene
+from rendering import color, patina, pixels, record, scene, shot
 from usda import ST, camera, material, preview, prim
+from usda import stage as stage_of
 
 HEAD = '#usda 1.0\n(\n    upAxis = "Y"\n)\n'
 CAMERA = camera(at=(0, 0, 5)) + prim("DomeLight", "dome", intensity=1)
@@ -154,9 +155,8 @@ def test_truncated_crate(tmp_path):
 
 
 def test_missing_sublayer_is_named_and_the_rest_rendered(tmp_path):
-    stage, image, out = tmp_path / "s.usda", tmp_path / "a.exr", tmp_path / "out.json"
-    stage.write_text('#usda 1.0\n(\n    subLayers = [@missingLayer.usda@]\n)\n' + CAMERA + quad())
-    record(stage, image, *TINY, f"--json={out}")
+    out, text = tmp_path / "out.json", stage_of(CAMERA, quad(), up="", subLayers="[@missingLayer.usda@]")
+    image = shot(tmp_path, text, *TINY, f"--json={out}")
     assert mentions(json.loads(out.read_text())["warnings"], "missingLayer.usda")
     assert color(image)[16, 16].max() > 0
 
@@ -186,10 +186,7 @@ def test_failed_render_keeps_the_image_that_was_there(tmp_path):
 
 
 def test_empty_stage_renders(tmp_path):
-    stage, image = tmp_path / "empty.usda", tmp_path / "a.exr"
-    stage.write_text("#usda 1.0\n")
-    record(stage, image, *TINY)
-    assert np.isfinite(pixels(image)).all()
+    assert np.isfinite(pixels(shot(tmp_path, "#usda 1.0\n", *TINY))).all()
 
 
 def test_nan_in_lights_and_transforms(tmp_path):

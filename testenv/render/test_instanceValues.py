@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from inProcess import needs_opengl
-from rendering import color, patina, record
+from rendering import color, patina, shot
 import usda
 
 HEAD = usda.stage(
@@ -53,10 +53,7 @@ def copies(primvars, bound=False):
 
 
 def render(folder, name, text, *arguments):
-    stage, image = folder / (name + ".usda"), folder / (name + ".exr")
-    stage.write_text(HEAD + text)
-    record(str(stage), str(image), "--imageWidth", "48", "--samples", "16", "--strict", *arguments)
-    return image
+    return shot(folder, HEAD + text, "--imageWidth", "48", "--samples", "16", "--strict", *arguments, name=name)
 
 
 def same(folder, primvars, *arguments, make=instanced, **more):

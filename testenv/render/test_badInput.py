@@ -155,7 +155,8 @@ def test_truncated_crate(tmp_path):
 
 
 def test_missing_sublayer_is_named_and_the_rest_rendered(tmp_path):
-    out, text = tmp_path / "out.json", stage_of(CAMERA, quad(), up="", subLayers="[@missingLayer.usda@]")
+    out = tmp_path / "out.json"
+    text = stage_of(CAMERA, quad(), up="", subLayers="[@missingLayer.usda@]")
     image = shot(tmp_path, text, *TINY, f"--json={out}")
     assert mentions(json.loads(out.read_text())["warnings"], "missingLayer.usda")
     assert color(image)[16, 16].max() > 0

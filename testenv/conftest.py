@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Collects the googletest programs of the build as pytest items, one for each test suite."""
+import glob
 import os
 import subprocess
 import sys
 
 import pytest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+sys.path += sorted(glob.glob(os.path.join(HERE, "*/")))  # tests import helpers of all rooms
 if os.environ.get("PATINA_BUILD_DIR"):  # tests run programs in other folders
     os.environ["PATINA_BUILD_DIR"] = os.path.abspath(os.environ["PATINA_BUILD_DIR"])
 
@@ -86,10 +89,3 @@ def pytest_collect_file(file_path, parent):
     if file_path.name == "googletest.txt":
         return _GoogleTests.from_parent(parent, path=file_path)
     return None
-
-
-def pytest_pycollect_makemodule(module_path):
-    """Tests may import helpers that lie beside them or beside this file."""
-    for folder in (str(module_path.parent), os.path.dirname(os.path.abspath(__file__))):
-        if folder not in sys.path:
-            sys.path.append(folder)

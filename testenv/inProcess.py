@@ -50,6 +50,14 @@ def record(stage, image, *arguments, check=True):
     return patina("record", stage, image, "--quiet", *arguments, check=check)
 
 
+def shot(folder, text, *arguments, name="image"):
+    """Writes a stage, NAME.usda in a folder, and renders it to NAME.exr. :returns: the path of the image"""
+    stage, image = (folder / f"{name}.{ending}" for ending in ("usda", "exr"))
+    stage.write_text(text, encoding="utf-8")
+    record(stage, image, *arguments)
+    return image
+
+
 class Stage:
     """A stage that is read once and rendered often: a renderer, and images of several seeds."""
 

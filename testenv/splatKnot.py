@@ -15,11 +15,12 @@ if __name__ == "__main__":
     checkout.enter()
 
 import numpy as np
-from pxr import Gf, Usd, UsdGeom, UsdLux, UsdShade
+from pxr import Gf, Usd
 from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "render"))
-from splatStages import COLOR, DC, FLOAT, Cloud  # noqa: E402
+import usda  # noqa: E402
+from splatStages import DC, Cloud  # noqa: E402
 
 SUN = np.array([0.4, 0.8, 0.45])
 
@@ -53,40 +54,18 @@ def knot(count):
 
 def write(path, count=10000, alone=False):
     """:param alone: without floor and lights"""
-    stage = Usd.Stage.CreateNew(path)
-    UsdGeom.SetStageUpAxis(stage, "Y")
-    camera = UsdGeom.Camera.Define(stage, "/camera")
-    camera.CreateFocalLengthAttr(40.0)
-    camera.CreateHorizontalApertureAttr(32.0)
-    camera.CreateVerticalApertureAttr(20.0)
-    camera.CreateClippingRangeAttr(Gf.Vec2f(0.1, 100))
-    view = Gf.Matrix4d().SetLookAt(Gf.Vec3d(0, 1.9, 4.6), Gf.Vec3d(0, -0.12, 0), Gf.Vec3d(0, 1, 0))
-    UsdGeom.Xformable(camera).MakeMatrixXform().Set(view.GetInverse())
+    view = Gf.Matrix4d().SetLookAt(Gf.Vec3d(0, 1.9, 4.6), Gf.Vec3d(0, -0.12, 0), Gf.Vec3d(0, 1, 0)).GetInverse()
+    camera = usda.camera(lens=(40, 32, 20), clippingRange=(0.1, 100), matrix=tuple(tuple(row) for row in view))
+    surroundings = () if alone else (
+        usda.floor("floor", 6, y=-0.75, scheme="", bind="stone"),
+        usda.material("stone", {"surface": ("ND_standard_surface_surfaceshader", {
+            "base_color": (0.35, 0.37, 0.4), "specular_roughness": 0.06, "specular_IOR": 1.8})}),
+        usda.prim("DomeLight", "sky", intensity=0.35, color=(0.75, 0.85, 1)),
+        usda.prim("DistantLight", "sun", intensity=2.2, angle=3, turn=(-55, 35, 0)))
+    stage = Usd.Stage.CreateInMemory()
+    stage.GetRootLayer().ImportFromString(usda.stage(camera, *surroundings))
     knot(count).define(stage, "/knot", half=True)
-    if not alone:
-        _surround(stage)
-    stage.Save()
-
-
-def _surround(stage):
-    floor = UsdGeom.Mesh.Define(stage, "/floor")
-    floor.CreatePointsAttr([(-6, -0.75, 6), (6, -0.75, 6), (6, -0.75, -6), (-6, -0.75, -6)])
-    floor.CreateFaceVertexCountsAttr([4])
-    floor.CreateFaceVertexIndicesAttr([0, 1, 2, 3])
-    material = UsdShade.Material.Define(stage, "/stone")
-    shader = UsdShade.Shader.Define(stage, "/stone/surface")
-    shader.SetShaderId("ND_standard_surface_surfaceshader")
-    for name, kind, value in (("base_color", COLOR, (0.35, 0.37, 0.4)), ("specular_roughness", FLOAT, 0.06),
-                              ("specular_IOR", FLOAT, 1.8)):
-        shader.CreateInput(name, kind).Set(value)
-    material.CreateSurfaceOutput("mtlx").ConnectToSource(shader.ConnectableAPI(), "out")
-    UsdShade.MaterialBindingAPI.Apply(floor.GetPrim()).Bind(material)
-    sky, sun = UsdLux.DomeLight.Define(stage, "/sky"), UsdLux.DistantLight.Define(stage, "/sun")
-    sky.CreateIntensityAttr(0.35)
-    sky.CreateColorAttr(Gf.Vec3f(0.75, 0.85, 1))
-    sun.CreateIntensityAttr(2.2)
-    sun.CreateAngleAttr(3.0)
-    UsdGeom.Xformable(sun).AddRotateXYZOp().Set((-55, 35, 0))
+    stage.GetRootLayer().Export(path)
 
 
 if __name__ == "__main__":

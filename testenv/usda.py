@@ -11,7 +11,9 @@ TYPES = {  # of attributes that are no floats
     "faceVertexCounts": "int[]", "faceVertexIndices": "int[]", "curveVertexCounts": "int[]", "protoIndices": "int[]",
     "subdivisionScheme": "uniform token", "doubleSided": "uniform bool", "type": "uniform token", "basis": "uniform token",
     "axis": "uniform token", "visibility": "token", "purpose": "uniform token", "filePath": "asset", "fieldName": "token",
-    "sourceName": "string", "dataType": "token", "productName": "token", "resolution": "int2"}
+    "sourceName": "string", "dataType": "token", "productName": "token", "resolution": "int2", "normals": "normal3f[]",
+    "primvars:st": "texCoord2f[]", "scales": "float3[]", "opacities": "float[]",
+    "radiance:sphericalHarmonicsCoefficients": "float3[]"}
 INPUTS = {"color": "color3f", "normalize": "bool", "file": "asset", "enableColorTemperature": "bool"}  # of lights and shaders
 WHOLE = ("useSpecularWorkflow", "index")  # inputs of shaders that are whole numbers
 OUTPUTS = {"UsdPreviewSurface": "token surface", "UsdUVTexture": "float3 rgb", "UsdPrimvarReader_float2": "float2 result",
@@ -160,3 +162,15 @@ def lobe(name, category, inside="", **inputs):
 def preview(name, inside="", **inputs):
     """A material of UsdPreviewSurface."""
     return material(name, {"surface": ("UsdPreviewSurface", inputs)}, inside)
+
+
+def fill(layer, path, **arrays):
+    """Sets attributes of a prim to numpy's arrays: large ones take long as text."""
+    from pxr import Sdf, Vt
+
+    spec = layer.GetPrimAtPath(path)
+    for name, values in arrays.items():
+        made = spec.attributes.get(name) or Sdf.AttributeSpec(spec, name, Sdf.ValueTypeNames.Find(TYPES[name]))
+        whole = TYPES[name] == "int[]"
+        kind = f"Vec{values.shape[1]}f" if values.ndim == 2 else "Int" if whole else "Float"
+        made.default = getattr(Vt, kind + "Array").FromNumpy(values.astype("int32" if whole else "float32"))

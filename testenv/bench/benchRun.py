@@ -10,8 +10,11 @@ import tempfile
 
 import numpy as np
 
-import pathWorker
-from patina.cli import outputs
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path += [os.path.join(HERE, "..", folder) for folder in ("", "hydra", "view")]  # benchmarks use what tests there do
+
+import pathWorker  # noqa: E402
+from patina.cli import outputs  # noqa: E402
 
 
 class Parser(argparse.ArgumentParser):

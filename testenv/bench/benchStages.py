@@ -3,77 +3,54 @@
 import math
 import os
 
-HEAD = """#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float2 clippingRange = (0.1, 1000)
-    float focalLength = 35
-    float horizontalAperture = 32
-    float verticalAperture = 24
-    double3 xformOp:translate = (0, 3, 9)
-    float xformOp:rotateX = -18
-    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]
-}
-"""
+import usda
+
+CAMERA = usda.camera(lens=(35, 32, 24), clippingRange=(0.1, 1000), at=(0, 3, 9), rotateX=-18)
 
 
-def _list(values):
-    return "[" + ", ".join(values) + "]"
+def _places(count, width):
+    """:returns: so many places on a square grid, at some heights, and how many are in a row"""
+    side = math.ceil(math.sqrt(count))
+    return [((k % side / side - 0.5) * width, 0.3 + 0.4 * ((k * 7919) % 13) / 13.0, (k // side / side - 0.5) * width)
+            for k in range(count)], side
 
 
-def _grid(name, columns, rows, width, depth, height, place=(0.0, 0.0, 0.0)):
-    """A mesh of quads: a wavy cloth in the plane y = 0. :returns: its text"""
+def _rounded(points):
+    return [tuple(float(f"{x:.5g}") for x in point) for point in points]
+
+
+def _grid(name, cells, size, height, place=(0.0, 0.0, 0.0)):
+    """A wavy cloth of cells x cells quads in the plane y = 0."""
     points = []
-    for j in range(rows + 1):
-        for i in range(columns + 1):
-            x, z = (i / columns - 0.5) * width, (j / rows - 0.5) * depth
+    for j in range(cells + 1):
+        for i in range(cells + 1):
+            x, z = (i / cells - 0.5) * size, (j / cells - 0.5) * size
             y = height * math.sin(3.1 * x) * math.cos(2.3 * z + x)
-            points.append(f"({x + place[0]:.5g}, {y + place[1]:.5g}, {z + place[2]:.5g})")
-    step = columns + 1
-    faces = [f"{j * step + i}, {j * step + i + step}, {j * step + i + step + 1}, {j * step + i + 1}"
-             for j in range(rows) for i in range(columns)]
-    return f"""def Mesh "{name}"
-{{
-    int[] faceVertexCounts = {_list(["4"] * (columns * rows))}
-    int[] faceVertexIndices = {_list(faces)}
-    point3f[] points = {_list(points)}
-    uniform token subdivisionScheme = "none"
-}}
-"""
+            points.append((x + place[0], y + place[1], z + place[2]))
+    firsts = [j * (cells + 1) + i for j in range(cells) for i in range(cells)]
+    return usda.mesh(name, _rounded(points), faces=[(k, k + cells + 1, k + cells + 2, k + 1) for k in firsts])
+
+
+FLOOR = _grid("floor", 2, 40.0, 0.0)
 
 
 def one_mesh(quads_a_side):
     """One mesh of twice as many triangles as the square of its size."""
-    return HEAD + _grid("cloth", quads_a_side, quads_a_side, 12.0, 12.0, 0.25)
+    return usda.stage(CAMERA, _grid("cloth", quads_a_side, 12.0, 0.25))
 
 
 def many_meshes(count):
     """As many meshes of 32 triangles each, over a floor."""
-    side = math.ceil(math.sqrt(count))
-    text = HEAD + _grid("floor", 2, 2, 40.0, 40.0, 0.0)
-    for k in range(count):
-        place = ((k % side / side - 0.5) * 10.0, 0.3 + 0.4 * ((k * 7919) % 13) / 13.0, (k // side / side - 0.5) * 10.0)
-        text += _grid(f"patch{k}", 4, 4, 8.0 / side, 8.0 / side, 0.05, place)
-    return text
+    places, side = _places(count, 10.0)
+    return usda.stage(CAMERA, FLOOR, *(_grid(f"patch{k}", 4, 8.0 / side, 0.05, place) for k, place in enumerate(places)))
 
 
 def instances(count):
     """As many instances of a mesh of 3200 triangles, without rotations, over a floor."""
-    side = math.ceil(math.sqrt(count))
-    places = [f"({(k % side / side - 0.5) * 12.0:.5g}, {0.3 + 0.4 * ((k * 7919) % 13) / 13.0:.5g}, "
-              f"{(k // side / side - 0.5) * 12.0:.5g})" for k in range(count)]
-    prototype = _grid("leaf", 40, 40, 8.0 / side, 8.0 / side, 0.05)
-    return HEAD + _grid("floor", 2, 2, 40.0, 40.0, 0.0) + f"""def PointInstancer "field"
-{{
-    int[] protoIndices = {_list(["0"] * count)}
-    point3f[] positions = {_list(places)}
-    rel prototypes = </field/leaf>
-    {prototype}
-}}
-"""
+    places, side = _places(count, 12.0)
+    return usda.stage(CAMERA, FLOOR, usda.prim(
+        "PointInstancer", "field", "rel prototypes = </field/leaf>", _grid("leaf", 40, 8.0 / side, 0.05),
+        protoIndices=[0] * count, positions=_rounded(places)))
 
 
 # name -> text of the stage

@@ -13,13 +13,11 @@ import subprocess
 import sys
 import tempfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path += [HERE, os.path.join(HERE, "..", "hydra")]
-
-import benchRun  # noqa: E402
-import hydraBuild  # noqa: E402
-import viewportBench  # noqa: E402
-from patina.cli import outputs  # noqa: E402
+import benchRun
+import hydraBuild
+import inProcess
+import viewportBench
+from patina.cli import outputs
 
 STAGES = {"diffuseBox": "/World/camera", **{name: row[0] for name, row in viewportBench.STAGES.items()
                                            if name != viewportBench.MADE}}
@@ -71,7 +69,7 @@ def main(arguments):
         sys.exit(missing)
     results = {}
     for name in options.stages or STAGES:
-        stage = os.path.join(viewportBench.SCENES, name + ".usda")
+        stage = inProcess.scene(name)
         results[name] = found = {}
         for renderer in ("rasterizer", "Storm"):
             took = milliseconds(stage, STAGES[name], renderer, options)

@@ -10,15 +10,12 @@ orientation.
 """
 import os
 import statistics
-import sys
 import tempfile
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "hydra"))
-
-import benchRun  # noqa: E402
-import benchStages  # noqa: E402
-import hydraBuild  # noqa: E402
-from patina.cli import outputs  # noqa: E402
+import benchRun
+import benchStages
+import hydraBuild
+from patina.cli import outputs
 
 RENDERERS = {  # plugin, how it calls the settings of the workload
     "Patina": ("HdPatinaRendererPlugin", {"samples": "samples", "occlusion": ["integrator=ambientOcclusion",

@@ -5,118 +5,93 @@ import sys
 import time
 
 import numpy as np
-from pxr import Gf, Sdf, Usd, UsdGeom, UsdLux, UsdShade, Vt
+from pxr import Gf, Sdf
 
-sys.path.append(os.path.dirname(os.path.abspath(__file__)))  # the launcher keeps folders of scripts out
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path += [HERE, os.path.join(HERE, "..")]  # the launcher keeps folders of scripts out
 import pathScenes  # noqa: E402
 import pathWorker  # noqa: E402
+import usda  # noqa: E402
 
 
-def matrix(rows):
-    return Gf.Matrix4d(*np.asarray(rows, float).ravel().tolist())
+def rows(matrix):
+    """:returns: a matrix as tuples"""
+    return tuple(map(tuple, np.asarray(matrix, float).tolist()))
 
 
-def material(stage, name, given):
-    made = UsdShade.Material.Define(stage, f"/materials/{name}")
-    kinds = Sdf.ValueTypeNames
-
-    def shader(node, identity, **inputs):
-        """:param inputs: type and value, or output and shader that is connected"""
-        shaded = UsdShade.Shader.Define(stage, f"/materials/{name}/{node}")
-        shaded.CreateIdAttr(identity)
-        for key, (kind, value) in inputs.items():
-            if isinstance(value, UsdShade.Shader):
-                shaded.CreateInput(key, kinds.Token).ConnectToSource(value.ConnectableAPI(), kind)
-            else:
-                shaded.CreateInput(key, kind).Set(value)
-        return shaded
-
-    def mtlx(surface):
-        made.CreateSurfaceOutput("mtlx").ConnectToSource(surface.ConnectableAPI(), "out")
-        return made
-
+def material(name, given):
+    """:returns: its text"""
     if "glass" in given:
-        alpha = given["roughness"] ** 2
-        lobe = shader("lobe", "ND_dielectric_bsdf", ior=(kinds.Float, given["glass"]), roughness=(kinds.Float2, (alpha, alpha)),
-                      scatter_mode=(kinds.String, "RT"))
-        return mtlx(shader("surface", "ND_surface", bsdf=("out", lobe)))
+        return usda.lobe(name, "dielectric_bsdf", "/materials", ior=given["glass"], roughness=(given["roughness"] ** 2,) * 2,
+                         scatter_mode="RT")
     if "diffuse" in given:
-        lobe = shader("lobe", "ND_oren_nayar_diffuse_bsdf", color=(kinds.Color3f, tuple(given["diffuse"])))
-        return mtlx(shader("surface", "ND_surface", bsdf=("out", lobe)))
+        return usda.lobe(name, "oren_nayar_diffuse_bsdf", "/materials", color=tuple(given["diffuse"]))
     color, roughness, metallic = tuple(given["color"]), given["roughness"], given["metallic"]
     if given.get("standard"):
-        return mtlx(shader("surface", "ND_standard_surface_surfaceshader", base=(kinds.Float, 1.0),
-                           base_color=(kinds.Color3f, color), metalness=(kinds.Float, metallic),
-                           specular_roughness=(kinds.Float, roughness)))
-    surface = shader("surface", "UsdPreviewSurface", diffuseColor=(kinds.Color3f, color),
-                     roughness=(kinds.Float, roughness), metallic=(kinds.Float, metallic))
-    if given["image"]:
-        place = shader("st", "UsdPrimvarReader_float2", varname=(kinds.String, "st"))
-        image = shader("image", "UsdUVTexture", file=(kinds.Asset, given["image"]))
-        image.CreateInput("st", kinds.Float2).ConnectToSource(place.ConnectableAPI(), "result")
-        surface.GetInput("diffuseColor").ConnectToSource(image.ConnectableAPI(), "rgb")
-    made.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "surface")
-    return made
+        return usda.material(name, {"surface": ("ND_standard_surface_surfaceshader", {
+            "base": 1.0, "base_color": color, "metalness": metallic, "specular_roughness": roughness})}, "/materials")
+    if not given["image"]:
+        return usda.preview(name, "/materials", diffuseColor=color, roughness=roughness, metallic=metallic)
+    return usda.material(name, {
+        "surface": ("UsdPreviewSurface", {"color3f diffuseColor": "<image>", "roughness": roughness, "metallic": metallic}),
+        "image": ("UsdUVTexture", {"file": given["image"], "float2 st": "<st>"}),
+        "st": ("UsdPrimvarReader_float2", {"varname": "st"})}, "/materials")
 
 
-def mesh(stage, path, held, arrays, materials):
-    made, i = UsdGeom.Mesh.Define(stage, path), held["number"]
+def mesh(name, held):
+    """:returns: the text of a mesh without its points"""
+    normals = ['normal3f[] normals = [] (interpolation = "vertex")'] if held["smooth"] else []
+    return usda.prim("Mesh", name, *normals, st=[] if held["uv"] else None, bind=f"materials/{held['material']}",
+                     subdivisionScheme="none")
+
+
+def fill(layer, path, held, arrays):
+    """Gives a mesh its points."""
+    i = held["number"]
     points, triangles = arrays[f"points{i}"], arrays[f"triangles{i}"]
-    made.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(points))
-    made.CreateFaceVertexCountsAttr(Vt.IntArray.FromNumpy(np.full(len(triangles), 3, np.int32)))
-    made.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(triangles.ravel()))
-    made.CreateSubdivisionSchemeAttr("none")
+    usda.fill(layer, path, points=points, faceVertexCounts=np.full(len(triangles), 3), faceVertexIndices=triangles.ravel())
     if held["smooth"]:
         normals = np.zeros_like(points)
         corners = points[triangles]
         faces = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         for k in range(3):
             np.add.at(normals, triangles[:, k], faces)
-        made.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True),
-                                                                            1e-20)))
-        made.SetNormalsInterpolation("vertex")
+        usda.fill(layer, path, normals=normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-20))
     if held["uv"]:
-        UsdGeom.PrimvarsAPI(made).CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, "vertex").Set(
-            Vt.Vec2fArray.FromNumpy(arrays[f"uv{i}"]))
-    UsdShade.MaterialBindingAPI.Apply(made.GetPrim()).Bind(materials[held["material"]])
+        usda.fill(layer, path, **{"primvars:st": arrays[f"uv{i}"]})
 
 
 def write(folder):
     """:returns: the stage's file, and the scene's description"""
     scene, arrays = pathWorker.load(folder)
-    path = os.path.join(folder, "stage.usdc")
-    stage = Usd.Stage.CreateNew(path)
-    UsdGeom.SetStageUpAxis(stage, "Y")
-    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
-    materials = {name: material(stage, name, given) for name, given in scene["materials"].items()}
-    for name, held in scene["meshes"].items():
-        transforms = f"instances{held['number']}"
-        if transforms not in arrays:
-            mesh(stage, f"/meshes/{name}", held, arrays, materials)
-            continue
-        instancer = UsdGeom.PointInstancer.Define(stage, f"/instances/{name}")
-        mesh(stage, f"/instances/{name}/prototype", held, arrays, materials)
-        instancer.CreatePrototypesRel().SetTargets([f"/instances/{name}/prototype"])
-        places = arrays[transforms]
-        turns = [matrix(m).ExtractRotationQuat() for m in places]
-        instancer.CreateProtoIndicesAttr([0] * len(places))
-        instancer.CreatePositionsAttr([Gf.Vec3f(*m[3, :3].tolist()) for m in places])
-        instancer.CreateOrientationsAttr([Gf.Quath(q) for q in turns])
-    for i, (place, width, height, radiance) in enumerate(scene["rects"]):
-        light = UsdLux.RectLight.Define(stage, f"/lights/rect{i}")
-        light.CreateWidthAttr(width)
-        light.CreateHeightAttr(height)
-        light.CreateIntensityAttr(radiance)
-        light.AddTransformOp().Set(matrix(place))
+    places = {name: arrays.get(f"instances{held['number']}") for name, held in scene["meshes"].items()}
+    lights = [usda.prim("RectLight", f"rect{i}", width=width, height=height, intensity=radiance, matrix=rows(place))
+              for i, (place, width, height, radiance) in enumerate(scene["rects"])]
     if scene["sky"]:
-        UsdLux.DomeLight.Define(stage, "/lights/sky").CreateTextureFileAttr(scene["sky"])
+        lights.append(usda.prim("DomeLight", "sky", f"asset inputs:texture:file = @{scene['sky']}@"))
     eye, target, view = scene["camera"]
-    camera = UsdGeom.Camera.Define(stage, "/camera")
-    camera.CreateHorizontalApertureAttr(36.0)
-    camera.CreateVerticalApertureAttr(36.0 * scene["height"] / scene["width"])
-    camera.CreateFocalLengthAttr(18.0 / np.tan(np.radians(view) / 2.0))
-    camera.AddTransformOp().Set(matrix(pathScenes.facing(eye, target)))
-    stage.GetRootLayer().Save()
+    lens = (18.0 / np.tan(np.radians(view) / 2.0), 36.0, 36.0 * scene["height"] / scene["width"])
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    layer.ImportFromString(usda.stage(
+        usda.prim("", "materials", *(material(name, given) for name, given in scene["materials"].items())),
+        usda.prim("", "meshes", *(mesh(name, held) for name, held in scene["meshes"].items() if places[name] is None)),
+        usda.prim("", "instances", *(usda.prim("PointInstancer", name, f"rel prototypes = </instances/{name}/prototype>",
+                                               mesh("prototype", held), protoIndices=[0] * len(places[name]))
+                                     for name, held in scene["meshes"].items() if places[name] is not None)),
+        usda.prim("", "lights", *lights),
+        usda.camera(lens=lens, matrix=rows(pathScenes.facing(eye, target))),
+        metersPerUnit=1.0))
+    for name, held in scene["meshes"].items():
+        if places[name] is None:
+            fill(layer, f"/meshes/{name}", held, arrays)
+            continue
+        fill(layer, f"/instances/{name}/prototype", held, arrays)
+        usda.fill(layer, f"/instances/{name}", positions=places[name][:, 3, :3])
+        turns = [Gf.Quath(Gf.Matrix4d(*m.ravel().tolist()).ExtractRotationQuat()) for m in places[name]]
+        instancer = layer.GetPrimAtPath(f"/instances/{name}")
+        Sdf.AttributeSpec(instancer, "orientations", Sdf.ValueTypeNames.QuathArray).default = turns
+    path = os.path.join(folder, "stage.usdc")
+    layer.Export(path)
     return path, scene
 
 

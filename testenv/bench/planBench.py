@@ -9,16 +9,12 @@ ratio is a bound ("at most"). Where both end early, by seconds or by samples, th
 """
 import os
 import statistics
-import sys
 import time
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.append(os.path.join(HERE, ".."))
-
-import benchRun  # noqa: E402
-import inProcess  # noqa: E402
-from patina import experiment  # noqa: E402
-from patina.cli import outputs  # noqa: E402
+import benchRun
+import inProcess
+from patina import experiment
+from patina.cli import outputs
 
 # Below the folder of assets: public stages of others, of all kinds. The standard shader ball is ASWF's, the others are of the
 # USD working group.

@@ -8,17 +8,13 @@ buffers and shaders, ids and depths, shadow maps, shading, reading back. The dri
 """
 import os
 import statistics
-import sys
 import tempfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.append(os.path.join(HERE, "..", "hydra"))
+import benchRun
+import hydraBuild
+import inProcess
+from patina.cli import outputs
 
-import benchRun  # noqa: E402
-import hydraBuild  # noqa: E402
-from patina.cli import outputs  # noqa: E402
-
-SCENES = os.path.normpath(os.path.join(HERE, "..", "scenes"))
 CAMERA = "/World/camera"
 # Stage of testenv/scenes: what is edited, up to these numbers.
 STAGES = {
@@ -36,8 +32,9 @@ def measure(stage, size, edit, repeats, cold, backend):
     :raises SystemExit: with its reason when it cannot"""
     with tempfile.TemporaryDirectory() as folder:
         fresh = {"PATINA_CACHE": folder, "MESA_SHADER_CACHE_DIR": folder} if cold else {}
-        return benchRun.figures(stage, [os.path.join(HERE, "rasterTimes.py"), stage, f"{size[0]}x{size[1]}", edit, repeats,
-                                          backend], env=dict(os.environ, **fresh))
+        script = os.path.join(benchRun.HERE, "rasterTimes.py")
+        return benchRun.figures(stage, [script, stage, f"{size[0]}x{size[1]}", edit, repeats, backend],
+                                env=dict(os.environ, **fresh))
 
 
 def measure_storm(stage, size, edit, repeats):
@@ -77,7 +74,7 @@ def main(arguments):
     size = options.pixels
     results = {}
     for name in options.stages or STAGES:
-        stage = os.path.join(SCENES, name + ".usda")
+        stage = inProcess.scene(name)
         found = {"Patina": measure(stage, size, STAGES[name], max(1, options.repeats), options.cold, options.backend)}
         storm = None if options.noStorm else measure_storm(stage, size, STAGES[name], max(1, options.repeats))
         if storm:

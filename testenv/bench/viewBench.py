@@ -8,19 +8,16 @@ import sys
 import tempfile
 import time
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.append(os.path.join(HERE, "..", "view"))
+import benchRun
+import browser
+import inProcess
+from patina import experiment
+from patina.cli import outputs
 
-import benchRun  # noqa: E402
-import browser  # noqa: E402
-from patina import experiment  # noqa: E402
-from patina.cli import outputs  # noqa: E402
-
-SCENES = os.path.normpath(os.path.join(HERE, "..", "scenes"))
 # Name -> arguments of patina view.
 PAGES = {
-    "Cook-Torrance": [os.path.join(SCENES, "classic", "hematite.usda") + ":cookTorrance"],
-    "UsdPreviewSurface": [os.path.join(SCENES, "shaderball.usda") + ":coat"],
+    "Cook-Torrance": [inProcess.scene("classic/hematite") + ":cookTorrance"],
+    "UsdPreviewSurface": [inProcess.scene("shaderball") + ":coat"],
     "classic models": ["--demo", "classic"],
     "standard_surface": ["--demo", "layers"],
 }

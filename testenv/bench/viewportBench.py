@@ -14,14 +14,11 @@ import subprocess
 import sys
 import tempfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path += [HERE, os.path.join(HERE, "..", "hydra")]
+import benchRun
+import hydraBuild
+import inProcess
+from patina.cli import outputs
 
-import benchRun  # noqa: E402
-import hydraBuild  # noqa: E402
-from patina.cli import outputs  # noqa: E402
-
-SCENES = os.path.normpath(os.path.join(HERE, "..", "scenes"))
 RENDERERS = {  # plugin, settings
     "rasterizer": ("HdPatinaRendererPlugin", ("backend=raster", "samples=1")),
     "path tracer": ("HdPatinaRendererPlugin", ("backend=embree", "samples=1")),
@@ -152,7 +149,7 @@ def main(arguments):
         with tempfile.TemporaryDirectory() as folder:
             if wanted in STAGES:
                 camera, material, light = STAGES[wanted]
-                name, stage = wanted, made(folder, options) if wanted == MADE else os.path.join(SCENES, wanted + ".usda")
+                name, stage = wanted, made(folder, options) if wanted == MADE else inProcess.scene(wanted)
                 edits = {kind: edit for kind, edit in (("material", material), ("light", light)) if edit}
             elif ":" in wanted:
                 stage, camera = wanted.rsplit(":", 1)

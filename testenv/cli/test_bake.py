@@ -5,45 +5,22 @@ import os
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
+import _patina
+import inProcess
+import mtlx
+from patina.cli import bake, bakeOutput, main, materials
+import usda
 
-import inProcess  # noqa: E402
-from patina.cli import bake, bakeOutput, main, materials  # noqa: E402
-import usda  # noqa: E402
-
-PATTERNS = """<?xml version="1.0"?>
-<materialx version="1.39">
-  <texcoord name="uv" type="vector2"/>
-  <ramp4 name="paint" type="color3">
-    <input name="valuetl" type="color3" value="0.9, 0.2, 0.1"/>
-    <input name="valuetr" type="color3" value="0.02, 0.3, 0.8"/>
-    <input name="valuebl" type="color3" value="0.5, 0.5, 0.0"/>
-  </ramp4>
-  <place2d name="large" type="vector2">
-    <input name="texcoord" type="vector2" nodename="uv"/>
-    <input name="scale" type="vector2" value="0.25, 0.25"/>
-  </place2d>
-  <noise2d name="worn" type="float">
-    <input name="amplitude" type="float" value="0.3"/>
-    <input name="pivot" type="float" value="0.5"/>
-    <input name="texcoord" type="vector2" nodename="large"/>
-  </noise2d>
-  <bump name="bumps" type="vector3"><input name="height" type="float" nodename="worn"/></bump>
-  <standard_surface name="s" type="surfaceshader">
-    <input name="base_color" type="color3" nodename="paint"/>
-    <input name="specular_roughness" type="float" nodename="worn"/>
-    <input name="metalness" type="float" value="0.25"/>
-    <input name="coat" type="float" value="0.5"/>
-    <input name="emission" type="float" value="3"/>
-    <input name="emission_color" type="color3" nodename="paint"/>
-    <input name="normal" type="vector3" nodename="bumps"/>
-  </standard_surface>
-  <surfacematerial name="patterns" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="s"/>
-  </surfacematerial>
-</materialx>
-"""
+RAMP = {
+    "uv": ("texcoord vector2", {}),
+    "paint": ("ramp4 color3", {"valuetl": (0.9, 0.2, 0.1), "valuetr": (0.02, 0.3, 0.8), "valuebl": (0.5, 0.5, 0.0)})}
+PATTERNS = mtlx.document(RAMP, {
+    "large": ("place2d vector2", {"texcoord": "<uv>", "scale": (0.25, 0.25)}),
+    "worn": ("noise2d float", {"amplitude": 0.3, "pivot": 0.5, "texcoord": "<large>"}),
+    "bumps": ("bump vector3", {"height": "<worn>"}),
+    **mtlx.shader("patterns", inputs={
+        "base_color": "<paint>", "specular_roughness": "<worn>", "metalness": 0.25, "coat": 0.5, "emission": 3,
+        "emission_color": "<paint>", "normal": "<bumps>"})})
 
 
 @pytest.fixture
@@ -87,11 +64,7 @@ def test_textures_hold_what_the_translation_gives(document, tmp_path, target, ki
 
 def test_constant_inputs_stay_values(tmp_path):
     document = tmp_path / "plain.mtlx"
-    document.write_text("""<materialx version="1.39">
-      <standard_surface name="s" type="surfaceshader">
-        <input name="base" type="float" value="0.5"/>
-        <input name="metalness" type="float" value="1"/>
-      </standard_surface></materialx>""")
+    document.write_text(mtlx.document({"s": ("standard_surface", {"base": 0.5, "metalness": 1})}))
     out = tmp_path / "plain.usda"
     assert main.main(["bake", str(document), str(out), "--to", "UsdPreviewSurface"]) == 0
     assert sorted(os.listdir(tmp_path)) == ["plain.mtlx", "plain.usda"]
@@ -180,23 +153,18 @@ def test_wrong_usage(document, tmp_path, arguments, status, capsys):
 
 def test_what_cannot_be_baked(tmp_path, capsys):
     document = tmp_path / "bare.mtlx"
-    document.write_text("""<materialx version="1.39"><surface name="s" type="surfaceshader"/></materialx>""")
+    document.write_text(mtlx.document({"s": ("surface", {})}))
     assert main.main(["bake", str(document), str(tmp_path / "out.usda"), "--to", "gltf_pbr"]) == 1
     assert "no shading model" in capsys.readouterr().err
     assert not (tmp_path / "out.usda").exists()
 
 
 @pytest.mark.parametrize("inputs, mode, share", (
-    ('<input name="opacity" type="color3" value="0.25, 0.25, 0.25"/>', "presence", 0.25),
-    ('<input name="opacity" type="color3" nodename="paint"/>', "presence", None),
-    ('<input name="transmission" type="float" value="0.5"/>', "", 1.0),
-    ("", "", 1.0)))
+    ({"opacity": (0.25, 0.25, 0.25)}, "presence", 0.25), ({"opacity": "<paint>"}, "presence", None),
+    ({"transmission": 0.5}, "", 1.0), ({}, "", 1.0)))
 def test_glow_fades_with_the_opacity_of_standard_surface(tmp_path, inputs, mode, share):
     document = tmp_path / "glow.mtlx"
-    ramp = PATTERNS.partition('<texcoord')[2].partition('<place2d')[0]
-    document.write_text(f"""<materialx version="1.39"><texcoord{ramp}
-      <standard_surface name="s" type="surfaceshader"><input name="emission" type="float" value="0.5"/>{inputs}
-      </standard_surface></materialx>""")
+    document.write_text(mtlx.document(RAMP, {"s": ("standard_surface", {"emission": 0.5, **inputs})}))
     out = tmp_path / "glow.usda"
     assert main.main(["bake", str(document), str(out), "--to", "UsdPreviewSurface", "--resolution", "16"]) == 0
     assert (f'token inputs:opacityMode = "{mode}"' in out.read_text()) == bool(mode)

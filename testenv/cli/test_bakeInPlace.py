@@ -4,14 +4,12 @@ import os
 import resource
 
 import pytest
+from pxr import Sdf, Usd, UsdShade
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-from pxr import Sdf, Usd, UsdShade  # noqa: E402
-
-from patina.cli import main, materials, tryStage  # noqa: E402
-import usda  # noqa: E402
+import _patina
+import mtlx
+from patina.cli import main, materials, tryStage
+import usda
 
 STAGE = usda.stage(
     usda.prim("Xform", "world",
@@ -91,10 +89,7 @@ def test_any_format_and_files_that_are_new(name, stage, tmp_path):
     assert bake(stage, "/world/looks/one", out) == 0, "it is no layer of the stage, and none hides it"
     assert surface(reopened(out), "/one" if name == "new.usda" else "/world/looks/one") == "ND_gltf_pbr_surfaceshader"
     document = tmp_path / "m.mtlx"
-    document.write_text('<?xml version="1.0"?><materialx version="1.39"><standard_surface name="s" type="surfaceshader">'
-                        '<input name="base" type="float" value="0.5"/></standard_surface><surfacematerial name="m" '
-                        'type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>'
-                        "</surfacematerial></materialx>")
+    document.write_text(mtlx.document(mtlx.shader("m", inputs={"base": 0.5})))
     assert main.main(["bake", str(document), out, "--to", "gltf_pbr", "--in-place"]) == 0
     found = reopened(out)
     assert surface(found, "/m") == "ND_gltf_pbr_surfaceshader"
@@ -126,34 +121,16 @@ def test_a_disk_that_is_full_for_textures_names_the_texture(stage, tmp_path, cap
     assert f"cannot write '{tmp_path / 'out_world_looks_one_base_color.png'}'" in said and len(said.splitlines()) == 1
 
 
-MATERIAL = """
-        def Material "{}"
-        {{
-            token outputs:surface.connect = <{}/s.outputs:surface>
-            def Shader "s"
-            {{
-                uniform token info:id = "UsdPreviewSurface"
-                color3f inputs:diffuseColor.connect = <{}/t.outputs:rgb>
-                token outputs:surface
-            }}
-            def Shader "t"
-            {{
-                uniform token info:id = "UsdUVTexture"
-                asset inputs:file = @./{}@
-                float3 outputs:rgb
-            }}
-        }}
-"""
-
-
 def _of_materials(folder, paths, file="paint.png"):
     """:returns: a stage of such materials; the second one's texture is darker"""
-    text = "#usda 1.0\n"
+    scopes = {}
     for i, path in enumerate(paths):
         scope, name = path.strip("/").split("/")
-        text += f'def Scope "{scope}"\n{{{MATERIAL.format(name, path, path, f"{i}{file}")}}}\n'
+        scopes.setdefault(scope, []).append(usda.material(name, {
+            "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}), "t": ("UsdUVTexture", {"file": f"./{i}{file}"})},
+            inside=f"/{scope}", surface="s"))
         _patina.write_image(str(folder / f"{i}{file}"), [[[0.5 - 0.2 * i, 0.2, 0.1], [0.1, 0.2, 0.5]]] * 2)
-    (folder / "pair.usda").write_text(text.replace('}\ndef Scope "looks"\n{', "") if paths[0][:7] == paths[1][:7] else text)
+    (folder / "pair.usda").write_text(usda.stage(*(usda.prim("Scope", scope, *held) for scope, held in scopes.items()), up=""))
     return str(folder / "pair.usda")
 
 

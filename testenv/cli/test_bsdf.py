@@ -9,24 +9,12 @@ import sys
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
+import _patina
+import mtlx
+from patina.cli import main, materials
+import usda
 
-from patina.cli import main, materials  # noqa: E402
-import usda  # noqa: E402
-
-DIFFUSE = """<?xml version="1.0"?>
-<materialx version="1.39">
-  <oren_nayar_diffuse_bsdf name="diffuse" type="BSDF">
-    <input name="color" type="color3" value="0.5, 0.25, 0.125"/>
-  </oren_nayar_diffuse_bsdf>
-  <surface name="surface" type="surfaceshader">
-    <input name="bsdf" type="BSDF" nodename="diffuse"/>
-  </surface>
-  <surfacematerial name="matte" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="surface"/>
-  </surfacematerial>
-</materialx>
-"""
+DIFFUSE = mtlx.document(mtlx.lobe("matte", "oren_nayar_diffuse_bsdf", {"color": (0.5, 0.25, 0.125)}, node="diffuse"))
 STAGE = usda.stage(
     usda.preview("a", diffuseColor=(0.5, 0.5, 0.5)),
     usda.prim("Material", "b", meta=("inherits = </a>",)),
@@ -116,8 +104,7 @@ def test_explain(document, stage, capsys):
 
 def test_methods(capsys, tmp_path):
     path = tmp_path / "metal.mtlx"
-    path.write_text(DIFFUSE.replace("oren_nayar_diffuse_bsdf", "generalized_schlick_bsdf").replace(
-        'name="color" type="color3" value="0.5, 0.25, 0.125"', 'name="roughness" type="vector2" value="1, 1"'))
+    path.write_text(mtlx.document(mtlx.lobe("metal", "generalized_schlick_bsdf", {"roughness": (1, 1)})))
     (compensated,) = lines(capsys, "albedo", str(path))
     (single,) = lines(capsys, "albedo", str(path), "--method", "energyCompensation=none")
     assert single["albedo"][0] < 0.7 < 0.95 < compensated["albedo"][0]
@@ -133,10 +120,8 @@ def test_methods_are_listed_and_checked(document, capsys):
 
 def test_open_meanings_are_methods(capsys, tmp_path):
     path = tmp_path / "pane.mtlx"
-    path.write_text(DIFFUSE.replace("oren_nayar_diffuse_bsdf", "dielectric_bsdf").replace(
-        'name="color" type="color3" value="0.5, 0.25, 0.125"', 'name="scatter_mode" type="string" value="RT"').replace(
-        '<surface name', '<surface  name').replace('</surface>',
-                                                   '<input name="thin_walled" type="boolean" value="true" /></surface>'))
+    path.write_text(mtlx.document({"pane": ("dielectric_bsdf", {"scatter_mode": "RT"}),
+                                   **mtlx.shader("matte", "surface", {"bsdf": "<pane>", "thin_walled": True})}))
     assert main.main(["explain", str(path)]) == 0
     assert "method thinWalled = slab" in capsys.readouterr().out
     assert main.main(["explain", str(path), "--method", "thinWalled=solid"]) == 0
@@ -201,28 +186,14 @@ def test_raster_prints_as_embree_does(document, capsys, monkeypatch):
         np.testing.assert_allclose([float(x) for x in b.split()[1:4]], [float(x) for x in a.split()[1:4]], rtol=1e-5)
 
 
-IMAGES = """<?xml version="1.0"?>
-<materialx version="1.39">
-  <texcoord name="uv" type="vector2"/>
-  {images}
-  <oren_nayar_diffuse_bsdf name="diffuse" type="BSDF">
-    <input name="color" type="color3" nodename="{last}"/>
-  </oren_nayar_diffuse_bsdf>
-  <surface name="surface" type="surfaceshader">
-    <input name="bsdf" type="BSDF" nodename="diffuse"/>
-  </surface>
-  <surfacematerial name="matte" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="surface"/>
-  </surfacematerial>
-</materialx>
-"""
-IMAGE = """<image name="{name}" type="color3">
-    <input name="file" type="filename" value="{file}"/>
-    <input name="texcoord" type="vector2" nodename="uv"/>
-    <input name="uaddressmode" type="string" value="{wrap}"/>
-    <input name="vaddressmode" type="string" value="{wrap}"/>
-  </image>
-  """
+def write_images(path, nodes, last):
+    """A matte material of a node's colour."""
+    path.write_text(mtlx.document({"uv": ("texcoord vector2", {})}, nodes,
+                                  mtlx.lobe("matte", "oren_nayar_diffuse_bsdf", {"color": f"<{last}>"})))
+
+
+def image(file, wrap):
+    return "image color3", {"filename file": file, "texcoord": "<uv>", "uaddressmode": wrap, "vaddressmode": wrap}
 
 
 def _albedos(path, places):
@@ -243,7 +214,7 @@ def test_tiles_of_textures_on_the_driver(tmp_path):
         size = 8 if tile == 1001 else 4  # tiles need not be alike
         _patina.write_image(str(tmp_path / f"t.{tile}.exr"), np.full((size, size, 3), color, dtype=np.float32))
     path = tmp_path / "tiles.mtlx"
-    path.write_text(IMAGES.format(images=IMAGE.format(name="a", file="t.<UDIM>.exr", wrap="periodic"), last="a"))
+    write_images(path, {"a": image("t.<UDIM>.exr", "periodic")}, "a")
     places = [(0.5, 0.5), (1.5, 0.5), (0.5, 1.5), (1.5, 1.25), (2.0, 0.5), (2.5, 0.5), (-0.5, 0.5)]
     embree, raster, _ = _albedos(path, places)
     np.testing.assert_allclose(embree[:4], list(colors.values()), atol=1e-3)
@@ -252,22 +223,18 @@ def test_tiles_of_textures_on_the_driver(tmp_path):
 
 def test_more_textures_than_units_on_the_driver(tmp_path):
     wraps = ["periodic", "clamp", "mirror", "constant"]
-    nodes, last = "", ""
+    nodes, last = {}, "a0"
     for i in range(19):
         size = 16 if i < 15 else 8
         y, x = np.mgrid[0:size, 0:size] / size
         _patina.write_image(str(tmp_path / f"t{i}.exr"),
                             np.stack([x, y, np.full_like(x, i / 19)], axis=-1).astype(np.float32) / 19)
-        nodes += IMAGE.format(name=f"a{i}", file=f"t{i}.exr", wrap=wraps[i % 4])
+        nodes[f"a{i}"] = image(f"t{i}.exr", wraps[i % 4])
         if i:
-            nodes += f"""<add name="s{i}" type="color3">
-    <input name="in1" type="color3" nodename="{last}"/>
-    <input name="in2" type="color3" nodename="a{i}"/>
-  </add>
-  """
-        last = f"s{i}" if i else "a0"
+            nodes[f"s{i}"] = ("add color3", {"in1": f"<{last}>", "in2": f"<a{i}>"})
+            last = f"s{i}"
     path = tmp_path / "many.mtlx"
-    path.write_text(IMAGES.format(images=nodes, last=last))
+    write_images(path, nodes, last)
     # Texel centres of all sizes: where a filter would reach over an edge, the shared array has none.
     places = [(0.4375, 0.5625), (1.3125, 0.3125), (-0.6875, 1.6875)]
     embree, raster, warnings = _albedos(path, places)

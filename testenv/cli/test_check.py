@@ -6,29 +6,20 @@ import types
 
 import numpy as np
 import pytest
+import scipy.stats
 
-_patina = pytest.importorskip("_patina")
+import mtlx
+from patina import significance
+from patina.cli import binnedDensity, check, main
 
-from patina import significance  # noqa: E402
-from patina.cli import binnedDensity, check, main  # noqa: E402
-
-LAMBERT = """<materialx version="1.39">
-  <oren_nayar_diffuse_bsdf name="d" type="BSDF"><input name="color" type="color3" value="0.8, 0.8, 0.8"/>
-  </oren_nayar_diffuse_bsdf>
-  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="d"/></surface>
-  <surfacematerial name="matte" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
-  <standard_surface name="p" type="surfaceshader">
-    <input name="specular_roughness" type="float" value="0.3"/></standard_surface>
-  <surfacematerial name="plastic" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="p"/></surfacematerial>
-</materialx>"""
+DOCUMENT = mtlx.document(mtlx.lobe("matte", "oren_nayar_diffuse_bsdf", {"color": (0.8, 0.8, 0.8)}),
+                         mtlx.shader("plastic", inputs={"specular_roughness": 0.3}, node="p"))
 
 
 @pytest.fixture
 def document(tmp_path):
     path = tmp_path / "two.mtlx"
-    path.write_text(LAMBERT)
+    path.write_text(DOCUMENT)
     return str(path)
 
 
@@ -95,11 +86,10 @@ def test_reciprocity_is_only_reported_by_default(tilt, reciprocal, state):
 
 
 def test_tail_of_chi_squared():
-    scipy = pytest.importorskip("scipy.stats", reason="scipy is the reference")
     for freedom in (1, 2, 7, 100, 511):
         for x in (1e-3, 0.5, 1.0, 1.5, 3.0):
             value = freedom * x
-            expected = pytest.approx(scipy.chi2.sf(value, freedom), rel=1e-8, abs=1e-300)
+            expected = pytest.approx(scipy.stats.chi2.sf(value, freedom), rel=1e-8, abs=1e-300)
             assert significance.chi_squared_tail(value, freedom) == expected
 
 

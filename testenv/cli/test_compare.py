@@ -5,9 +5,8 @@ import json
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-from patina.cli import imageMetrics, main  # noqa: E402
+import _patina
+from patina.cli import imageMetrics, main
 
 
 @pytest.fixture

@@ -8,7 +8,9 @@ import sys
 import zipfile
 
 import pytest
+from pxr import Sdf
 
+import _patina
 from patina import experiment
 from patina.cli import bench, explain, frames, main, record
 from patina.cli.errors import UsageError
@@ -61,7 +63,6 @@ def test_the_most_frames_are_still_given():
                                     "/ball.elementSize=", "/ball.small=300", "/ball.small=-1", "/light.count=nan",
                                     "/ball.size=one", "/ball.size=1e9999,2"])
 def test_values_that_an_input_does_not_take(change, stage, tmp_path, capsys):
-    pytest.importorskip("_patina")
     status, said = run(capsys, "record", stage, str(tmp_path / "a.png"), "-w", "4", "--samples", "1", "--quiet", "--set",
                        change)
     assert status == 1 and change.partition("=")[0] in said and len(said.splitlines()) == 1
@@ -76,7 +77,6 @@ def test_threads_are_bounded(count, stage, tmp_path, capsys):
 
 def test_as_many_threads_as_are_let(stage, tmp_path):
     """Also where the bound of the command line is not asked: hosts have their own."""
-    _patina = pytest.importorskip("_patina")
     assert main.main(["record", stage, str(tmp_path / "a.png"), "-w", "4", "--samples", "1", "--quiet", "--threads",
                       "4096"]) == 0
     scene, film, renderer = _patina.Scene(), _patina.Film(), _patina.make_renderer()
@@ -98,7 +98,6 @@ def test_names_that_are_not_utf8(arguments, capsys):
 @pytest.mark.parametrize("flag", ["--json=o\udcff", "--out=o\udcff", "--table=o\udcff"])
 def test_charts_go_to_names_that_are_utf8(flag, tmp_path, monkeypatch, capsys):
     """Their stages may be called anything: one that cannot be opened is one of several."""
-    pytest.importorskip("_patina")
     monkeypatch.chdir(tmp_path)
     status, said = run(capsys, "chart", "--lobes", "--point", "directionalAlbedo", flag)
     assert status == 1 and "UTF-8" in said and len(said.splitlines()) == 1
@@ -168,8 +167,6 @@ def _package(path, name, content):
 @pytest.mark.parametrize("damage", range(8))
 def test_damaged_stages(damage, tmp_path, capsys):
     """Stages that pxr cannot read, and names that are no UTF-8, are told in one line or as warnings."""
-    pytest.importorskip("_patina")
-    Sdf = pytest.importorskip("pxr.Sdf")
     layer = Sdf.Layer.CreateNew(str(tmp_path / "good.usdc"))
     layer.ImportFromString(usda.stage(
         usda.prim("Sphere", "ballBallBall", "rel material:binding = </ballBallBall/look>",
@@ -209,7 +206,6 @@ def test_damaged_stages(damage, tmp_path, capsys):
                                        ["view", "m.mtlx", "-o", "a.html", "--controls", "{}.json"]])
 def test_only_regular_files_are_read(arguments, kind, tmp_path, monkeypatch, capsys):
     """A pipe would wait for ever, a device never end."""
-    pytest.importorskip("_patina")
     monkeypatch.chdir(tmp_path)
     (tmp_path / "m.mtlx").write_text('<?xml version="1.0"?><materialx version="1.39"/>')
     for ending in ("usda", "mtlx", "png", "json"):
@@ -221,7 +217,6 @@ def test_only_regular_files_are_read(arguments, kind, tmp_path, monkeypatch, cap
 def test_the_table_of_methods_keeps_names_and_texts_apart():
     from patina.cli import methods
 
-    _patina = pytest.importorskip("_patina")
     lines = [line.split() for line in methods._listing().splitlines()]
     words = [line[0] for line in lines if line]
     for point, names in _patina.choice_points():
@@ -247,8 +242,6 @@ def clips(fields):
     clips('string templateAssetPath = "./pipe.#.usda"\n double templateStartTime = 1\n double templateEndTime = 1\n '
           "double templateStride = 1")])
 def test_layers_that_are_pipes_are_not_waited_for(where, tmp_path, capsys):
-    pytest.importorskip("_patina")
-    pytest.importorskip("pxr.Sdf")
     pipes = [tmp_path / name for name in ("pipe.usda", "pipe.usdz", "pipe.1.usda")]
     for pipe in pipes:
         os.mkfifo(pipe)

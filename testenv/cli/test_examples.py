@@ -3,13 +3,9 @@
 import os
 
 import numpy as np
-import pytest
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-import inProcess  # noqa: E402
-from patina.cli import openStage  # noqa: E402
+import inProcess
+from patina.cli import openStage
 
 CHESS = os.path.join(os.path.dirname(os.path.dirname(inProcess.SCENES)), "docs", "examples", "chess.usda")
 

@@ -2,26 +2,11 @@
 """`explain` of what cannot be shown, and names of materials with namespaces."""
 import json
 
-import pytest
+import mtlx
+from patina.cli import main, materials
+import usda
 
-pytest.importorskip("_patina")
-
-from patina.cli import main, materials  # noqa: E402
-
-STAGE = """#usda 1.0
-def Material "lamp" {
-    token outputs:mtlx:surface.connect = </lamp/light.outputs:out>
-    def Shader "light" { uniform token info:id = "ND_point_light"
-        token outputs:out
-    }
-}
-def Material "red" {
-    token outputs:surface.connect = </red/s.outputs:surface>
-    def Shader "s" { uniform token info:id = "UsdPreviewSurface"
-        token outputs:surface
-    }
-}
-"""
+STAGE = usda.stage(usda.material("lamp", {"light": ("ND_point_light", {})}, surface="light"), usda.preview("red"), up="")
 
 
 def test_a_fallback_is_told_as_one(tmp_path, capsys):
@@ -42,15 +27,9 @@ def test_a_fallback_is_told_as_one(tmp_path, capsys):
 
 
 def test_names_may_hold_namespaces(tmp_path):
-    (tmp_path / "library.mtlx").write_text("""<materialx version="1.39" namespace="lib">
-        <standard_surface name="s" type="surfaceshader"/>
-        <surfacematerial name="gold" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
-        </surfacematerial></materialx>""")
+    (tmp_path / "library.mtlx").write_text(mtlx.document(mtlx.shader("gold"), attributes='namespace="lib"'))
     document = tmp_path / "main.mtlx"
-    document.write_text("""<materialx version="1.39"><xi:include href="library.mtlx"/>
-        <standard_surface name="s" type="surfaceshader"/>
-        <surfacematerial name="gold" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
-        </surfacematerial></materialx>""")
+    document.write_text(mtlx.document('<xi:include href="library.mtlx"/>', mtlx.shader("gold")))
     found, warnings = materials.load(str(document), every=True)
     assert sorted(name for name, _ in found) == ["gold", "lib:gold"] and not warnings
     (name, network), = materials.load(f"{document}:lib:gold")[0]

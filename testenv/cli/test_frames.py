@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Frame specs expand as usdrecord's do, and frames get their place in the image's name."""
 import pytest
+from pxr import UsdUtils
 
 from patina.cli import frames
 from patina.cli.errors import CommandError, UsageError
@@ -38,7 +39,6 @@ def test_spec(spec, expected):
 
 @pytest.mark.parametrize("spec", ["101:109x2", "101:104x0.5", "105:101", "1:10x3", "2:2"])
 def test_spec_means_what_usd_says(spec):
-    UsdUtils = pytest.importorskip("pxr.UsdUtils")
     theirs = [code.GetValue() for code in UsdUtils.TimeCodeRange.CreateFromFrameSpec(spec)]
     assert frames.expand(spec, 0, 0)[0] == pytest.approx(theirs)
 

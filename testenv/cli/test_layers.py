@@ -7,9 +7,7 @@ import math
 import numpy as np
 import pytest
 
-pytest.importorskip("_patina")
-
-from patina.cli import layers, main  # noqa: E402
+from patina.cli import layers, main
 
 SAMPLES = 6000
 RETURNED = {"layering": "returned"}

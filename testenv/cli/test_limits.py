@@ -9,56 +9,48 @@ import numpy as np
 import pytest
 
 import inProcess
+import mtlx
 from patina import limits
+import usda
 
-HEAD = '#usda 1.0\ndef Camera "camera"\n{\n    double3 xformOp:translate = (0, 0, 6)\n' \
-       '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\ndef DomeLight "dome"\n{\n}\n'
-QUAD = 'def Mesh "%s"\n{\n    int[] faceVertexCounts = [4]\n    int[] faceVertexIndices = [0, 1, 2, 3]\n' \
-       '    point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]\n' \
-       '    uniform token subdivisionScheme = "none"\n}\n'
-INSTANCES = 'def PointInstancer "%s"\n{\n    rel prototypes = [</%s/ball>]\n    int[] protoIndices = %s\n' \
-            '    point3f[] positions = %s\n    def Sphere "ball"\n    {\n    }\n}\n'
-PREVIEW = 'def Material "m"\n{\n    token outputs:surface.connect = </m/s.outputs:surface>\n    def Shader "s"\n    {\n' \
-          '        uniform token info:id = "UsdPreviewSurface"\n        token outputs:surface\n' \
-          '        color3f inputs:diffuseColor.connect = </m/t.outputs:rgb>\n    }\n    def Shader "t"\n    {\n' \
-          '        uniform token info:id = "UsdUVTexture"\n        asset inputs:file = @%s@\n' \
-          '        color3f outputs:rgb\n    }\n}\n'
+HEAD = usda.stage(usda.camera(at=(0, 0, 6)), usda.prim("DomeLight", "dome"), up="")
+BALL = usda.prim("Sphere", "ball")
 
 
-def instances(name, count):
-    return INSTANCES % (name, name, [0] * count, [(float(i), 0.0, 0.0) for i in range(count)])
+def textured(file="t.png"):
+    return usda.material("m", {"s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}),
+                               "t": ("UsdUVTexture", {"file": file}, "color3f rgb")}, surface="s")
 
 
-def bound(prim):
-    return prim.replace("{", "{\n    rel material:binding = </m>", 1)
+def quad(name, **values):
+    return usda.card(name, 1, **values)
+
+
+def instances(name, count, prototype=BALL):
+    return usda.prim("PointInstancer", name, f"rel prototypes = [</{name}/ball>]", prototype, protoIndices=[0] * count,
+                     positions=[(float(i), 0.0, 0.0) for i in range(count)])
 
 
 def chained(length):
     """:returns: a material whose colour passes so many nodes"""
-    def node(i):
-        return f'    def Shader "n{i}"\n    {{\n        uniform token info:id = "ND_add_color3"\n' \
-               f'        color3f inputs:in1.connect = </m/n{i + 1}.outputs:out>\n        color3f outputs:out\n    }}\n'
-    return PREVIEW.replace("</m/t.outputs:rgb>", "</m/n0.outputs:out>").rpartition("}")[0] % "t.png" \
-        + "".join(map(node, range(length))) + "}\n"
-
-
-def sphere_light(name):
-    return f'def SphereLight "{name}"\n{{\n}}\n'
+    nodes = {f"n{i}": ("ND_add_color3", {"color3f in1": f"<n{i + 1}>"}, "color3f out") for i in range(length)}
+    return usda.material("m", {"s": ("UsdPreviewSurface", {"color3f diffuseColor": "<n0>"}), **nodes,
+                               f"n{length}": ("ND_constant_color3", {"value": (0.5, 0.5, 0.5)}, "color3f out")}, surface="s")
 
 
 CASES = {  # limit -> stage, what the message names, and its words
-    "triangles=3": (QUAD % "a" + QUAD % "b", "/b",
+    "triangles=3": (quad("a") + quad("b"), "/b",
                     "more triangles than 3 (--limit triangles); the prim is left out, and 0 others"),
-    "prims=1": (QUAD % "a" + QUAD % "b", "/b", "more prims of a kind than 1 (--limit prims)"),
+    "prims=1": (quad("a") + quad("b"), "/b", "more prims of a kind than 1 (--limit prims)"),
     "instances=5": (instances("few", 3) + instances("many", 4), "/many", "more instances than 5 (--limit instances)"),
-    "lights=2": (QUAD % "a" + sphere_light("x") + sphere_light("y"), "/y",
+    "lights=2": (quad("a") + usda.prim("SphereLight", "x") + usda.prim("SphereLight", "y"), "/y",
                  "more lights, each wherever it is placed, than 2 (--limit lights); the light is off"),
-    "chain=20": (chained(30) + bound(QUAD % "a"), "/m/n", "more nodes follow each other than 20 (--limit chain)"),
-    "textLength=9": (QUAD % "a" + QUAD % "aVeryLongName", "/aVeryLongName", "more bytes in a path than 9 (--limit textLength)"),
-    "nodes=1": (PREVIEW % "t.png" + bound(QUAD % "a"), "/m", "more nodes than 1 (--limit nodes)"),
-    "textureBytes=40": (PREVIEW % "t.png" + bound(QUAD % "a"), "/m/t",
+    "chain=20": (chained(30) + quad("a", bind="m"), "/m/n", "more nodes follow each other than 20 (--limit chain)"),
+    "textLength=9": (quad("a") + quad("aVeryLongName"), "/aVeryLongName", "more bytes in a path than 9 (--limit textLength)"),
+    "nodes=1": (textured() + quad("a", bind="m"), "/m", "more nodes than 1 (--limit nodes)"),
+    "textureBytes=40": (textured() + quad("a", bind="m"), "/m/t",
                         "4x4 texels takes more bytes than 40 (--limit textureBytes)"),
-    "imageBytes=20": (PREVIEW % "t.png" + bound(QUAD % "a"), "/m/t", "bytes; at most 20 (--limit imageBytes) are read"),
+    "imageBytes=20": (textured() + quad("a", bind="m"), "/m/t", "bytes; at most 20 (--limit imageBytes) are read"),
 }
 
 
@@ -86,14 +78,6 @@ def test_a_limit_is_met(limit, tmp_path):
     assert limits.value(limit.partition("=")[0]) == limits.table()[limit.partition("=")[0]][0]
 
 
-MATERIAL = '<standard_surface name="s" type="surfaceshader"/><surfacematerial name="M" type="material">' \
-           '<input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>'
-
-
-def document(body):
-    return f'<?xml version="1.0"?><materialx version="1.39">{body}</materialx>'
-
-
 @pytest.mark.parametrize("limit, words", [
     ("includes=2", "more included documents than 2 (--limit includes)"),
     ("includeDepth=2", "more levels deep than 2 (--limit includeDepth)"),
@@ -106,9 +90,9 @@ def test_a_document_meets_a_limit(limit, words, tmp_path):
     many = "<a b=''/>" * 11000
     for name, body in (("1", "<xi:include href='2.mtlx'/>"), ("2", "<xi:include href='3.mtlx'/>"), ("3", ""), ("deep", deep),
                        ("many", many), ("long", " " * 10000)):
-        (tmp_path / f"{name}.mtlx").write_text(document(body))
+        (tmp_path / f"{name}.mtlx").write_text(mtlx.document(body))
     wanted = {"markup": "many", "nesting": "deep", "documentBytes": "long"}.get(limit.partition("=")[0], "1")
-    (tmp_path / "main.mtlx").write_text(document(f"<xi:include href='{wanted}.mtlx'/>" + MATERIAL))
+    (tmp_path / "main.mtlx").write_text(mtlx.document(f"<xi:include href='{wanted}.mtlx'/>", mtlx.shader("M")))
     albedo = ("bsdf", "albedo", tmp_path / "main.mtlx", "--wo", "0,0,1")
     plain, limited = inProcess.patina(*albedo), inProcess.patina(*albedo, "--limit", limit)
     assert limited.stdout == plain.stdout and words in limited.stderr and words not in plain.stderr, limited.stderr
@@ -142,15 +126,9 @@ def test_the_environment_sets_them_in_every_host():
 
 def test_triangles_that_glow_beyond_the_limit_are_found_by_chance(tmp_path):
     """The same light with more noise. Five standard errors of two means over pixels: a significance of 6e-7."""
-    glow = 'def Material "m"\n{\n    token outputs:surface.connect = </m/s.outputs:surface>\n    def Shader "s"\n    {\n' \
-           '        uniform token info:id = "UsdPreviewSurface"\n        color3f inputs:emissiveColor = (1, 2, 3)\n' \
-           '        color3f inputs:diffuseColor = (0, 0, 0)\n        float inputs:ior = 1\n' \
-           '        token outputs:surface\n    }\n}\n'
-    panel = (QUAD % "ball").replace("(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)",
-                                    "(-0.4, 1, -1), (0.4, 1, -1), (0.4, 1, 3), (-0.4, 1, 3)")
-    panels = instances("panels", 4).replace('    def Sphere "ball"\n    {\n    }\n', bound(panel))
-    floor = (QUAD % "floor").replace("{", "{\n    color3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]", 1)
-    text = glow + panels + floor
+    glow = usda.preview("m", emissiveColor=(1, 2, 3), diffuseColor=(0, 0, 0), ior=1)
+    panel = usda.mesh("ball", [(-0.4, 1, -1), (0.4, 1, -1), (0.4, 1, 3), (-0.4, 1, 3)], bind="m")
+    text = glow + instances("panels", 4, panel) + quad("floor", color=(0.5, 0.5, 0.5))
 
     def lit(*flags):
         image, told = rendered(tmp_path, text, "-w", 24, "--samples", 256, *flags)
@@ -166,9 +144,8 @@ def test_triangles_that_glow_beyond_the_limit_are_found_by_chance(tmp_path):
 
 @pytest.mark.skipif(bool(inProcess.without_opengl()), reason="the rasterizer cannot run here")
 def test_the_rasterizer_lists_so_many_prims_at_their_places(tmp_path):
-    balls = "".join(f'        def Sphere "b{i}"\n        {{\n        }}\n' for i in range(5))
-    text = instances("many", 40).replace('    def Sphere "ball"\n    {\n    }\n',
-                                         '    def Xform "ball"\n    {\n' + balls + "    }\n")
+    balls = (usda.prim("Sphere", f"b{i}") for i in range(5))
+    text = instances("many", 40, usda.prim("Xform", "ball", *balls))
     image, told = rendered(tmp_path, text, "--limit", "instances=100", "--backend", "raster")
     assert np.isfinite(image).all()
     assert [w for w in told if "more prims, each wherever it is placed, than 100 (--limit instances)" in w["message"]], told

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
+import _patina
+
 
 METAL = {"base_metalness": 1.0, "base_color": (0.9, 0.5, 0.2), "specular_roughness": 0.3}
 # Rows of directions about the normal z, none at grazing angles.

@@ -6,20 +6,12 @@ import stat
 
 import pytest
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
+import _patina
+import mtlx
+from patina import inputs
+from patina.cli import main, record
+from usda import camera, material, prim, stage
 
-from patina import inputs  # noqa: E402
-from patina.cli import main, record  # noqa: E402
-from usda import camera, material, prim, stage  # noqa: E402
-
-DOCUMENT = """<?xml version="1.0"?>
-<materialx version="1.39">
-  <standard_surface name="s" type="surfaceshader">
-    <input name="base_color" type="color3" value="0.1, 0.2, 0.3"/></standard_surface>
-  <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
-</materialx>
-"""
 STAGE = stage(
     prim("Sphere", "ball", "rel material:binding = </m>"),
     camera(at=(0, 0, 10)),
@@ -68,7 +60,7 @@ THINGS = {"pipe": _pipe, "device": _device, "link to a device": lambda path: os.
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    (tmp_path / "m.mtlx").write_text(DOCUMENT)
+    (tmp_path / "m.mtlx").write_text(mtlx.document(mtlx.shader("m", inputs={"base_color": (0.1, 0.2, 0.3)})))
     (tmp_path / "stage.usda").write_text(STAGE)
     (tmp_path / "looks.usda").write_text(LOOKS)
     _patina.write_image(str(tmp_path / "paint.png"), [[[0.5, 0.2, 0.1]] * 2] * 2)
@@ -153,8 +145,7 @@ def test_an_output_is_no_input(arguments, kept, folder, capsys):
     os.symlink("stage.usda", "link.usda")
     (folder / "c.json").write_text('{"controls": [], "presets": []}')
     _patina.write_image("paint.exr", [[[0.5, 0.2, 0.1]] * 2] * 2)
-    (folder / "outer.mtlx").write_text('<?xml version="1.0"?><materialx version="1.39" xmlns:xi="x"><xi:include href="m.mtlx"/>'
-                                       "</materialx>")
+    (folder / "outer.mtlx").write_text(mtlx.document('<xi:include href="m.mtlx"/>', attributes='xmlns:xi="x"'))
     if kept == "paint_base_color.png":
         (folder / "looks.usda").write_text(LOOKS.replace("paint.png", "paint_base_color.png"))
         _patina.write_image(kept, [[[0.1, 0.9, 0.1]] * 2] * 2)

@@ -1,29 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """--set changes inputs in the session layer, with the type that they have."""
 import pytest
+from pxr import Usd
 
 from patina.cli import overrides
 from patina.cli.errors import CommandError, UsageError
-
-Usd = pytest.importorskip("pxr.Usd")
-from pxr import Sdf, UsdLux, UsdShade  # noqa: E402
+import usda
 
 
 @pytest.fixture
 def stage():
     stage = Usd.Stage.CreateInMemory()
-    material = UsdShade.Material.Define(stage, "/m")
-    shader = UsdShade.Shader.Define(stage, "/m/s")
-    shader.CreateIdAttr("UsdPreviewSurface")
-    shader.CreateInput("roughness", Sdf.ValueTypeNames.Float).Set(0.1)
-    shader.CreateInput("useSpecularWorkflow", Sdf.ValueTypeNames.Int).Set(0)
-    color = shader.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f)
-    image = UsdShade.Shader.Define(stage, "/m/image")
-    image.CreateInput("file", Sdf.ValueTypeNames.Asset)
-    image.CreateInput("wrapS", Sdf.ValueTypeNames.Token)
-    color.ConnectToSource(image.ConnectableAPI(), "rgb")
-    material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
-    UsdLux.SphereLight.Define(stage, "/light")
+    stage.GetRootLayer().ImportFromString(usda.stage(
+        usda.material("m", {
+            "s": ("UsdPreviewSurface", {"roughness": 0.1, "useSpecularWorkflow": 0, "color3f diffuseColor": "<image>"}),
+            "image": ("UsdUVTexture", {"file": "", "token wrapS": ""})}, surface="s"),
+        usda.prim("SphereLight", "light"),
+        up=""))
     return stage
 
 
@@ -58,7 +51,6 @@ def test_inputs_of_a_material_are_those_of_its_surface(stage):
 
 
 def test_input_that_is_not_authored_has_the_type_of_its_definition(stage):
-    pytest.importorskip("_patina")
     overrides.apply(stage, ["/m/s.clearcoat=1", "/m.emissiveColor=1,2,3"])
     assert value(stage, "/m/s.inputs:clearcoat") == 1.0
     assert value(stage, "/m/s.inputs:emissiveColor") == (1, 2, 3)

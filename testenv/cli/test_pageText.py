@@ -9,19 +9,14 @@ import shutil
 import subprocess
 
 import pytest
+from pxr import Sdf
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-from pxr import Sdf  # noqa: E402
-
-from patina.cli import main  # noqa: E402
-from patina.view import bundle, layers, live, page  # noqa: E402
+import _patina
+import mtlx
+from patina.cli import main
+from patina.view import bundle, layers, live, page
 
 LAYER_SCRIPT = os.path.join(os.path.dirname(bundle.__file__), "web", "src", "layer.js")
-SURFACE = '<standard_surface name="s" type="surfaceshader">{inputs}</standard_surface>'
-MATERIAL = ('<surfacematerial name="{name}" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>'
-            "</surfacematerial>")
 EVIL = 'out>\n    }\n}\ndef "evil" (references = @/etc/passwd@) {}\ndef "rest" { token a = "'
 
 
@@ -47,12 +42,12 @@ def save(layer, material, tmp_path):
     return made
 
 
-def document(names=("m",), inputs=""):
-    return ('<?xml version="1.0"?><materialx version="1.39">' + SURFACE.format(inputs=inputs) +
-            "".join(MATERIAL.format(name=name) for name in names) + "</materialx>")
+def document(names=("m",), inputs=None):
+    """Materials of one surface."""
+    return mtlx.document(*(mtlx.shader(name, inputs=inputs) for name in names))
 
 
-def of_page(tmp_path, monkeypatch, names=("m",), inputs=""):
+def of_page(tmp_path, monkeypatch, names=("m",), inputs=None):
     """:returns: the materials of a page as the page has them, each with its layer"""
     monkeypatch.setattr(bundle, "script", lambda: "")
     (tmp_path / "m.mtlx").write_text(document(names, inputs))
@@ -67,7 +62,7 @@ def of_page(tmp_path, monkeypatch, names=("m",), inputs=""):
 
 def test_materials_of_any_name_are_saved(tmp_path, monkeypatch):
     names = ["__proto__", "constructor", "1 with blanks", "\u00dcberzug"]
-    found = of_page(tmp_path, monkeypatch, names, inputs='<input name="base" type="float" value="0.5"/>')
+    found = of_page(tmp_path, monkeypatch, names, inputs={"base": 0.5})
     assert len(found) == len(names)
     for material, layer in found:
         made = save(layer, material, tmp_path)
@@ -115,7 +110,7 @@ def test_a_document_cannot_add_prims(tmp_path):
 def test_values_that_are_no_numbers(value, tmp_path, monkeypatch):
     kinds = (("float", "base"), ("color3", "base_color"), ("boolean", "thin_walled"), ("vector3", "normal"),
              ("float", "metalness"))
-    inputs = "".join(f'<input name="{name}" type="{kind}" value="{value}"/>' for kind, name in kinds)
+    inputs = {f"{kind} {name}": value for kind, name in kinds}
     ((material, layer),) = of_page(tmp_path, monkeypatch, inputs=inputs)
     assert all(isinstance(x, (int, float)) for i in material["inputs"] for x in i["value"])
     made = save(layer, material, tmp_path)

@@ -7,10 +7,9 @@ import os
 
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-from patina.chart import predictions, predictionsCommand  # noqa: E402
-from patina.cli import main  # noqa: E402
+import _patina
+from patina.chart import predictions, predictionsCommand
+from patina.cli import main
 
 SCENES = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
 

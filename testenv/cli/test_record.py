@@ -10,10 +10,9 @@ import time
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-from patina.cli import main, recordFlags  # noqa: E402
-import usda  # noqa: E402
+import _patina
+from patina.cli import main, recordFlags
+import usda
 
 STAGE = usda.stage(
     usda.camera(horizontalAperture=20, verticalAperture=10, at=(0, 0, 10)),

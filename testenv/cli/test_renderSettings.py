@@ -7,11 +7,9 @@ import os
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-from patina.cli import denoiser, main, products  # noqa: E402
-import usda  # noqa: E402
+import _patina
+from patina.cli import denoiser, main, products
+import usda
 
 STAGE = usda.stage(
     usda.camera(horizontalAperture=20, verticalAperture=10, at=(0, 0, 10)),
@@ -181,10 +179,9 @@ def test_sources_of_vars_mean_what_they_do_in_hydra(source, kind, aov):
 
 
 def test_layers_lie_over_the_stage_and_later_ones_are_stronger(folder):
-    (folder / "dim.usda").write_text('#usda 1.0\nover "dome"\n{\n    float inputs:intensity = 3\n}\n')
     (folder / "textures").mkdir()
-    (folder / "textures" / "dimmer.usda").write_text('#usda 1.0\nover "dome"\n{\n    float inputs:intensity = 0.5\n}\n')
-    (folder / "session.usda").write_text('#usda 1.0\nover "dome"\n{\n    float inputs:intensity = 7\n}\n')
+    for name, intensity in (("dim", 3), ("textures/dimmer", 0.5), ("session", 7)):
+        (folder / f"{name}.usda").write_text(f'#usda 1.0\nover "dome"\n{{\n    float inputs:intensity = {intensity}\n}}\n')
     small = ("-w", 8, "--samples", 1)
     dim, dimmer = "dim.usda", "textures/dimmer.usda"
     for layers, seen in (([dim], 3.0), ([dim, dimmer], 0.5), ([dimmer, dim], 3.0)):

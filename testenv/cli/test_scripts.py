@@ -9,6 +9,7 @@ import sys
 import pytest
 
 import documents
+import mtlx
 from test_launcher import ROOT, checkout  # noqa: F401  (a fixture)
 
 NAMED = sorted(set(re.findall(r"\./patina python\s+(testenv/[\w/]+\.py)", documents.text())))
@@ -53,10 +54,7 @@ def test_it_does_not_start_itself_for_ever(tmp_path):
 
 
 def test_a_sheet_of_materials(tmp_path):
-    pytest.importorskip("_patina")
-    (tmp_path / "red.mtlx").write_text("""<materialx version="1.39"><standard_surface name="s" type="surfaceshader"/>
-        <surfacematerial name="red" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
-        </surfacematerial></materialx>""")
+    (tmp_path / "red.mtlx").write_text(mtlx.document(mtlx.shader("red")))
     found = subprocess.run([sys.executable, os.path.join(ROOT, "testenv", "materialSheet.py"), tmp_path, tmp_path / "sheet.png",
                             "--width", "16", "--samples", "1"], env=dict(os.environ, PYTHONSAFEPATH="1"), capture_output=True,
                            text=True)
@@ -66,8 +64,6 @@ def test_a_sheet_of_materials(tmp_path):
 
 @pytest.mark.parametrize("script, thing", (("contactSheet.py", "stages"), ("materialSheet.py", "materials")))
 def test_a_sheet_that_cannot_be_made_ends_in_one_line(script, thing, tmp_path):
-    pytest.importorskip("_patina")
-
     def said(sheet):
         found = subprocess.run([sys.executable, os.path.join(ROOT, "testenv", script), tmp_path, sheet], capture_output=True,
                                text=True, env=dict(os.environ, PYTHONSAFEPATH="1"))

@@ -10,6 +10,10 @@ import pytest
 from test_signals import _folder  # noqa: F401
 
 
+def run(program):
+    return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+
+
 def test_the_second_signal_ends_what_hears_none(folder):
     """As a library does that computes without end: both come in one call into C, after which Python's handlers would run."""
     program = """
@@ -24,7 +28,7 @@ def run(_):
 explain.run = run
 sys.exit(main.main(["explain", "m.mtlx"]))
 """
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    done = run(program)
     assert done.returncode in (-signal.SIGINT, -signal.SIGTERM) and done.stderr == ""
 
 
@@ -32,7 +36,7 @@ sys.exit(main.main(["explain", "m.mtlx"]))
 RENDER = f"""
 import os, signal, sys
 sys.path.append({os.path.dirname(os.path.abspath(__file__))!r})
-from test_signals import LONG, _patina, _Signals, interrupts, main, record
+from test_signals import LONG, _patina, _Signals, interrupts, main, record, send
 times = 1
 make, write = _patina.make_renderer, record._Job._write
 _patina.make_renderer = lambda backend: _Signals(make(backend), signal.SIGTERM, times)
@@ -43,22 +47,18 @@ sys.exit(main.main(["record", "stage.usda", "a.exr", *LONG]))
 
 def test_the_second_signal_ends_a_command_whose_render_is_over(folder):
     """As while it denoises, or writes the image."""
-    program = RENDER % """
+    done = run(RENDER % """
 def signalled(*arguments):
-    os.kill(os.getpid(), signal.SIGINT)
-    for _ in range(100000):  # until the signal is handled
-        pass
+    send(signal.SIGINT)
     write(*arguments)
 record._Job._write = signalled
-"""
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+""")
     assert done.returncode == -signal.SIGINT and done.stderr == "" and not os.path.exists("a.exr")
 
 
 def test_a_signal_that_comes_twice_at_once_saves_the_image(folder):
     """`timeout` sends it to a process, and then to the group that the process is in."""
-    program = RENDER % "times, interrupts.ONCE_SECONDS = 2, 3600.0"
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    done = run(RENDER % "times, interrupts.ONCE_SECONDS = 2, 3600.0")
     assert done.returncode == 75 and "--resume continues" in done.stderr
     assert sorted(os.listdir()) == ["a.exr", "a.exr.checkpoint", "stage.usda"]
 
@@ -84,5 +84,5 @@ def run(_):
 explain.run = run
 sys.exit(main.main(["explain", "m.mtlx"]))
 """
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    done = run(program)
     assert (done.returncode, done.stderr) == (status, said)

@@ -6,28 +6,22 @@ import shutil
 import subprocess
 import xml.etree.ElementTree as tree
 
-import inProcess
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-from patina.cli import materials  # noqa: E402
-from patina.shader import document, generators  # noqa: E402
+import _patina
+import mtlx
+import inProcess
+from patina.cli import materials
+from patina.shader import document, generators
 
 VALIDATOR = shutil.which("glslangValidator") or shutil.which("glslang")
 STAGES = ("shaderball", "roughGlass", "instanceValues")
 # Directions above the surface, and wide of the normal.
 WO = np.array([[0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [0.3, -0.9, 0.3162278]], np.float32)
 WI = np.array([[0.1, 0.2, 0.9746794], [-0.6, 0.1, 0.7937254], [-0.2, 0.8, 0.5656854]], np.float32)
-HOSTILE = """<?xml version="1.0"?>
-<materialx version="1.39">
-  <image name="i" type="color3"><input name="file" type="filename" value='a&quot;); evil(&quot;\\b.png'/></image>
-  <standard_surface name="s" type="surfaceshader"><input name="base_color" type="color3" nodename="i"/></standard_surface>
-  <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
-</materialx>
-"""
+HOSTILE = mtlx.document({"i": ("image color3", {"filename file": r"a&quot;); evil(&quot;\b.png"})},
+                        mtlx.shader("m", inputs={"base_color": "<i>"}))
 # A colour space that ends the string literal that it comes to stand in, and a name that no document can hold as it is.
 SPACE = "colorspace='x&quot;}, int evil = 1, string z = &quot;&#10;#include &quot;/etc/passwd&quot;&#10;'"
 HOSTILE_SPACE = HOSTILE.replace('type="filename"', f'type="filename" {SPACE}')

@@ -8,11 +8,9 @@ import time
 
 import pytest
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-from patina.cli import checkpoints, interrupts, main, record, snapshots  # noqa: E402
-from usda import prim, stage  # noqa: E402
+import _patina
+from patina.cli import checkpoints, interrupts, main, record, snapshots
+from usda import prim, stage
 
 STAGE = stage(prim("Sphere", "ball"), prim("DomeLight", "dome"), up="")
 LONG = ("-w", "64", "--samples", "65536", "--maxDepth", "1", "--quiet")
@@ -24,6 +22,24 @@ def _folder(tmp_path, monkeypatch):
     (tmp_path / "stage.usda").write_text(STAGE)
     monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+def send(number):
+    """Sends a signal to this process, and waits until it is handled."""
+    os.kill(os.getpid(), number)
+    for _ in range(100000):
+        pass
+
+
+@pytest.fixture(name="renderers")
+def _renderers(monkeypatch):
+    """:returns: function of a class and its arguments, which then stands around each renderer"""
+    make = _patina.make_renderer
+
+    def stand(around, *arguments):
+        monkeypatch.setattr(_patina, "make_renderer", lambda backend: around(make(backend), *arguments))
+
+    return stand
 
 
 class _Signals:
@@ -44,9 +60,8 @@ class _Signals:
 
 
 @pytest.mark.parametrize("number", interrupts.NUMBERS, ids=lambda number: number.name)
-def test_a_signal_while_rendering_saves_image_and_checkpoint(number, folder, monkeypatch, capsys):
-    make = _patina.make_renderer
-    monkeypatch.setattr(_patina, "make_renderer", lambda backend: _Signals(make(backend), number))
+def test_a_signal_while_rendering_saves_image_and_checkpoint(number, folder, renderers, monkeypatch, capsys):
+    renderers(_Signals, number)
     monkeypatch.delenv("PATINA_COMMAND", raising=False)
     before = [signal.getsignal(n) for n in interrupts.NUMBERS]
     assert main.main(["record", "stage.usda", "a.exr", *LONG]) == 75
@@ -59,9 +74,8 @@ def test_a_signal_while_rendering_saves_image_and_checkpoint(number, folder, mon
     assert [signal.getsignal(n) for n in interrupts.NUMBERS] == before
 
 
-def test_only_whole_images_are_written_where_that_is_asked_for(folder, monkeypatch, capsys):
-    make = _patina.make_renderer
-    monkeypatch.setattr(_patina, "make_renderer", lambda backend: _Signals(make(backend), signal.SIGTERM))
+def test_only_whole_images_are_written_where_that_is_asked_for(folder, renderers, capsys):
+    renderers(_Signals, signal.SIGTERM)
     assert main.main(["record", "stage.usda", "a.exr", *LONG, "--onlyWhole"]) == 75
     assert "it is not written; --resume continues" in capsys.readouterr().err
     assert sorted(os.listdir()) == ["a.exr.checkpoint", "stage.usda"]
@@ -77,9 +91,8 @@ class _SignalsAtTheEnd(_Signals):
         return True
 
 
-def test_a_signal_with_the_last_sample_of_a_frame_keeps_that_and_begins_no_other(folder, monkeypatch, capsys):
-    make = _patina.make_renderer
-    monkeypatch.setattr(_patina, "make_renderer", lambda backend: _SignalsAtTheEnd(make(backend), signal.SIGTERM))
+def test_a_signal_with_the_last_sample_of_a_frame_keeps_that_and_begins_no_other(folder, renderers, capsys):
+    renderers(_SignalsAtTheEnd, signal.SIGTERM)
     assert main.main(["record", "stage.usda", "a.####.exr", "-f", "1:3", *SHORT]) == 75
     assert "--frames 2,3 " in capsys.readouterr().err and sorted(os.listdir()) == ["a.0001.exr", "stage.usda"]
     assert main.main(["record", "stage.usda", "a.exr", *SHORT]) == 0  # nothing is left to do
@@ -96,9 +109,8 @@ class _NeverStarts(_Signals):
         return False
 
 
-def test_nothing_is_promised_where_nothing_is_saved(folder, monkeypatch, capsys):
-    make = _patina.make_renderer
-    monkeypatch.setattr(_patina, "make_renderer", lambda backend: _NeverStarts(make(backend), signal.SIGTERM))
+def test_nothing_is_promised_where_nothing_is_saved(folder, renderers, capsys):
+    renderers(_NeverStarts, signal.SIGTERM)
     assert main.main(["record", "stage.usda", "a.exr", *LONG]) == 75
     assert capsys.readouterr().err == "patina: interrupted before there were samples; nothing is saved\n"
     assert os.listdir() == ["stage.usda"]
@@ -113,9 +125,7 @@ def test_a_signal_outside_of_rendering_tidies_up(number, said, folder, monkeypat
     def write(_):
         with outputs.writing("out.txt") as file:
             file.write("half")
-            os.kill(os.getpid(), number)
-            for _ in range(100000):  # until the signal is handled
-                pass
+            send(number)
 
     monkeypatch.setattr(explain, "run", write)
     assert main.main(["explain", "m.mtlx"]) == 1
@@ -134,9 +144,7 @@ def test_a_signal_that_a_library_drops_ends_the_command(dropped, folder, monkeyp
 
     def swallow(*arguments):
         try:
-            os.kill(os.getpid(), signal.SIGTERM)
-            for _ in range(100000):  # until the signal is handled
-                pass
+            send(signal.SIGTERM)
         except KeyboardInterrupt:
             pass
         return run(*arguments)
@@ -263,9 +271,7 @@ def test_a_signal_waits_for_what_is_not_to_be_left_half_way():
     done = []
     with interrupts.Endings(), pytest.raises(KeyboardInterrupt):
         with interrupts.held():
-            os.kill(os.getpid(), signal.SIGTERM)
-            for _ in range(100000):  # until the signal is handled
-                pass
+            send(signal.SIGTERM)
             done.append("whole")
     assert done == ["whole"]
 

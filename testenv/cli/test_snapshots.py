@@ -11,11 +11,9 @@ import sys
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-from patina.cli import errors, frames, goOn, main, openStage, snapshots  # noqa: E402
-from usda import prim, stage  # noqa: E402
+import _patina
+from patina.cli import errors, frames, goOn, main, openStage, snapshots
+from usda import prim, stage
 
 STAGE = stage(prim("Sphere", "ball"), prim("DomeLight", "dome"), up="", startTimeCode=1, endTimeCode=4)
 SHORT = ("-w", "32", "--samples", "64", "--maxDepth", "1")

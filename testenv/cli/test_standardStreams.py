@@ -7,11 +7,9 @@ import sys
 
 import pytest
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-from patina.cli import standardStreams  # noqa: E402
-from usda import prim  # noqa: E402
+import _patina
+from patina.cli import standardStreams
+from usda import prim
 
 # Enough warnings for a pipe that nobody reads.
 STAGE = "#usda 1.0\n" + "".join((

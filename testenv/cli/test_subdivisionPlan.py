@@ -6,11 +6,10 @@ import os
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-from patina.chart import measureSubdivision, probes  # noqa: E402
-from patina.experiment import LUMINANCE, draw, relative_error  # noqa: E402
-from patina.cli import main  # noqa: E402
+import _patina
+from patina.chart import measureSubdivision, probes
+from patina.experiment import LUMINANCE, draw, relative_error
+from patina.cli import main
 
 SCENES = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
 TOLERANCES = (0.1, 0.05, 0.01, 0.001)

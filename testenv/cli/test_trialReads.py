@@ -17,9 +17,10 @@ import pytest
 
 import inProcess
 from patina.cli import tryStage
-from test_limits import HEAD, PREVIEW, QUAD, bound
+from test_limits import HEAD, quad, textured
 
 FLAGS = ("-w", 8, "--samples", 1, "--camera", "/camera")
+KILL = "os.kill(os.getpid(), 11)"
 _OPENS = "stage = Usd.Stage.Open(sys.argv[1])"
 UNTRIED = ("--limit", "untriedBytes=0")
 KILLERS = sorted(glob.glob(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "fuzz", "corpus", "libraries", "*")))
@@ -28,9 +29,17 @@ KILLERS = sorted(glob.glob(os.path.join(os.path.dirname(os.path.abspath(__file__
 @pytest.fixture(name="stage")
 def _stage(tmp_path):
     stage = tmp_path / "stage.usda"
-    stage.write_text(HEAD + PREVIEW % "t.png" + bound(QUAD % "a"))
+    stage.write_text(HEAD + textured() + quad("a", bind="m"))
     _patina.write_image(str(tmp_path / "t.png"), np.full((4, 4, 3), 0.5, np.float32), ["R", "G", "B"])
     return stage
+
+
+def recorded(stage, image, *flags, **options):
+    """Records in a process of its own. :returns: what it says"""
+    command = [sys.executable, "-m", "patina", "record", stage, image, *FLAGS, *flags]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, **options)
+    assert done.returncode == 0, done.stderr
+    return done.stderr
 
 
 def test_sound_files_make_the_same_image(stage, tmp_path):
@@ -54,16 +63,14 @@ def _dying(tmp_path):
     program = folder / "patinaTryImage"
     program.write_text(f"#!{sys.executable}\nimport os\nname = b''\nwhile byte := os.read(0, 1):\n"
                        "    name += byte\n    if byte == b'\\0':\n        if b't.png' in name:\n"
-                       "            os.kill(os.getpid(), 11)\n        os.write(1, b't')\n        name = b''\n")
+                       f"            {KILL}\n        os.write(1, b't')\n        name = b''\n")
     program.chmod(program.stat().st_mode | stat.S_IXUSR)
     return dict(os.environ, PYTHONPATH=f"{folder}:{os.environ['PYTHONPATH']}")
 
 
 def test_an_image_that_kills_its_reader_is_left_out(stage, dying, tmp_path):
-    command = [sys.executable, "-m", "patina", "record", stage, tmp_path / "a.exr", *FLAGS, *UNTRIED]
-    done = subprocess.run(list(map(str, command)), env=dying, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    assert "makes OpenImageIO fail (Segmentation fault)" in done.stderr and "/m/t" in done.stderr
+    said = recorded(stage, tmp_path / "a.exr", *UNTRIED, env=dying)
+    assert "makes OpenImageIO fail (Segmentation fault)" in said and "/m/t" in said
     assert inProcess.pixels(tmp_path / "a.exr").max() > 0
 
 
@@ -80,34 +87,24 @@ def test_images_with_a_profile_are_read_where_no_program_tries_them(stage, dying
     corpus = os.path.join(os.path.dirname(KILLERS[0]), "..", "texture")
     shutil.copy(os.path.join(corpus, "soundProfileJpg"), tmp_path / "t.png")
     for file in ("a", "b"):
-        command = [sys.executable, "-m", "patina", "record", stage, tmp_path / f"{file}.exr", *FLAGS]
-        done = subprocess.run(list(map(str, command)), env=dying, capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done.stderr
-        assert ("makes OpenImageIO fail (Segmentation fault)" in done.stderr) is (file == "a")
+        said = recorded(stage, tmp_path / f"{file}.exr", env=dying)
+        assert ("makes OpenImageIO fail (Segmentation fault)" in said) is (file == "a")
         program = os.path.join(dying["PYTHONPATH"].split(":")[0], "patinaTryImage")
         with open(program, "w", encoding="utf-8") as script:
             script.write("#!/nowhere/at/all\n")
 
 
-def test_a_stage_that_kills_its_reader_is_refused(stage, tmp_path, monkeypatch):
-    monkeypatch.setattr(tryStage, "_READ", "import os\nos.kill(os.getpid(), 11)")
-    assert tryStage.why_trial_fails(stage) == "", "small files are trusted by default"
-    done = inProcess.record(stage, tmp_path / "a.exr", *FLAGS, *UNTRIED, check=False)
-    assert done.returncode == 1
-    assert f"{stage} makes OpenUSD fail (Segmentation fault): the file is damaged" in done.stderr
-    assert not (tmp_path / "a.exr").exists()
-
-
-@pytest.mark.parametrize("flag", ["--layer", "--sessionLayer"])
-def test_a_layer_that_kills_its_reader_is_refused(stage, tmp_path, monkeypatch, flag):
+@pytest.mark.parametrize("flag", [None, "--layer", "--sessionLayer"])
+def test_a_file_that_kills_its_reader_is_refused(stage, tmp_path, monkeypatch, flag):
+    """A stage, or a layer beside it. Small files are trusted by default."""
     layer = tmp_path / "layer.usda"
     layer.write_text("#usda 1.0\n")
-    monkeypatch.setattr(tryStage, "_READ",
-                        "import os, sys\nif sys.argv[1].endswith('layer.usda'):\n    os.kill(os.getpid(), 11)")
-    assert inProcess.record(stage, tmp_path / "a.exr", *FLAGS, flag, layer, check=False).returncode == 0
-    done = inProcess.record(stage, tmp_path / "b.exr", *FLAGS, flag, layer, *UNTRIED, check=False)
+    killer, flags = (layer, (flag, layer)) if flag else (stage, ())
+    monkeypatch.setattr(tryStage, "_READ", f"import os, sys\nif sys.argv[1].endswith('{killer.name}'):\n    {KILL}")
+    assert inProcess.record(stage, tmp_path / "a.exr", *FLAGS, *flags, check=False).returncode == 0
+    done = inProcess.record(stage, tmp_path / "b.exr", *FLAGS, *flags, *UNTRIED, check=False)
     assert done.returncode == 1
-    assert f"{layer} makes OpenUSD fail (Segmentation fault): the file is damaged" in done.stderr
+    assert f"{killer} makes OpenUSD fail (Segmentation fault): the file is damaged" in done.stderr
     assert not (tmp_path / "b.exr").exists()
 
 
@@ -115,11 +112,8 @@ def test_an_image_that_takes_all_memory_is_left_out(stage, tmp_path):
     (tmp_path / "t.png").unlink()
     (tmp_path / "t.ppm").write_bytes(b"P6 268435456 4 65535\n")  # rows of 1.6 GB, of which the file has none
     stage.write_text(stage.read_text().replace("t.png", "t.ppm"))
-    command = [sys.executable, "-m", "patina", "record", stage, tmp_path / "a.exr", *FLAGS, *UNTRIED,
-               "--limit", "textureBytes=1000"]
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    assert "takes more memory than the limit textureBytes allows" in done.stderr and "/m/t" in done.stderr
+    said = recorded(stage, tmp_path / "a.exr", *UNTRIED, "--limit", "textureBytes=1000")
+    assert "takes more memory than the limit textureBytes allows" in said and "/m/t" in said
 
 
 def test_a_forked_process_tries_images_by_a_program_of_its_own(stage):
@@ -143,28 +137,30 @@ assert len(first) == 1 and programs() == first, "the parent's program is gone"
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("dies", ("raise MemoryError", "sys.stderr.write('std::bad_alloc'); sys.stderr.flush(); os.abort()"))
-def test_a_stage_that_takes_all_memory_is_refused(stage, monkeypatch, dies):
-    """The limit reaches OpenUSD's own threads, too, which end the process."""
+@pytest.fixture
+def untrusted(monkeypatch):
+    """All files are tried."""
     monkeypatch.setattr(tryStage.limits, "value", lambda _: 0)
+
+
+@pytest.mark.parametrize("dies", ("raise MemoryError", "sys.stderr.write('std::bad_alloc'); sys.stderr.flush(); os.abort()"))
+def test_a_stage_that_takes_all_memory_is_refused(stage, untrusted, monkeypatch, dies):
+    """The limit reaches OpenUSD's own threads, too, which end the process."""
     monkeypatch.setattr(tryStage, "_READ", tryStage._READ.replace(
         _OPENS, f"assert resource.getrlimit(resource.RLIMIT_DATA)[0] == int(sys.argv[2]); {dies}"))
     gigabytes = tryStage._MEMORY * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 1e9
     assert tryStage.why_trial_fails(str(stage)) == f"takes more than {gigabytes:.1f} GB of memory: {tryStage._TOO_MUCH}"
 
 
-def test_a_stage_that_takes_too_long_is_refused(stage, monkeypatch):
+def test_a_stage_that_takes_too_long_is_refused(stage, untrusted, monkeypatch):
     """Sound ones may, too, by their size."""
-    monkeypatch.setattr(tryStage.limits, "value", lambda _: 0)
     monkeypatch.setattr(tryStage, "_SECONDS", 0)
     monkeypatch.setattr(tryStage, "_READ", "import signal\nsignal.pause()")
-    assert tryStage.why_trial_fails(str(stage)) == ("is not read by OpenUSD within 0 s: the file is damaged, or asks for too "
-                                                    "much")
+    assert tryStage.why_trial_fails(str(stage)) == f"is not read by OpenUSD within 0 s: {tryStage._TOO_MUCH}"
 
 
-def test_the_process_that_tries_a_stage_ends_by_itself(stage, monkeypatch):
+def test_the_process_that_tries_a_stage_ends_by_itself(stage, untrusted, monkeypatch):
     """Its parent may be gone, or be held."""
-    monkeypatch.setattr(tryStage.limits, "value", lambda _: 0)
     monkeypatch.setattr(tryStage, "_SECONDS", 1000)
     monkeypatch.setattr(tryStage, "_READ", tryStage._READ.replace(_OPENS, "assert 900 < signal.alarm(0) <= 1001; os.abort()"))
     assert "makes OpenUSD fail (Aborted)" in tryStage.why_trial_fails(str(stage))
@@ -200,9 +196,8 @@ def test_a_broken_stage_gets_its_own_message(tmp_path):
     assert done.returncode == 1 and "cannot be opened" in done.stderr
 
 
-def test_modules_beside_the_stage_are_not_run(stage, tmp_path, monkeypatch):
+def test_modules_beside_the_stage_are_not_run(stage, untrusted, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("PYTHONSAFEPATH", raising=False)
-    monkeypatch.setattr(tryStage.limits, "value", lambda _: 0)
     (tmp_path / "resource.py").write_text("import pathlib\npathlib.Path('ran').touch()\n")
     assert tryStage.why_trial_fails(str(stage)) == "" and not os.path.exists("ran")

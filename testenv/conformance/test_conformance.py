@@ -6,9 +6,6 @@ import sys
 import numpy as np
 import pytest
 
-pytest.importorskip("_patina")
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
 import agreement
 import conformanceResults
 import found

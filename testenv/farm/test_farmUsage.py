@@ -5,12 +5,12 @@ import shutil
 
 import pytest
 
+import _patina
 import movie
 from inProcess import patina, scene
 from patina.farm import jobFiles
 from usda import prim
 
-_patina = pytest.importorskip("_patina", reason="the Python module is not built")
 
 SETTINGS = prim("RenderSettings", "main", "int patina:samples = %d", "bool patina:denoise = 0")
 

@@ -8,12 +8,12 @@ import re
 
 import pytest
 
+import _patina
 from inProcess import patina, scene
 from patina import messages
 from patina.cli import record
 from patina.farm import cut, missing, partial
 
-_patina = pytest.importorskip("_patina", reason="the Python module is not built")
 
 FLAGS = ("--imageWidth=8", "--imageHeight=8", "--samples=1", "--quiet")
 OTHERS = (None, 5, "x", [], {})  # one of each kind that JSON has

@@ -58,20 +58,24 @@ class Client:
         return future
 
 
+def sent_by(client, folder):
+    """:returns: the sender that had this client end the one task of a frame"""
+    one = frame(folder, 1)
+    sent = sender.Sender(client, [], str(folder), (), 0)
+    sent.run([one], one.tasks(set()), lambda _: None)
+    return sent
+
+
 @pytest.mark.parametrize("passing", [True, False])
 def test_reasons_that_may_pass_are_known(tmp_path, passing):
-    one = frame(tmp_path, 1)
     failed = [worker.PartFailed("why", "tcp://1", passing) for _ in range(work.TRIES)]
-    sent = sender.Sender(Client(*failed), [], str(tmp_path), (), 0)
-    sent.run([one], one.tasks(set()), lambda _: None)
+    sent = sent_by(Client(*failed), tmp_path)
     assert [task.passing for task in sent.failed] == [passing] and not sent.lost
 
 
 @pytest.mark.parametrize("error", [worker.PartFailed("why"), worker.Refused("why"), worker.PartFailed(), worker.Refused()])
 def test_workers_that_tell_less_end_no_job(tmp_path, error):
-    one = frame(tmp_path, 1)
-    sent = sender.Sender(Client(*[error] * sender.REFUSALS), [], str(tmp_path), (), 0)
-    sent.run([one], one.tasks(set()), lambda _: None)
+    sent = sent_by(Client(*[error] * sender.REFUSALS), tmp_path)
     reasons = {why for task in sent.failed for _, why in task.failures}
     assert not sent.lost and reasons == {"why" if error.args else type(error).__name__}
     assert [task.passing for task in sent.failed] == [False]
@@ -84,25 +88,22 @@ class KilledWorker(Exception):
 @pytest.mark.parametrize("losses, failures, given_up", [(work.LOSSES - 1, work.TRIES - 1, False), (work.LOSSES, 0, True),
                                                         (3, work.TRIES, True)])
 def test_workers_that_die_are_no_fault_of_a_part(tmp_path, losses, failures, given_up):
-    one = frame(tmp_path, 1)
     errors = [KilledWorker("died")] * losses + [worker.PartFailed("why", "tcp://1", False)] * failures
     client = Client(*errors, {"worker": "one", "host": "here", "seconds": 1.0})
-    sent = sender.Sender(client, [], str(tmp_path), (), 0)
-    sent.run([one], one.tasks(set()), lambda _: None)
+    sent = sent_by(client, tmp_path)
     assert bool(sent.failed) is given_up and bool(sent.written) is not given_up
     assert len(client.errors) == given_up, "given up at once, or sent until it is done"
 
 
 @pytest.mark.parametrize("failed, wanted", [("tcp://1", ["tcp://2"]), ("tcp://gone", None)])
 def test_only_workers_that_are_there_are_avoided(tmp_path, failed, wanted):
-    one, places = frame(tmp_path, 1), []
+    places = []
     client = Client(worker.PartFailed("why", failed, False), {"worker": "one", "host": "here", "seconds": 1.0})
     client.scheduler_info = lambda n_workers: {"workers": {"tcp://1": {}, "tcp://2": {}}}
     submit = client.submit
     client.submit = lambda *_, **more: places.append(more.get("workers")) or submit()
-    sent = sender.Sender(client, [], str(tmp_path), (), 0)
-    sent.run([one], one.tasks(set()), lambda _: None)
-    assert places == [None, wanted] and sent.written == [one]
+    sent = sent_by(client, tmp_path)
+    assert places == [None, wanted] and len(sent.written) == 1
 
 
 def test_workers_that_go_away_are_told(tmp_path):
@@ -121,9 +122,7 @@ def test_workers_that_go_away_are_told(tmp_path):
 
 
 def test_a_scheduler_that_dies_ends_the_job_in_words(tmp_path):
-    one = frame(tmp_path, 1)
-    sent = sender.Sender(Client(None), [], str(tmp_path), (), 0)
-    sent.run([one], one.tasks(set()), lambda _: None)
+    sent = sent_by(Client(None), tmp_path)
     assert "the scheduler is lost (CancelledError" in sent.lost and not sent.written
 
 
@@ -201,9 +200,7 @@ def test_a_log_that_cannot_be_written_fails_one_part(tmp_path, monkeypatch, numb
     with pytest.raises(worker.PartFailed, match=f"cannot write {log}: ") as failed:
         version(tmp_path, log, "folder")
     assert failed.value.args[1:] == ("", passing)
-    one = frame(tmp_path, 1)
-    sent = sender.Sender(Client(*[failed.value] * work.TRIES), [], str(tmp_path), (), 0)
-    sent.run([one], one.tasks(set()), lambda _: None)
+    sent = sent_by(Client(*[failed.value] * work.TRIES), tmp_path)
     assert [task.passing for task in sent.failed] == [passing] and not sent.lost
 
 

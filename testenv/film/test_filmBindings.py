@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
+import _patina
+
 
 
 @pytest.fixture

@@ -5,7 +5,8 @@ import re
 
 import pytest
 
-_patina = pytest.importorskip("_patina")
+import _patina
+
 
 # Those of the documentation of OSL, RenderMan and Arnold, and one for each rule.
 READ = ["C.*", "C.*L", "C<RD>L", "C<RD>.*L", "C[DG]L", "C<R[^D]>L", "C[^DG]*L", "CG*[LO]", "C<..'hair'>.*L", "C'hair'.*L",

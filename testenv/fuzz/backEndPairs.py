@@ -14,6 +14,7 @@ sys.path[1:1] = [os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(_
                  for folder in ("", "raster")]
 import equivalence  # noqa: E402
 import inProcess  # noqa: E402
+import usda  # noqa: E402
 
 EXTENSION = ".usda"
 LINES = False  # a stage of fewer prims is another picture
@@ -22,27 +23,9 @@ WIDTH, HEIGHT, TILE = 48, 36, 12
 ALIKE = 8  # seeds in a row have the same kinds of materials and lights, and so their programs
 RENDERS, PASSES, SAMPLES = 12, 16, 32  # of each back end; of few passes outlines are off by percents, with any seed
 SIGNIFICANCE = 1e-6  # for a stage: of a thousand that are right, all are called so with probability 0.999
-HEAD = '''#usda 1.0
-(
-    upAxis = "Y"
-)
-def Camera "camera"
-{
-    float focalLength = 22
-    matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0.9, -0.436, 0), (0, 0.436, 0.9, 0), (0, 3.1, 5.4, 1))
-    uniform token[] xformOpOrder = ["xformOp:transform"]
-}
-def Mesh "floor" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-5, 0, 5), (5, 0, 5), (5, 0, -5), (-5, 0, -5)]
-    uniform token subdivisionScheme = "none"
-    rel material:binding = </look0>
-}
-'''
+SEEN = (
+    usda.camera(focalLength=22, matrix="((1, 0, 0, 0), (0, 0.9, -0.436, 0), (0, 0.436, 0.9, 0), (0, 3.1, 5.4, 1))"),
+    usda.floor("floor", 5, bind="look0"))
 TRIANGLES = ("int[] faceVertexCounts = [3, 3, 3, 3]", "int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3]",
              "point3f[] points = [(-1, -1, 1), (1, -1, 1), (0, -1, -1), (0, 1, 0)]")
 CAGE = ("int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]",
@@ -77,40 +60,29 @@ def _look(r, kinds, name):
         ("ND_standard_surface_surfaceshader", {"color3f base_color": color, "float sheen": f"{r.uniform(0.2, 1):.4f}",
                                                "float specular_roughness": rough}),
         ("ND_open_pbr_surface_surfaceshader", {"color3f base_color": color, "float specular_roughness": rough})))
-    output = "mtlx:surface" if node.startswith("ND_") else "surface"
-    inputs = [f"        {key.split()[0]} inputs:{key.split()[1]} = {value}" for key, value in values.items()]
-    return [f'def Material "{name}"', "{", f"    token outputs:{output}.connect = </{name}/s.outputs:surface>",
-            '    def Shader "s"', "    {", f'        uniform token info:id = "{node}"', "        token outputs:surface",
-            *inputs, "    }", "}"]
+    return usda.material(name, {"s": (node, values, "token surface")}, surface="s")
 
 
 def make(seed):
     """:returns: the bytes of an input"""
     r, kinds = randoms.Random(seed), randoms.Random(f"materials and lights of {seed // ALIKE}")
     looks = kinds.randint(1, 3)
-    lines = HEAD.splitlines()
-    for k in range(looks):
-        lines += _look(r, kinds, f"look{k}")
+    prims = [*SEEN, *(_look(r, kinds, f"look{k}") for k in range(looks))]
     for k in range(r.randint(1, 4)):
         kind = r.choice(sorted(SHAPES))
-        lines += [f'def {kind.strip()} "shape{k}" (', '    prepend apiSchemas = ["MaterialBindingAPI"]', ")", "{",
-                  *("    " + line for line in SHAPES[kind]), f"    rel material:binding = </look{r.randrange(looks)}>"]
-        lines += ["    uniform bool doubleSided = true"] if kind == "Plane" else []
+        held = [*SHAPES[kind], *(["uniform bool doubleSided = true"] if kind == "Plane" else [])]
+        look = f"look{r.randrange(looks)}"
         scale = _numbers(r, 0.3, 0.9) if kind != "Points" else "(0.6, 0.6, 0.6)"  # else they differ by design
         place = f"({r.uniform(-1.5, 1.5):.4f}, {r.uniform(0.3, 1.3):.4f}, {r.uniform(-2, 1):.4f})"
-        lines += [f"    double3 xformOp:translate = {place}",
-                  f"    float3 xformOp:rotateXYZ = {_numbers(r, -90, 90)}", f"    float3 xformOp:scale = {scale}",
-                  '    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ", "xformOp:scale"]', "}"]
+        prims.append(usda.prim(kind.strip(), f"shape{k}", *held, bind=look, at=place, turn=_numbers(r, -90, 90), scale=scale))
     for k in range(kinds.randint(1, 3)):
         kind = kinds.choice(sorted(LIGHTS))
-        lines += [f'def {kind} "light{k}"', "{", f"    color3f inputs:color = {_numbers(r, 0.2, 1)}",
-                  f"    float inputs:intensity = {r.uniform(*POWER.get(kind, (5, 40))):.4f}"]
-        lines += [f"    float inputs:{name} = {r.uniform(low, high):.4f}" for name, low, high in LIGHTS[kind]]
+        inputs = {"color": _numbers(r, 0.2, 1), "intensity": f"{r.uniform(*POWER.get(kind, (5, 40))):.4f}"}
+        inputs.update((name, f"{r.uniform(low, high):.4f}") for name, low, high in LIGHTS[kind])
         place = f"({r.uniform(-3, 3):.4f}, {r.uniform(3, 5):.4f}, {r.uniform(-2, 3):.4f})"
-        lines += [f"    double3 xformOp:translate = {place}",
-                  f"    float3 xformOp:rotateXYZ = ({r.uniform(-130, -50):.4f}, {r.uniform(-40, 40):.4f}, 0)",
-                  '    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]', "}"]
-    return "\n".join([*lines, ""]).encode()
+        turn = f"({r.uniform(-130, -50):.4f}, {r.uniform(-40, 40):.4f}, 0)"
+        prims.append(usda.prim(kind, f"light{k}", at=place, turn=turn, **inputs))
+    return usda.stage(*prims).encode()
 
 
 def verdict(path):

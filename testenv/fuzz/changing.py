@@ -9,6 +9,7 @@ import time
 
 import damaged
 import outcomes
+import mtlx
 from usda import camera, material, prim, stage
 
 EXTENSION = ".json"
@@ -27,9 +28,7 @@ STAGE = stage(
                    "t": ("UsdUVTexture", {"file": "checker.png"}, "color3f rgb")}, surface="s"),
     up="", subLayers="[@layer.usda@]")
 LAYER = '#usda 1.0\ndef Xform "many"\n{\n%s}\n'
-LOOK = '<?xml version="1.0"?>\n<materialx version="1.39">\n<standard_surface name="s" type="surfaceshader"/>\n' \
-       '<surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>' \
-       '</surfacematerial>\n</materialx>\n'
+LOOK = mtlx.document(mtlx.shader("M"))
 FILES = ("checker.png", "sky.exr", "puff.vdb", "lamp.ies", "look.mtlx", "layer.usda", "shot.usda")
 CHANGES = ("cut", "empty", "longer", "spoiled", "zeros", "other", "folder", "pipe", "gone", "unreadable", "whole")
 

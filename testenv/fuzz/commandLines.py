@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Random command lines: every flag of the commands that read what users give, with values that fit and that do not."""
 import argparse
-import json
 import os
 import random as randoms
 
@@ -37,7 +36,7 @@ def make(seed):
     """:returns: the bytes of an input: a list of words as JSON, one on a line"""
     command, words = line(randoms.Random(seed))
     words = [command, *words, *LAST.get(command, ())]
-    return ("[\n" + ",\n".join(map(json.dumps, words)) + "\n]\n").encode()
+    return outcomes.in_lines(words)
 
 
 def line(r):
@@ -57,11 +56,7 @@ def line(r):
 
 def execute(path, folder):
     """Runs a command line, in a process that may die. :returns: its exit status; an old image stays, or is a whole one"""
-    with open(path, encoding="utf-8") as file:
-        try:
-            words = [str(word) for word in json.loads(file.read().replace(",\n]", "\n]"))]
-        except ValueError:
-            return 0  # what shrinking has broken
+    words = [str(word) for word in outcomes.from_lines(path)]
     if not words or words[0] not in COMMANDS:
         return 0
     image = os.path.join(folder, "image.exr")

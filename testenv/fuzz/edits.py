@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Random edits while an image is rendered: one random stage after another takes the place of what is shown, prims appear,
 change and vanish, and the render is started, stopped and left alone in between."""
-import json
 import os
 import random as randoms
 import sys
@@ -9,6 +8,7 @@ import time
 
 import outcomes
 import randomStages
+from usda import camera, prim, stage
 
 EXTENSION = ".json"
 LINES = True  # one step a line
@@ -27,20 +27,17 @@ def make(seed):
                 current.append("\n".join(writer.prim()))
         steps.append({"stage": "\n".join(current), "clear": r.random() < 0.5, "stop": r.random() < 0.2,
                       "wait": r.choice((0, 0, 0.005, 0.03)), "width": r.choice((8, 8, 16, 1)), "seed": r.randint(0, 3)})
-    return ("[\n" + ",\n".join(map(json.dumps, steps)) + "\n]\n").encode()
+    return outcomes.in_lines(steps)
 
 
-HEAD = '#usda 1.0\ndef Camera "camera"\n{\n    double3 xformOp:translate = (0, 0, 6)\n    uniform token[] xformOpOrder = ' \
-       '["xformOp:translate"]\n}\ndef DomeLight "dome"\n{\n}\ndef Material "material"\n{\n}\n'
+HEAD = stage(camera(at=(0, 0, 6)), prim("DomeLight", "dome"), prim("Material", "material"), up="")
 
 
 def execute(path, folder):
     """Makes the edits, in a process that may die. :returns: the exit status"""
-    with open(path, encoding="utf-8") as file:
-        try:
-            steps = json.loads(file.read().replace(",\n]", "\n]"))
-        except ValueError:
-            return 0  # what shrinking has broken
+    steps = outcomes.from_lines(path)
+    if not steps:
+        return 0
     import numpy as np
     from pxr import Sdf, Usd
 
@@ -66,9 +63,7 @@ def execute(path, folder):
                                           "seed": step["seed"]}, film)
         time.sleep(step["wait"])
     renderer.wait()
-    for warning in scene.warnings():
-        if "memory" in warning["message"]:
-            print(f"out of memory: {warning['prim']}: {warning['message']}", file=sys.stderr)
+    outcomes.tell_memory(scene.warnings())
     if renderer.progress()["failed"]:
         print("patina: " + renderer.progress()["error"], file=sys.stderr)
         return 1

@@ -71,8 +71,7 @@ def execute(path, folder):
         return 0
     changing.write_all(folder)
     image, *more = asked["output"]
-    with open(os.path.join(folder, image), "wb") as file:
-        file.write(outcomes.SENTINEL)
+    old = outcomes.put_old(folder, image)
     words = ["record", "shot.usda", image, *more, "--camera", "/camera", "--backend", asked["backend"], *outcomes.SMALL]
     code = ("import ctypes, os, sys\nfrom patina.cli import main, record\nimport numpy, _patina\nfrom pxr import Usd, UsdGeom\n"
             "f = ctypes.CDLL(sys.argv[1])\nos.chdir(sys.argv[2])\n"
@@ -97,15 +96,15 @@ def execute(path, folder):
         return outcomes.LIBRARY
     if done.returncode < 0:
         os.kill(os.getpid(), -done.returncode)
-    if not os.path.exists(os.path.join(folder, image)):
+    if not os.path.exists(old):
         return outcomes.broken("the image that was there before is lost")
-    with open(os.path.join(folder, image), "rb") as file:
+    with open(old, "rb") as file:
         data = file.read()
     if data != outcomes.SENTINEL:
         import _patina
 
         try:
-            _patina.read_image(os.path.join(folder, image))
+            _patina.read_image(old)
         except (OSError, RuntimeError) as error:
             return outcomes.broken(f"the image is neither the old one nor whole: {error}")
         if done.returncode and "--report" not in more and "--part" not in more and "--keepCheckpoint" not in more \

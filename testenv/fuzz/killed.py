@@ -90,8 +90,7 @@ def execute(path, folder):
         words = ["record", "shot.usda", image, *flags, "--resume"]
         if asked["parts"] > 1:  # which are rendered whole, again
             words = ["record", "shot.usda", image, *flags, "--part", f"{k}/{asked['parts']}", "--partial", f"shot.{k}.part"]
-        with open(os.path.join(folder, image), "wb") as file:
-            file.write(outcomes.SENTINEL)
+        outcomes.put_old(folder, image)
         for share in asked["kills"]:
             status = _render(words, folder, share * taken)
             if status:

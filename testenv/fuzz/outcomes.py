@@ -25,6 +25,35 @@ def broken(reason):
     return BROKEN
 
 
+def in_lines(values):
+    """:returns: the bytes of a list as JSON, a value a line: shrink.py leaves out lines"""
+    return ("[\n" + ",\n".join(map(json.dumps, values)) + "\n]\n").encode()
+
+
+def from_lines(path):
+    """:returns: the list of in_lines() from a file, empty where shrinking has broken it"""
+    with open(path, encoding="utf-8") as file:
+        try:
+            return json.loads(file.read().replace(",\n]", "\n]"))
+        except ValueError:
+            return []
+
+
+def tell_memory(warnings):
+    """Has warnings of missing memory told in the words that kind_of() knows."""
+    for warning in warnings:
+        if "memory" in warning["message"]:
+            print(f"out of memory: {warning['prim']}: {warning['message']}", file=sys.stderr)
+
+
+def put_old(folder, name):
+    """An image that was there before. :returns: its path"""
+    path = os.path.join(folder, name)
+    with open(path, "wb") as file:
+        file.write(SENTINEL)
+    return path
+
+
 def command(words, folder):
     """:returns: the exit status of a command that runs in a folder"""
     from patina.cli import main
@@ -67,9 +96,7 @@ def record(words, folder, darkens=False):
     """The same of a render to image.exr, which exists before: it is the old one afterwards, or a whole new one of numbers.
 
     :param darkens: whether lights of the stage take light away, so that numbers may be negative"""
-    image = os.path.join(folder, "image.exr")
-    with open(image, "wb") as file:
-        file.write(SENTINEL)
+    image = put_old(folder, "image.exr")
     tell_swallowed()
     status = command([*words, *SMALL, "--json=told.json"], folder)
     if not os.path.exists(image):
@@ -81,9 +108,7 @@ def record(words, folder, darkens=False):
     if same:
         return broken("a render that is done has written no image")
     with open(os.path.join(folder, "told.json"), encoding="utf-8") as file:
-        for warning in json.load(file)["warnings"]:
-            if "memory" in warning["message"]:
-                print(f"out of memory: {warning['prim']}: {warning['message']}", file=sys.stderr)
+        tell_memory(json.load(file)["warnings"])
     import numpy as np
 
     import _patina

@@ -7,10 +7,9 @@ import sys
 
 import pytest
 
+import mtlx
 from usda import camera, material, prim, stage
 
-pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 STAGE = stage(
@@ -24,14 +23,9 @@ STAGE = stage(
         "s": ("UsdPreviewSurface", {"color3f diffuseColor": "<t>"}),
         "t": ("UsdUVTexture", {"file": "https://example.org/color.<UDIM>.png"}, "color3f rgb")}, surface="s"),
     up="", subLayers="[@http://example.org/layer.usda@]")
-DOCUMENT = """<?xml version="1.0"?>
-<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">
-  <xi:include href="http://example.org/more.mtlx"/>
-  <image name="i" type="color3"><input name="file" type="filename" value="http://example.org/a.png"/></image>
-  <standard_surface name="s" type="surfaceshader"><input name="base_color" type="color3" nodename="i"/></standard_surface>
-  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
-</materialx>
-"""
+DOCUMENT = mtlx.document(
+    '<xi:include href="http://example.org/more.mtlx"/>', {"i": ("image color3", {"filename file": "http://example.org/a.png"})},
+    mtlx.shader("M", inputs={"base_color": "<i>"}), attributes='xmlns:xi="http://www.w3.org/2001/XInclude"')
 COMMANDS = {
     "record": ("record", "shot.usda", "image.exr", "--camera", "/camera", "-w", "16", "--samples", "1", "--report",
                "report.html", "--threads", "1"),

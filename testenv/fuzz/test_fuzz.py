@@ -12,19 +12,16 @@ import types
 
 import pytest
 
-pytest.importorskip("_patina")
-pytest.importorskip("pxr.Usd")
-
-import following  # noqa: E402
-import fuzzRun  # noqa: E402
-import generated  # noqa: E402
-import keptFindings  # noqa: E402
-import native  # noqa: E402
-import outcomes  # noqa: E402
-import results  # noqa: E402
-import shrink  # noqa: E402
-import traced  # noqa: E402
-from fuzzers import FUZZERS  # noqa: E402
+import following
+import fuzzRun
+import generated
+import keptFindings
+import native
+import outcomes
+import results
+import shrink
+import traced
+from fuzzers import FUZZERS
 
 GENERATED = [name for name, fuzzer in FUZZERS.items() if fuzzer.kind == "generated"]
 HANGS = 3600  # seconds that no number of inputs takes, however busy the machine

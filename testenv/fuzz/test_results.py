@@ -2,13 +2,11 @@
 """Rows of the table of runs say what the runs said."""
 import json
 import os
-import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[1:1] = [HERE, os.path.join(HERE, "..", "hydra")]
 
-import editResults  # noqa: E402
-import results  # noqa: E402
+import editResults
+import results
 
 RACE = """WARNING: ThreadSanitizer: data race (pid=7)
   Write of size 8 at 0x7b0400001f40 by main thread:

@@ -9,14 +9,17 @@ from usda import card, preview
 
 WIDTH = 40
 COLORS = {"a": (1, 0, 0), "b": (0, 1, 0), "c": (0, 0, 1), "d": (1, 1, 0)}
-TILE = card("tile", 2, bind="World/look%s")
-LOOK = preview("look%s", inside="/World", diffuseColor=(0, 0, 0), useSpecularWorkflow=1, specularColor=(0, 0, 0),
-               **{"color3f emissiveColor": "(%g, %g, %g)"})
+
+
+def tile(name):
+    """:param name: of one of COLORS"""
+    return card("tile", 2, bind=f"World/look{name}")
 
 
 def looks():
     """:returns: text of their materials, which are children of /World"""
-    return "\n".join(LOOK % (name, name, *rgb) for name, rgb in COLORS.items())
+    return "".join(preview(f"look{name}", inside="/World", diffuseColor=(0, 0, 0), useSpecularWorkflow=1,
+                           specularColor=(0, 0, 0), emissiveColor=rgb) for name, rgb in COLORS.items())
 
 
 def pictures(stage, tmp_path, *flags):

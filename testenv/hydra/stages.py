@@ -28,29 +28,16 @@ def name_of(stage):
             return os.path.relpath(stage, base)
     return os.path.basename(stage)
 
-CAMERA = """def Camera "framingCamera"
-{{
-    float2 clippingRange = ({clipNear}, {clipFar})
-    float focalLength = {focalLength}
-    float focusDistance = {focusDistance}
-    float horizontalAperture = {horizontalAperture}
-    float verticalAperture = {verticalAperture}
-    matrix4d xformOp:transform = ( {rows} )
-    uniform token[] xformOpOrder = ["xformOp:transform"]
-}}
-"""
-# An orthographic look along -z, @width@ by @height@ units around the origin, under a white sky.
-FRONT = usda.stage(
-    usda.camera(flat=("@width@0", "@height@0"), clippingRange=(1, 100), at=(0, 0, 20)),
-    usda.prim("DomeLight", "dome"),
-    up="")
+
 LIGHT = usda.prim("DomeLight", "testDome", "color3f inputs:color = (1, 0.9, 0.8)", intensity=0.8)
 
 
-def front(width, height):
-    """:param width: in whole units of the stage, as `height`
-    :returns: the head of a stage, with a camera and a light"""
-    return FRONT.replace("@width@", str(width)).replace("@height@", str(height))
+def front(width, height, *prims, camera=(), dome=(), **metadata):
+    """:param camera: lines of the camera, which looks along -z at so many units around the origin
+    :param dome: lines of the white sky
+    :returns: a stage's text"""
+    return usda.stage(usda.camera(*camera, flat=(10 * width, 10 * height), clippingRange=(1, 100), at=(0, 0, 20)),
+                      usda.prim("DomeLight", "dome", *dome), *prims, up="", **metadata)
 
 
 class Shot:
@@ -93,6 +80,15 @@ class Shot:
         return ["--camera", self.camera, "--frame", self.frame, "--size", f"{self.size[0]}x{self.size[1]}"]
 
 
+def shot_of(text, folder, **options):
+    """:param text: of a stage
+    :param options: of Shot"""
+    path = os.path.join(str(folder), "stage.usda")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+    return Shot(path, folder, **options)
+
+
 def _lens(text, camera):
     """:returns: what a scene's text says of a camera, by name"""
     lines = text.splitlines()
@@ -115,7 +111,9 @@ def _wrapped(opened, path, lens, framed, light, folder):
         text = opened.Flatten().ExportToString()
     rows = ", ".join("(" + ", ".join(row.split()) + ")" for row in lens["transform"].split(","))
     if framed:
-        text += CAMERA.format(rows=rows, **lens)
+        names = ("focalLength", "focusDistance", "horizontalAperture", "verticalAperture")
+        text += usda.camera(name="framingCamera", clippingRange=(lens["clipNear"], lens["clipFar"]), matrix=f"( {rows} )",
+                            **{name: lens[name] for name in names})
     out = os.path.join(str(folder), os.path.basename(path).rsplit(".", 1)[0] + "Wrapped.usda")
     with open(out, "w", encoding="utf-8") as file:
         file.write(text + light.replace("@rows@", rows))

@@ -6,9 +6,10 @@ import pytest
 import hydraBuild
 import stages
 from rendering import color
-from test_coordSystems import APPLIED, HEAD, NAMED, NEW, OLD, PLACES, PROJECTOR, applying, wall
+from test_coordSystems import APPLIED, HEAD, NAMED, NEW, OLD, PLACES, projector, wall
 from test_marks import block
 from test_oneTruth import MODES, compare, render_with_hydra
+import usda
 
 
 @MODES
@@ -16,10 +17,8 @@ from test_oneTruth import MODES, compare, render_with_hydra
 def test_spaces_are_read(tmp_path, binding, applied, scene_index):
     if scene_index and binding == OLD:
         pytest.skip("scene indices know bindings of the applied schema alone")
-    stage = tmp_path / "spaces.usda"
-    group = f'def Xform "set" {applying(applied)}\n{{\n{binding % "/projector"}\n{wall()}}}\n'  # inherited
-    stage.write_text(HEAD + PROJECTOR % PLACES["turned"] + group + NAMED)
-    shot = stages.Shot(str(stage), tmp_path, width=24)
+    group = usda.prim("Xform", "set", binding % "/projector", wall(), apis=applied)  # inherited
+    shot = stages.shot_of(HEAD + projector(PLACES["turned"]) + group + NAMED, tmp_path, width=24)
     picture, dump = render_with_hydra(shot, tmp_path, scene_index)
     said = [line for line in block(shot.scene.dump(), "/set/wall") if "<space" in line]
     assert len(said) >= 4 and all(line in block(dump, "/set/wall") for line in said), dump
@@ -31,9 +30,8 @@ def test_spaces_are_read(tmp_path, binding, applied, scene_index):
 def test_a_space_that_moves_is_read_again(tmp_path, scene_index):
     """The second frame of a projector that moves, and nothing else does, is as the first frame of a host."""
     stage = tmp_path / "moves.usda"
-    times = ", ".join(f"{frame}: {place}" for frame, place in enumerate(PLACES.values(), 1))
-    moves = PROJECTOR.replace("transform = %s", "transform.timeSamples = { %s }") % times
-    stage.write_text(HEAD + moves + wall(NEW % "/projector", APPLIED) + NAMED)
+    moves = projector(dict(enumerate(PLACES.values(), 1)))
+    stage.write_text(HEAD + moves + wall(NEW % "/projector", schemas=APPLIED) + NAMED)
     for name, frames in (("both", "1:2"), ("alone", "2:2")):
         hydraBuild.run_usdrecord(stage, tmp_path / f"{name}.#.exr", "--imageWidth", 24, "--frames", frames,
                                  "--camera", "/camera", scene_index=scene_index)

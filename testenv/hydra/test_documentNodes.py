@@ -4,64 +4,29 @@ import numpy as np
 import pytest
 
 import hydraBuild
+import mtlx
 import stages
 from rendering import color
 from test_oneTruth import MODES, render_with_reader
 from usda import mesh, prim
 
+
 # Two documents give one name to nodes that differ: one tints, the other takes a fifth.
-DOCUMENT = """<?xml version="1.0"?>
-<materialx version="1.39">
-  <nodedef name="ND_change" node="change">
-    <input name="in" type="color3" value="0.5, 0.5, 0.5" />
-    <output name="out" type="color3" />
-  </nodedef>
-  <nodegraph name="NG_change" nodedef="ND_change">
-    <multiply name="product" type="color3">
-      <input name="in1" type="color3" interfacename="in" />
-      <input name="in2" type="color3" value="%s" />
-    </multiply>
-    <output name="out" type="color3" nodename="product" />
-  </nodegraph>
-  %s
-</materialx>
-"""
+def change(factor):
+    return mtlx.model("change", {"in": (0.5, 0.5, 0.5)}, {"product": ("multiply color3", {"in1": "<in>", "in2": factor})},
+                      out="product")
+
+
 # A surface that is a node of the document itself, made of the other one and of a model of MaterialX's library.
-TINT = DOCUMENT % ("1, 0.25, 0", """
-  <nodedef name="ND_paint" node="paint">
-    <input name="paintColor" type="color3" value="1, 1, 1" />
-    <output name="out" type="surfaceshader" />
-  </nodedef>
-  <nodegraph name="NG_paint" nodedef="ND_paint">
-    <change name="changed" type="color3">
-      <input name="in" type="color3" interfacename="paintColor" />
-    </change>
-    <standard_surface name="body" type="surfaceshader">
-      <input name="base" type="float" value="1" />
-      <input name="base_color" type="color3" nodename="changed" />
-      <input name="specular" type="float" value="0" />
-    </standard_surface>
-    <output name="out" type="surfaceshader" nodename="body" />
-  </nodegraph>
-  <paint name="painted" type="surfaceshader">
-    <input name="paintColor" type="color3" value="0.8, 0.8, 0.8" />
-  </paint>
-  <surfacematerial name="left" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="painted" />
-  </surfacematerial>""")
-FIFTH = DOCUMENT % ("0.2, 0.2, 0.2", """
-  <change name="changed" type="color3">
-    <input name="in" type="color3" value="0.5, 0.5, 1" />
-  </change>
-  <oren_nayar_diffuse_bsdf name="bsdf" type="BSDF">
-    <input name="color" type="color3" nodename="changed" />
-  </oren_nayar_diffuse_bsdf>
-  <surface name="plain" type="surfaceshader">
-    <input name="bsdf" type="BSDF" nodename="bsdf" />
-  </surface>
-  <surfacematerial name="right" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="plain" />
-  </surfacematerial>""")
+TINT = mtlx.document(
+    change((1, 0.25, 0)),
+    mtlx.model("paint", {"paintColor": (1, 1, 1)}, {
+        "changed": ("change color3", {"in": "<paintColor>"}),
+        "body": ("standard_surface", {"base": 1, "base_color": "<changed>", "specular": 0})}, out="body"),
+    mtlx.shader("left", "paint surfaceshader", {"paintColor": (0.8, 0.8, 0.8)}, node="painted"))
+FIFTH = mtlx.document(
+    change((0.2, 0.2, 0.2)), {"changed": ("change color3", {"in": (0.5, 0.5, 1)})},
+    mtlx.lobe("right", "oren_nayar_diffuse_bsdf", {"color": "<changed>"}))
 # In a dome of light without shadows a diffuse surface shows its colour.
 EXPECTED = {"left": (0.8, 0.2, 0.0), "right": (0.1, 0.1, 0.2)}
 

@@ -21,31 +21,22 @@ PITCH = 4.0  # between prims, whose middles are in a row
 
 def stage_of(colors, interpolation):
     """:param colors: prim -> list of displayColor"""
-    prims = []
-    for i, (kind, values) in enumerate(colors.items()):
-        prims.append(f"""def {kind} "{kind.lower()}"
-{{
-    {'uniform token axis = "Y"' if kind in ("Cylinder", "Cone", "Capsule") else ""}
-    color3f[] primvars:displayColor = {[tuple(v) for v in values]} (
-        interpolation = "{interpolation}"
-    )
-    double3 xformOp:translate = ({i * PITCH}, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}}""")
+    prims = [
+        prim(kind, kind.lower(), f'color3f[] primvars:displayColor = {list(values)} (interpolation = "{interpolation}")',
+             at=(i * PITCH, 0, 0), **({"axis": "Y"} if kind in ("Cylinder", "Cone", "Capsule") else {}))
+        for i, (kind, values) in enumerate(colors.items())]
     span = len(colors) * PITCH
     return stage(
         camera(flat=(10 * span, 10 * PITCH), clippingRange=(1, 100), at=((span - PITCH) / 2, 0, 20)),
-        prim("DomeLight", "dome"),
-        up="") + "\n".join(prims)
+        prim("DomeLight", "dome"), *prims,
+        up="")
 
 
 def check(colors, interpolation, expected, tmp_path, scene_index):
     """:param expected: prim -> list of (x, y, number of one of COLORS) on the prim as the camera sees it"""
     if scene_index:
         hydraBuild.skip_before(2411, "scene indices leave planes out, with a warning")
-    path = tmp_path / "colors.usda"
-    path.write_text(stage_of(colors, interpolation), encoding="utf-8")
-    shot = stages.Shot(str(path), tmp_path, width=WIDTH * len(colors))
+    shot = stages.shot_of(stage_of(colors, interpolation), tmp_path, width=WIDTH * len(colors))
     hydra = tmp_path / "hydra.exr"
     process = hydraBuild.run_host(shot.stage, hydra, *shot.host_flags(), "--set", "samples=4", scene_index=scene_index)
     assert not hydraBuild.warnings_of(process) and not shot.scene.warnings()
@@ -98,9 +89,7 @@ def test_colors_of_points(tmp_path, interpolation, scene_index):
 
 @MODES
 def test_wrong_numbers_are_told_alike(tmp_path, scene_index):
-    path = tmp_path / "colors.usda"
-    path.write_text(stage_of({"Sphere": COLORS}, "vertex"), encoding="utf-8")
-    shot = stages.Shot(str(path), tmp_path)
+    shot = stages.shot_of(stage_of({"Sphere": COLORS}, "vertex"), tmp_path)
     render_with_reader(shot)
     process = hydraBuild.run_host(shot.stage, tmp_path / "hydra.exr", *shot.host_flags(), "--set", "samples=1",
                                   scene_index=scene_index)

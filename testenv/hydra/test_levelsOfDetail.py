@@ -4,55 +4,39 @@ import numpy as np
 import pytest
 
 import hydraBuild
-from glowingTiles import COLORS, TILE, WIDTH, looks, pictures
+from glowingTiles import COLORS, WIDTH, looks, pictures, tile
 from rendering import pixels
+import usda
 
 pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_usdrecord(),
                                 reason="this OpenUSD has no usdrecord")
-# Level a is 4 units wide, as are b, which other renderers are told not to show, and c. b holds a square that nobody shows.
-ITEMS = """
-    def Xform "a" { %s }
-    def Xform "b" { token visibility = "invisible"
-        %s
-        def Xform "hidden" { token visibility = "invisible"
-            double3 xformOp:translate = (0, 0, 0.5)  uniform token[] xformOpOrder = ["xformOp:translate"]
-            %s } }
-    def Xform "c" { %s }
-""" % (TILE % "a", TILE % "b", TILE % "d", TILE % "c")
-ROOT = ' "%s" (prepend apiSchemas = ["LODRootAPI", "LODOverrideAPI"] %s) { rel lod:heuristics = </by>\n%s\n' + ITEMS + "}\n"
-DISTANCE = """def LODDistanceHeuristic "by" {
-    uniform token lod:domain = "imaging"  uniform float[] thresholds = [25, 50] }
-"""
-SIZE = """def LODScreenSizeHeuristic "by" {
-    uniform token lod:domain = "imaging"  uniform float[] thresholds = [0.08, 0.03]
-    float3[] extent = [(-2, -2, 0), (2, 2, 0)] }
-"""
-# Half as high as wide, so that the frame is no square, and one unit beside the middle, so that the tile is not in the middle.
-CAMERA = """#usda 1.0
-(
-    startTimeCode = 1
-    endTimeCode = 3
-    renderSettingsPrimPath = "/Render/main"
-)
-def Scope "Render" { def RenderSettings "main" { int patina:samples = 4 } }
-def Camera "camera" {
-    float horizontalAperture = 40  float verticalAperture = 20  float focalLength = 40  float2 clippingRange = (1, 1000)
-    double3 xformOp:translate = (0, 0, %g)  double3 xformOp:translate.timeSamples = { %s }
-    uniform token[] xformOpOrder = ["xformOp:translate"] }
-"""
+DISTANCE = usda.prim("LODDistanceHeuristic", "by", 'uniform token lod:domain = "imaging"',
+                     "uniform float[] thresholds = [25, 50]")
+SIZE = usda.prim("LODScreenSizeHeuristic", "by", 'uniform token lod:domain = "imaging"',
+                 "uniform float[] thresholds = [0.08, 0.03]", "float3[] extent = [(-2, -2, 0), (2, 2, 0)]")
+BY = "rel lod:heuristics = </by>"
 
 
-def at(*distances):
-    """:returns: text of a camera that is so far away in frame 1, 2 and so on; of one distance it stands still"""
-    samples = ", ".join(f"{i + 1}: (0, 0, {z:g})" for i, z in enumerate(distances))
-    text = CAMERA % (distances[0], samples)
-    return text if len(distances) > 1 else text.replace("double3 xformOp:translate.timeSamples = { " + samples + " }", "")
+def root(name, *lines, beside=None, **more):
+    """Level a is 4 units wide, as are b, which other renderers are told not to show, and c. b holds a square that nobody shows.
+    :param beside: place of each level"""
+    beside = beside or {}
+    hidden = usda.prim("Xform", "hidden", tile("d"), visibility="invisible", at=(0, 0, 0.5))
+    return usda.prim("Xform", name, *lines, usda.prim("Xform", "a", tile("a")),
+                     usda.prim("Xform", "b", tile("b"), hidden, visibility="invisible", at=beside.get("b")),
+                     usda.prim("Xform", "c", tile("c"), at=beside.get("c")), apis=("LODRootAPI", "LODOverrideAPI"), **more)
 
 
-def stage(tmp_path, camera, *parts):
+def stage(tmp_path, distances, *parts):
+    """The camera is so far away in frame 1, 2 and so on; of one distance it stands still. The frame is half as high as wide, so
+    that it is no square, and one unit beside the middle, so that the tile is not in the middle."""
+    places = {i: (0, 0, z) for i, z in enumerate(distances, 1)}
     path = tmp_path / "levels.usda"
-    text = camera + 'def Xform "World" {' + looks() + "}\n" + "\n".join(parts)
-    path.write_text(text.replace("  ", "\n").replace(" }", "\n}"), encoding="utf-8")  # statements end with a line
+    path.write_text(usda.stage(
+        usda.prim("Scope", "Render", usda.prim("RenderSettings", "main", "int patina:samples = 4")),
+        usda.camera(lens=(40, 40, 20), clippingRange=(1, 1000), at=places if len(places) > 1 else places[1]),
+        usda.prim("Xform", "World", looks()), *parts,
+        up="", startTimeCode=1, endTimeCode=3, renderSettingsPrimPath="/Render/main"), encoding="utf-8")
     return path
 
 
@@ -63,32 +47,27 @@ def levels(picture):
     return "".join(name for name, rgb in COLORS.items() if np.isclose(seen, rgb, atol=0.01).all(axis=-1).any())
 
 
-def both(tmp_path, *parts, camera=at(20)):
+def both(tmp_path, *parts, distance=20):
     hydraBuild.skip_before(2608, "there is no UsdLod")
-    hydra, record = pictures(stage(tmp_path, camera, *parts), tmp_path, "--camera", "camera")
+    hydra, record = pictures(stage(tmp_path, (distance,), *parts), tmp_path, "--camera", "camera")
     return hydra, record
 
 
 @pytest.mark.parametrize("heuristic", [DISTANCE, SIZE])
 @pytest.mark.parametrize("distance, shown", [(20, "a"), (30, "b"), (60, "c")])
 def test_the_heuristic_chooses(tmp_path, heuristic, distance, shown):
-    hydra, record = both(tmp_path, heuristic, "def Xform" + ROOT % ("root", "", ""), camera=at(distance))
+    hydra, record = both(tmp_path, heuristic, root("root", BY), distance=distance)
     assert levels(record) == shown
     assert np.array_equal(hydra, record)
 
 
 @pytest.mark.parametrize("lines, shown", [
-    ('token lod:override:mode = "indexedLOD"  float lod:override:index = 1.2', "b"),
-    ('token lod:override:mode = "noLOD"', ""), ('token lod:override:mode = "allLOD"', "abc"),
-    ('rel lod:heuristics = []  int lod:default:index = 7', "c")])
+    ((BY, 'token lod:override:mode = "indexedLOD"', "float lod:override:index = 1.2"), "b"),
+    ((BY, 'token lod:override:mode = "noLOD"'), ""), ((BY, 'token lod:override:mode = "allLOD"'), "abc"),
+    (("rel lod:heuristics = []", "int lod:default:index = 7"), "c")])
 def test_overrides_and_the_default(tmp_path, lines, shown):
-    text = ROOT % ("root", "", lines)
-    if "heuristics" in lines:
-        text = text.replace("rel lod:heuristics = </by>\n", "", 1)
-    for name, x in (("b", 4), ("c", -4)) if "allLOD" in lines else ():  # one beside the other
-        text = text.replace(f'def Xform "{name}" {{', f"""def Xform "{name}" {{
-            double3 xformOp:translate = ({x}, 0, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]  """)
-    hydra, record = both(tmp_path, DISTANCE, "def Xform" + text)
+    beside = {"b": (4, 0, 0), "c": (-4, 0, 0)} if shown == "abc" else {}  # one beside the other
+    hydra, record = both(tmp_path, DISTANCE, root("root", *lines, beside=beside))
     assert levels(record) == shown
     assert np.array_equal(hydra, record)
 
@@ -96,10 +75,9 @@ def test_overrides_and_the_default(tmp_path, lines, shown):
 @pytest.mark.parametrize("distances, shown", [((20, 60, 60), "aca"), ((60, ), "cca")])
 def test_they_follow_the_camera_and_an_override_above_that_moves_in_time(tmp_path, distances, shown):
     hydraBuild.skip_before(2608, "there is no UsdLod")
-    above = """def Xform "top" (prepend apiSchemas = ["LODOverrideAPI"]) {
-        token lod:override:mode.timeSamples = { 1: "noOverride", 2: "noOverride", 3: "indexedLOD" }
-        def Xform""" + ROOT % ("root", "", "") + "}"
-    path = stage(tmp_path, at(*distances), DISTANCE, above)
+    modes = usda.attribute("token lod:override:mode", {1: "noOverride", 2: "noOverride", 3: "indexedLOD"})
+    above = usda.prim("Xform", "top", modes, root("root", BY), apis=("LODOverrideAPI",))
+    path = stage(tmp_path, distances, DISTANCE, above)
     hydraBuild.run_usdrecord(path, tmp_path / "h.#.exr", "--camera", "camera", "--frames", "1:3", "--imageWidth", WIDTH,
                              "--disableCameraLight", "--colorCorrectionMode", "disabled", scene_index=True)
     assert [levels(pixels(tmp_path / f"h.{frame}.exr")) for frame in (1, 2, 3)] == list(shown)
@@ -110,39 +88,31 @@ PLACES = ((-4, -10), (4, -35))  # x, z: from 20 units before, the first one is n
 
 @pytest.mark.parametrize("instanceable", [True, False])
 def test_native_instances_share_the_level_of_the_nearest(tmp_path, instanceable):
-    asset = "class Xform" + ROOT % ("asset", "", "")
-    for below in (False, True):  # the root is the instance, or is in it
-        text = asset if not below else 'class Xform "asset" { def Xform' + ROOT % ("root", "", "") + "}"
-        placed = "".join(f"""def Xform "i{i}" (prepend references = </asset>
-            instanceable = {str(instanceable).lower()}) {{ double3 xformOp:translate = ({x}, 0, {z})
-            uniform token[] xformOpOrder = ["xformOp:translate"] }}
-            """ for i, (x, z) in enumerate(PLACES))
-        hydra, record = both(tmp_path, DISTANCE, text, placed)
+    meta = ("prepend references = </asset>", f"instanceable = {str(instanceable).lower()}")
+    placed = [usda.prim("Xform", f"i{i}", meta=meta, at=(x, 0, z)) for i, (x, z) in enumerate(PLACES)]
+    for asset in (root("asset", BY, specifier="class"),  # the root is the instance, or is in it
+                  usda.prim("Xform", "asset", root("root", BY), specifier="class")):
+        hydra, record = both(tmp_path, DISTANCE, asset, *placed)
         assert levels(record) == "bc"
         assert levels(hydra) == ("b" if instanceable else "bc")
 
 
 def test_instances_of_a_point_instancer(tmp_path):
-    points = ", ".join(f"({x}, 0, {z})" for x, z in PLACES)
-    hydra, record = both(tmp_path, DISTANCE, f"""def PointInstancer "trees" {{ rel prototypes = </trees/root>
-        int[] protoIndices = [0, 0]  point3f[] positions = [{points}]
-        def Xform""" + ROOT % ("root", "", "") + "}")
+    trees = usda.prim("PointInstancer", "trees", "rel prototypes = </trees/root>", root("root", BY), protoIndices=[0, 0],
+                      positions=[(x, 0, z) for x, z in PLACES])
+    hydra, record = both(tmp_path, DISTANCE, trees)
     assert levels(record) == "b"
     assert np.array_equal(hydra, record)
 
 
 def test_instances_in_a_level_go_with_it(tmp_path):
-    trees = """def Xform "root" (prepend apiSchemas = ["LODRootAPI"]) { int lod:default:index = %d
-        def Xform "near" { token visibility = "invisible"
-            def Xform "i" (prepend references = </asset>
-                instanceable = true) { } }
-        def PointInstancer "far" { rel prototypes = </outOfView/p>  int[] protoIndices = [0]
-            point3f[] positions = [(0, 0, 0)] } }
-    class Xform "asset" { %s }
-    def Xform "outOfView" { double3 xformOp:translate = (0, 999, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]
-        def Xform "p" { %s } }
-    """
+    instance = usda.prim("Xform", "i", meta=("prepend references = </asset>", "instanceable = true"))
+    near = usda.prim("Xform", "near", instance, visibility="invisible")
+    far = usda.prim("PointInstancer", "far", "rel prototypes = </outOfView/p>", protoIndices=[0], positions=[(0, 0, 0)])
     for index, shown in ((0, "a"), (1, "b")):
-        hydra, record = both(tmp_path, trees % (index, TILE % "a", TILE % "b"))
+        hydra, record = both(
+            tmp_path, usda.prim("Xform", "root", f"int lod:default:index = {index}", near, far, apis=("LODRootAPI",)),
+            usda.prim("Xform", "asset", tile("a"), specifier="class"),
+            usda.prim("Xform", "outOfView", usda.prim("Xform", "p", tile("b")), at=(0, 999, 0)))
         assert levels(record) == shown
         assert np.array_equal(hydra, record)

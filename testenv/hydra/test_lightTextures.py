@@ -22,9 +22,7 @@ STAGE = usda.stage(
 @MODES
 @pytest.mark.parametrize("light, space", [("DomeLight", "raw"), ("RectLight", "raw"), ("RectLight", "auto")])
 def test_the_colour_space_is_the_stages(tmp_path, light, space, scene_index):
-    stage = tmp_path / "light.usda"
-    stage.write_text(STAGE.replace("LIGHT", light).replace("SPACE", space))
-    shot = stages.Shot(str(stage), tmp_path, width=16)
+    shot = stages.shot_of(STAGE.replace("LIGHT", light).replace("SPACE", space), tmp_path, width=16)
     picture, dump = render_with_hydra(shot, tmp_path, scene_index)
     assert f'textureColorSpace = "{space}"' in block(dump, "/light"), dump
     compare(shot, picture, scene_index)

@@ -7,11 +7,6 @@ import stages
 from test_oneTruth import MODES, compare, render_with_hydra
 from usda import card, prim
 
-LINK = """def DomeLight "dome"
-{
-    rel collection:lightLink:includes = <@path@>
-    uniform bool collection:lightLink:includeRoot = 0
-"""
 INSTANCER = (
     prim("PointInstancer", "tiles", "rel prototypes = [</tiles/tile>]",
         card("tile", 1),
@@ -24,9 +19,8 @@ INSTANCER = (
 def test_link_to_a_point_instancer(tmp_path, path, lit, scene_index):
     if scene_index:
         hydraBuild.skip_before(2411, "scene indices link no lights")
-    stage = tmp_path / "linked.usda"
-    stage.write_text(stages.front(8, 4).replace('def DomeLight "dome"\n{\n', LINK.replace("@path@", path)) + INSTANCER)
-    shot = stages.Shot(str(stage), tmp_path)
+    link = (f"rel collection:lightLink:includes = <{path}>", "uniform bool collection:lightLink:includeRoot = 0")
+    shot = stages.shot_of(stages.front(8, 4, INSTANCER, dome=link), tmp_path)
     image, _ = render_with_hydra(shot, tmp_path, scene_index)
     compare(shot, image, scene_index)
     middle = image[image.shape[0] // 2]

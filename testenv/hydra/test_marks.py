@@ -35,27 +35,23 @@ def block(text, path):
     ("/arnold", ["visibility camera = false"]), ("/karma", ["visibility shadow = false"]), ("/renderMan", ["matte = true"]),
     ("/set/floor", ["catches shadows = true", 'matteName = "ground"'])])
 def test_marks_are_read(tmp_path, scene_index, path, said):
-    stage = tmp_path / "marks.usda"
-    stage.write_text(STAGE)
-    shot = stages.Shot(str(stage), tmp_path, width=8)
+    shot = stages.shot_of(STAGE, tmp_path, width=8)
     _, text = render_with_hydra(shot, tmp_path, scene_index)
     for dump in (text, shot.scene.dump()):
         for line in said:
             assert line in block(dump, path), dump
 
 
-NATIVE = stages.front(8, 4) + usda.prim("Xform", "asset", usda.card("tile", 0.5, color=(0.4, 0.3, 0.2)), specifier="class")
-INSTANCE = usda.prim("Xform", "i@n@", "@mark@", meta=("inherits = </asset>", "instanceable = true"), at="(@x@, 0, 0)")
+ASSET = usda.prim("Xform", "asset", usda.card("tile", 0.5, color=(0.4, 0.3, 0.2)), specifier="class")
 MARKS = ("", "bool primvars:arnold:visibility:camera = 0", "bool primvars:arnold:matte = 1",
          'string primvars:karma:object:rendervisibility = "-primary"')
 
 
 def native(tmp_path):
     """:returns: a Shot of a row of instances, one for each of MARKS"""
-    stage = tmp_path / "native.usda"
-    stage.write_text(NATIVE + "".join(INSTANCE.replace("@n@", str(i)).replace("@mark@", mark).replace("@x@", str(2 * i - 3))
-                                      for i, mark in enumerate(MARKS)))
-    return stages.Shot(str(stage), tmp_path)
+    placed = (usda.prim("Xform", f"i{i}", mark, meta=("inherits = </asset>", "instanceable = true"), at=(2 * i - 3, 0, 0))
+              for i, mark in enumerate(MARKS))
+    return stages.shot_of(stages.front(8, 4, ASSET, *placed), tmp_path)
 
 
 def seen_in(image):

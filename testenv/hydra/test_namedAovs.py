@@ -14,25 +14,23 @@ MODES = pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "
 SIZE, DISTANCE = 32, 8.0
 PIXELS = SIZE / DISTANCE  # a unit across at that distance; the aperture is as wide as the focal length
 ROUNDING = 16 * 64 * SIZE * 2.0 ** -24  # as in testenv/render/test_namedAovs.py
-STAGE = usda.stage(
-    usda.camera("double shutter:open = %(open)g", "double shutter:close = %(close)g", "%(camera)s", lens=(50, 50, 50),
-                clippingRange=(0.1, 1000)),
-    "%(prims)s")
-QUAD = usda.prim("Mesh", "%(name)s", "point3f[] points%(points)s", "%(body)s", faceVertexCounts=[4],
-                 faceVertexIndices=[0, 1, 2, 3], subdivisionScheme="none", st=usda.ST)
-CORNERS = "[(-20, -20, -8), (20, -20, -8), (20, 20, -8), (-20, 20, -8)]"
 
 
-def quad(body="", points=f" = {CORNERS}", name="sheet"):
-    return QUAD % dict(name=name, points=points, body=body)
+def quad(*lines, half=20, name="sheet", **values):
+    return usda.card(name, half, *lines, z=-8, st=usda.ST, **values)
 
 
-def render(tmp_path, prims, aovs, scene_index, camera="", shutter=(0, 0), settings=()):
+def stage_of(prims, shutter=(0, 0), **camera):
+    times = [f"double shutter:{end} = {time}" for end, time in zip(("open", "close"), shutter)]
+    return usda.stage(usda.camera(*times, lens=(50, 50, 50), clippingRange=(0.1, 1000), **camera), prims)
+
+
+def render(tmp_path, prims, aovs, scene_index, shutter=(0, 0), settings=(), **camera):
     """:returns: dict of channels, and the host's report"""
     import _patina
 
     stage, image, report = tmp_path / "stage.usda", tmp_path / "image.exr", tmp_path / "report.json"
-    stage.write_text(STAGE % dict(prims=prims, camera=camera, open=shutter[0], close=shutter[1]))
+    stage.write_text(stage_of(prims, shutter, **camera))
     hydraBuild.run_host(stage, image, "--camera", "/camera", "--size", f"{SIZE}x{SIZE}", "--frame", 5, "--json", report,
                         *[word for aov in aovs for word in ("--aov", aov)],
                         *[word for item in ("samples=4", *settings) for word in ("--set", item)], scene_index=scene_index)
@@ -53,19 +51,18 @@ def whole(*numbers):
 @pytest.mark.parametrize("scene_index,shutter", [(True, (0, 0)), (True, (-0.25, 0.25)), (False, (-0.25, 0.25))])
 def test_motion_of_camera_and_prim(tmp_path, scene_index, shutter):
     """The camera goes right by 0.5 a frame; the sheet goes up, by 1 before the frame and by 2 after it."""
-    camera = ('double3 xformOp:translate.timeSamples = {0: (-2.5, 0, 0), 10: (2.5, 0, 0)}\n'
-              '    uniform token[] xformOpOrder = ["xformOp:translate"]')
-    sheet = quad('double3 xformOp:translate.timeSamples = {4: (0, -1, 0), 5: (0, 0, 0), 6: (0, 2, 0)}\n'
-                 '    uniform token[] xformOpOrder = ["xformOp:translate"]')
-    channels, _ = render(tmp_path, sheet, ("motionForward", "motionBack"), scene_index, camera, shutter)
+    sheet = quad(at={4: (0, -1, 0), 5: (0, 0, 0), 6: (0, 2, 0)})
+    channels, _ = render(tmp_path, sheet, ("motionForward", "motionBack"), scene_index, shutter,
+                         at={0: (-2.5, 0, 0), 10: (2.5, 0, 0)})
     assert vectors(channels, "motionForward") == pytest.approx(whole(-0.5 * PIXELS, -2 * PIXELS), abs=ROUNDING)
     assert vectors(channels, "motionBack") == pytest.approx(whole(0.5 * PIXELS, PIXELS), abs=ROUNDING)
 
 
 @pytest.mark.parametrize("scene_index,shutter", [(True, (0, 0)), (False, (-0.25, 0.25))])
 def test_motion_of_points(tmp_path, scene_index, shutter):
-    later = CORNERS.replace("-20, -20", "-19, -20").replace("(20", "(21").replace("-20, 20", "-19, 20")
-    moves = quad(points=f".timeSamples = {{5: {CORNERS}, 6: {later}}}")
+    points = {time: [(x - 20, -20, -8), (x + 20, -20, -8), (x + 20, 20, -8), (x - 20, 20, -8)] for time, x in ((5, 0), (6, 1))}
+    moves = usda.prim("Mesh", "sheet", points=points, faceVertexCounts=[4], faceVertexIndices=[0, 1, 2, 3],
+                      subdivisionScheme="none")
     channels, _ = render(tmp_path, moves, ("motionFore", "motionBackward"), scene_index, shutter=shutter)
     assert vectors(channels, "motionFore") == pytest.approx(whole(PIXELS, 0.0), abs=ROUNDING)
     assert np.abs(vectors(channels, "motionBackward")).max() < ROUNDING
@@ -75,8 +72,7 @@ def test_motion_of_points(tmp_path, scene_index, shutter):
 @pytest.mark.parametrize("blur", ["true", "false"])
 def test_prims_stay_where_the_frame_has_them(tmp_path, scene_index, blur):
     """Samples of a turn are ten frames apart: the picture is of the frame's own time, with vectors and without."""
-    turn = quad('float xformOp:rotateZ.timeSamples = {0: 0, 10: 90}\n    uniform token[] xformOpOrder = ["xformOp:rotateZ"]',
-                f" = {CORNERS.replace('20', '3')}")
+    turn = quad(half=3, turn={0: (0, 0, 0), 10: (0, 0, 90)})
     settings = (f"enableMotionBlur={blur}",)
     alone, _ = render(tmp_path, turn, ("color", "position"), scene_index, settings=settings)
     beside, _ = render(tmp_path, turn, ("color", "position", "motionForward"), scene_index, settings=settings)
@@ -86,8 +82,7 @@ def test_prims_stay_where_the_frame_has_them(tmp_path, scene_index, blur):
 
 @MODES
 def test_without_blur_a_shutter_that_opens_early_shifts_nothing(tmp_path, scene_index):
-    moves = quad('double3 xformOp:translate.timeSamples = {0: (-5, 0, 0), 10: (5, 0, 0)}\n'
-                 '    uniform token[] xformOpOrder = ["xformOp:translate"]')
+    moves = quad(at={0: (-5, 0, 0), 10: (5, 0, 0)})
     channels, _ = render(tmp_path, moves, ("Pref", "position"), scene_index, shutter=(-0.5, 0.25),
                          settings=("enableMotionBlur=false",))
     # At frame 5 the sheet stands in the middle: its places in the world are those in its own space.
@@ -96,12 +91,11 @@ def test_without_blur_a_shutter_that_opens_early_shifts_nothing(tmp_path, scene_
 
 @MODES
 def test_normals_coordinates_and_reference_positions(tmp_path, scene_index):
-    body = '''normal3f[] normals = [(0, 0, 1), (0, 0, 1), (0, 0, 1), (0, 0, 1)]
-    point3f[] primvars:Pref = [(0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)] (
-        interpolation = "vertex"
-    )'''
-    tilted = " = [(-20, -20, -8), (20, -20, -8), (20, 20, -20), (-20, 20, -20)]"
-    channels, _ = render(tmp_path, quad(body, tilted), ("Ng", "Ngn", "normal", "uv", "Pref", "primvars:st"), scene_index)
+    tilted = usda.mesh(
+        "sheet", [(-20, -20, -8), (20, -20, -8), (20, 20, -20), (-20, 20, -20)],
+        "normal3f[] normals = [(0, 0, 1), (0, 0, 1), (0, 0, 1), (0, 0, 1)]",
+        'point3f[] primvars:Pref = [(0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)] (interpolation = "vertex")', st=usda.ST)
+    channels, _ = render(tmp_path, tilted, ("Ng", "Ngn", "normal", "uv", "Pref", "primvars:st"), scene_index)
     expected = np.array([0.0, 12.0, 40.0]) / np.hypot(12.0, 40.0)
     assert vectors(channels, "Ng", "xyz") == pytest.approx(whole(*expected), abs=1e-5)
     assert np.array_equal(vectors(channels, "Ngn", "xyz"), vectors(channels, "Ng", "xyz"))
@@ -112,9 +106,7 @@ def test_normals_coordinates_and_reference_positions(tmp_path, scene_index):
     assert vectors(channels, "Pref", "xyz")[..., 2] == pytest.approx(np.ones((SIZE, SIZE)), abs=1e-6)
 
 
-CRYPTO = "".join(quad(f'''double3 xformOp:translate = ({x}, 0, 0)
-    uniform token[] xformOpOrder = ["xformOp:translate"]''', f" = {CORNERS.replace('20', '0.7')}", f"card{i}")
-                 for i, x in enumerate((-2.1, -0.7, 0.7, 2.1)))
+CRYPTO = "".join(quad(half=0.7, name=f"card{i}", at=(x, 0, 0)) for i, x in enumerate((-2.1, -0.7, 0.7, 2.1)))
 
 
 @MODES
@@ -144,7 +136,7 @@ def test_layers_of_cryptomatte_have_the_bits_of_files(tmp_path, scene_index, bac
 @MODES
 def test_a_buffer_that_would_change_ids_stays_empty(tmp_path, scene_index):
     stage = tmp_path / "stage.usda"
-    stage.write_text(STAGE % dict(prims=CRYPTO, camera="", open=0, close=0))
+    stage.write_text(stage_of(CRYPTO))
     end = hydraBuild.run_host(stage, tmp_path / "image.exr", "--camera", "/camera", "--size", "8x8", "--aov", "color", "--aov",
                               "crypto_object00=float16vec4", "--aov", "crypto_object", "--set", "samples=1",
                               scene_index=scene_index)

@@ -138,9 +138,7 @@ def test_lenses(tmp_path, lens, scene_index):
         text = file.read()
     line = "        float2 clippingRange = (0.01, 10000)\n"
     assert line in text
-    stage = tmp_path / "lens.usda"
-    stage.write_text(text.replace(line, line + "".join(f"        {attribute}\n" for attribute in LENSES[lens])))
-    shot = stages.Shot(str(stage), tmp_path)
+    shot = stages.shot_of(text.replace(line, line + "".join(f"        {attribute}\n" for attribute in LENSES[lens])), tmp_path)
     image, dump = render_with_hydra(shot, tmp_path, scene_index)
     plain = stages.Shot(os.path.join(stages.SCENES, "lightSphere.usda"), tmp_path)
     assert sceneText.difference(dump, plain.scene.dump(), native_shapes=scene_index) != ""
@@ -217,32 +215,18 @@ def test_tiles_in_and_beside_a_package(tmp_path, scene_index, prefix):
     assert image[8, 8].argmax() == 0 and (image[48:, :32].argmin(axis=2) == 1).all() == bool(prefix)
 
 
-BOUND_TWICE = """#usda 1.0
-def Mesh "triangle" (prepend apiSchemas = ["MaterialBindingAPI"])
-{
-    int[] faceVertexCounts = [3]
-    int[] faceVertexIndices = [0, 1, 2]
-    point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
-    rel material:binding:full = </full>
-    rel material:binding:preview = </preview>
-}
-def Material "full" { token outputs:surface.connect = </full/s.outputs:surface>
-    def Shader "s" { uniform token info:id = "UsdPreviewSurface"
-        color3f inputs:diffuseColor = (1, 0, 0)
-        token outputs:surface
-    }
-}
-def Material "preview" {
-}
-"""
+BOUND_TWICE = usda.stage(
+    usda.mesh("triangle", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], "rel material:binding:full = </full>",
+              "rel material:binding:preview = </preview>", scheme="", apis=("MaterialBindingAPI",)),
+    usda.preview("full", diffuseColor=(1, 0, 0)),
+    usda.prim("Material", "preview"),
+    up="")
 
 
 @MODES
 def test_purpose_of_bindings(tmp_path, scene_index):
     """Final renders use the materials that are bound for them."""
-    path = tmp_path / "bound.usda"
-    path.write_text(BOUND_TWICE)
-    _, text = render_with_hydra(stages.Shot(str(path), tmp_path), tmp_path, scene_index)
+    _, text = render_with_hydra(stages.shot_of(BOUND_TWICE, tmp_path), tmp_path, scene_index)
     assert 'material = "/full"' in text
 
 
@@ -269,31 +253,24 @@ MODEL = usda.stage(
 @pytest.mark.parametrize("draw_mode", ["bounds", "origin"])
 def test_models_drawn_as_lines(tmp_path, draw_mode, scene_index):
     """Thin ones, where UsdImaging says that they are 1 wide: it means pixels."""
-    stage = tmp_path / "model.usda"
-    stage.write_text(MODEL % draw_mode)
-    shot = stages.Shot(str(stage), tmp_path)
+    shot = stages.shot_of(MODEL % draw_mode, tmp_path)
     image, _ = render_with_hydra(shot, tmp_path, scene_index)
     compare(shot, image, scene_index)
     assert 0 < (np.abs(image - image[0, 0]) > 1e-3).any(axis=2).sum() < 0.3 * image[..., 0].size
 
 
+OWN = usda.material("material", {
+    "surface": ("UsdPreviewSurface", {"color3f diffuseColor": "<own>"}),
+    "own": ("UsdPrimvarReader_float3", {"varname": "own"})})
 MATERIAL_PRIMVAR = usda.stage(
     usda.mesh("triangle", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], scheme="", bind="material"),
-    usda.prim(
-        "Material", "material", "color3f primvars:own = (1, 0.2, 0)",
-        "token outputs:surface.connect = </material/surface.outputs:surface>",
-        usda.prim("Shader", "surface", 'uniform token info:id = "UsdPreviewSurface"',
-                  "color3f inputs:diffuseColor.connect = </material/own.outputs:result>", "token outputs:surface"),
-        usda.prim("Shader", "own", 'uniform token info:id = "UsdPrimvarReader_float3"', 'string inputs:varname = "own"',
-                  "float3 outputs:result")),
+    OWN.replace("{\n", "{\n    color3f primvars:own = (1, 0.2, 0)\n", 1),
     up="")
 
 
 def test_primvars_of_a_material_are_those_of_its_prims(tmp_path):
     """By scene indices alone: UsdImagingDelegate hands on none."""
-    stage = tmp_path / "material.usda"
-    stage.write_text(MATERIAL_PRIMVAR)
-    shot = stages.Shot(str(stage), tmp_path)
+    shot = stages.shot_of(MATERIAL_PRIMVAR, tmp_path)
     image, _ = render_with_hydra(shot, tmp_path, True)
     compare(shot, image, True)
     assert (image[..., 0] > 2.0 * image[..., 1]).any()

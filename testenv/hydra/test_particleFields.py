@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import _patina
 import hydraBuild
 import stages
 from patina import experiment
@@ -10,7 +11,6 @@ from rendering import color
 from test_oneTruth import MODES, compare, render_with_hydra
 from usda import prim
 
-_patina = pytest.importorskip("_patina")
 SPLATS = prim("Xform", "Prototype",
     prim("ParticleField3DGaussianSplat", "splats",
          "%(point)s positions%(h)s = [(0, 0, 0), (0.5, 0.25, 1), (-0.5, -0.5, 0.5)]",
@@ -30,9 +30,7 @@ COPY = prim("Xform", "copy", meta=("instanceable = true", "prepend references = 
 @pytest.mark.parametrize("kind, instance", [(FLOATS, ""), (HALVES, ""), (FLOATS, COPY)], ids=["floats", "halves", "instance"])
 def test_hosts_agree(tmp_path, kind, instance, scene_index):
     hydraBuild.skip_before(2608, "Hydra has no adapter of particle fields that is complete")
-    path = tmp_path / "splats.usda"
-    path.write_text(stages.front(4, 4) + SPLATS % kind + instance)
-    shot = stages.Shot(str(path), tmp_path)
+    shot = stages.shot_of(stages.front(4, 4, SPLATS % kind, instance), tmp_path)
     image, text = render_with_hydra(shot, tmp_path, scene_index)
     assert text.count("\nSplats ") == shot.scene.dump().count("\nSplats ") == 1 + bool(instance)
     # Hydra multiplies instances' transforms in another order.
@@ -43,9 +41,7 @@ def test_hosts_agree(tmp_path, kind, instance, scene_index):
 @MODES
 def test_hosts_agree_on_the_rasterizer(opengl, tmp_path, scene_index):
     hydraBuild.skip_before(2608, "Hydra has no adapter of particle fields that is complete")
-    path = tmp_path / "splats.usda"
-    path.write_text(stages.front(4, 4) + SPLATS % FLOATS)
-    shot, image = stages.Shot(str(path), tmp_path), tmp_path / "raster.exr"
+    shot, image = stages.shot_of(stages.front(4, 4, SPLATS % FLOATS), tmp_path), tmp_path / "raster.exr"
     process = hydraBuild.run_host(shot.stage, image, *shot.host_flags(), "--set", "samples=4", "--set", "seed=0", "--set",
                                   "backend=raster", scene_index=scene_index)
     assert not [line for line in hydraBuild.warnings_of(process) if "splats" in line]

@@ -7,38 +7,31 @@ import hydraBuild
 import stages
 from rendering import color
 from test_oneTruth import MODES, SAMPLES, SEED, render_with_reader
+import usda
 
-MESH = """def Mesh "square"
-{{
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]
-    point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
-    {color}
-}}
-"""
-INSTANCES = """def PointInstancer "instances"
-{{
-    int[] protoIndices = [0]
-    point3f[] positions = [(0, 0, 0)]
-    rel prototypes = </instances/square>
-    {color}
-    """ + MESH.replace("{color}", "") + "}}\n"
-COLOR = "color3f[] primvars:displayColor = [%s] ( %s )"
+
+def mesh(*lines):
+    return usda.card("square", 1, *lines, scheme="")
+
+
+def instances(*lines):
+    return usda.prim("PointInstancer", "instances", "rel prototypes = [</instances/square>]", *lines, mesh(),
+                     protoIndices=[0], positions=[(0, 0, 0)])
+
+
 SIGNAL = np.array([0.5, 0.5, 0.25])
 LINEAR = ((SIGNAL + 0.055) / 1.055) ** 2.4  # IEC 61966-2-1
 
 
 @MODES
-@pytest.mark.parametrize("prim", [MESH, INSTANCES], ids=["mesh", "instances"])
+@pytest.mark.parametrize("prim", [mesh, instances])
 def test_display_color(tmp_path, prim, scene_index):
     """A colour in a space shows as its linear value where the host tells spaces, and else as its signal."""
     told = scene_index and int(hydraBuild.folder("version")) >= 2603
-    path = tmp_path / "colors.usda"
 
     def shot_of(values, space=""):
-        authored = COLOR % (tuple(values.tolist()), space)
-        path.write_text(stages.front(2, 2) + prim.format(color=authored), encoding="utf-8")
-        return stages.Shot(str(path), tmp_path)
+        authored = f"color3f[] primvars:displayColor = [{tuple(values.tolist())}] ({space})"
+        return stages.shot_of(stages.front(2, 2, prim(authored)), tmp_path)
 
     wanted = render_with_reader(shot_of(LINEAR if told else SIGNAL))
     shot = shot_of(SIGNAL, 'colorSpace = "srgb_rec709_scene"')

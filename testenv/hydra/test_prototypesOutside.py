@@ -19,9 +19,7 @@ STAGE = stage(
 
 
 def shot_of(tmp_path):
-    path = tmp_path / "outside.usda"
-    path.write_text(STAGE, encoding="utf-8")
-    return stages.Shot(str(path), tmp_path)
+    return stages.shot_of(STAGE, tmp_path)
 
 
 def test_delegate_draws_them(tmp_path):

@@ -5,33 +5,29 @@ import numpy as np
 import pytest
 
 import hydraBuild
-from glowingTiles import COLORS, TILE, WIDTH, looks, pictures
+from glowingTiles import COLORS, WIDTH, looks, pictures, tile
 import usda
 
 pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_usdrecord(),
                                 reason="this OpenUSD has no usdrecord")
 # The four squares, from left to right: two plain ones, one of a native and one of a point instance.
-STAGE = usda.stage(
-    usda.camera(flat=(200, 50), clippingRange=(1, 100), at=(0, 0, 20)),
-    usda.prim("Xform", "World",
-        usda.prim("Xform", "a", "@tileA@", at=(-7.5, 0, 0)),
-        usda.prim("Xform", "b", "@tileB@", at=(-2.5, 0, 0)),
-        usda.prim("", "c", meta=("inherits = </asset>", "instanceable = true"), at=(2.5, 0, 0)),
-        usda.prim("PointInstancer", "d", "rel prototypes = </World/d/tile>", "@tileD@", protoIndices=[0],
-                  positions=[(7.5, 0, 0)]),
-        "@looks@"),
-    usda.prim("Xform", "asset", "@tileC@", specifier="class"),
-    usda.prim("Scope", "Render",
-        usda.prim("RenderSettings", "main", "uniform int2 resolution = (40, 10)", "int patina:samples = 4"),
-        usda.prim("RenderPass", "pass", "rel renderSource = </Render/main>", "@pass@",
-                  apis=("CollectionAPI:prune", "CollectionAPI:matte"))),
-    up="")
-def write(path, lines):
-    text = STAGE.replace("@pass@", lines)
-    for name, rgb in COLORS.items():
-        text = text.replace(f"@tile{name.upper()}@", TILE % name)
-    path.write_text(text.replace("@looks@", looks()), encoding="utf-8")
-    return path
+def stage_of(*lines):
+    """:param lines: of the pass"""
+    return usda.stage(
+        usda.camera(flat=(200, 50), clippingRange=(1, 100), at=(0, 0, 20)),
+        usda.prim("Xform", "World",
+            usda.prim("Xform", "a", tile("a"), at=(-7.5, 0, 0)),
+            usda.prim("Xform", "b", tile("b"), at=(-2.5, 0, 0)),
+            usda.prim("", "c", meta=("inherits = </asset>", "instanceable = true"), at=(2.5, 0, 0)),
+            usda.prim("PointInstancer", "d", "rel prototypes = </World/d/tile>", tile("d"), protoIndices=[0],
+                      positions=[(7.5, 0, 0)]),
+            looks()),
+        usda.prim("Xform", "asset", tile("c"), specifier="class"),
+        usda.prim("Scope", "Render",
+            usda.prim("RenderSettings", "main", "uniform int2 resolution = (40, 10)", "int patina:samples = 4"),
+            usda.prim("RenderPass", "pass", "rel renderSource = </Render/main>", *lines,
+                      apis=("CollectionAPI:prune", "CollectionAPI:matte"))),
+        up="")
 
 
 def shown(picture):
@@ -53,44 +49,24 @@ def shown(picture):
     ("rel collection:prune:includes = </World/c/tile>", "abd")])
 def test_a_pass_draws_what_its_collections_say(tmp_path, lines, squares):
     hydraBuild.skip_before(2411, "scene indices do not tell the active pass")
-    stage = write(tmp_path / "pass.usda", lines)
+    stage = tmp_path / "pass.usda"
+    stage.write_text(stage_of(lines), encoding="utf-8")
     hydra, record = pictures(stage, tmp_path, "--camera", "camera", "--renderPassPrimPath", "/Render/pass")
     assert shown(record) == squares
     assert shown(hydra) == squares
     assert np.array_equal(hydra, record), "alpha of mattes too"
 
 
-PLATE = """#usda 1.0
-def Camera "@name@" (prepend apiSchemas = ["BackPlateAPI:sky"])
-{
-    float focusDistance = 30
-    float focalLength = 50
-    float horizontalAperture = 20
-    float verticalAperture = 10
-    float2 clippingRange = (1, 100)
-    asset backPlate:sky:image = @sky.exr@
-    token backPlate:sky:plateVisibility = "@seen@"
-}
-def Camera "other"
-{
-    float focalLength = 50
-    float horizontalAperture = 20
-    float verticalAperture = 10
-    float2 clippingRange = (1, 100)
-}
-def Xform "mesh" # a name that parts of plates have, too
-{
-    def Scope "material"
-    {
-    }
-}
-def Sphere "ball"
-{
-    double radius = 2
-    double3 xformOp:translate = (0, 0, -20)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}
-"""
+def plate(seen, *lines):
+    """:param lines: of the camera that has the plate"""
+    frame = {"focalLength": 50, "horizontalAperture": 20, "verticalAperture": 10, "clippingRange": (1, 100)}
+    return usda.stage(
+        usda.camera("asset backPlate:sky:image = @sky.exr@", f'token backPlate:sky:plateVisibility = "{seen}"', *lines,
+                    name="main", apis=("BackPlateAPI:sky",), focusDistance=30, **frame),
+        usda.camera(name="other", **frame),
+        usda.prim("Xform", "mesh", usda.prim("Scope", "material")),  # names that parts of plates have, too
+        usda.prim("Sphere", "ball", radius=2, at=(0, 0, -20)),
+        up="")
 
 
 @pytest.mark.parametrize("seen, camera, there", [("solo", "main", True), ("solo", "other", False), ("all", "other", True),
@@ -103,7 +79,7 @@ def test_back_plates_are_pictures_behind_the_scene(tmp_path, seen, camera, there
     sky[:, :4], sky[:, 4:] = (0.8, 0.1, 0.1), (0.1, 0.1, 0.8)
     _patina.write_image(str(tmp_path / "sky.exr"), sky)
     stage = tmp_path / "plate.usda"
-    stage.write_text(PLATE.replace("@name@", "main").replace("@seen@", seen), encoding="utf-8")
+    stage.write_text(plate(seen), encoding="utf-8")
     hydra, record = pictures(stage, tmp_path, "--camera", camera)
     for picture in (hydra, record):
         left, right = picture[2, 2, :3], picture[2, -3, :3]
@@ -127,8 +103,7 @@ def test_back_plates_are_graded_and_have_an_alpha(tmp_path, lines, channels):
     _patina.write_image(str(tmp_path / "sky.exr"), sky)
     _patina.write_image(str(tmp_path / "alpha.exr"), alpha)
     stage = tmp_path / "plate.usda"
-    text = PLATE.replace("@name@", "main").replace('"@seen@"\n', '"all"\n    ' + lines + "\n", 1)
-    stage.write_text(text, encoding="utf-8")
+    stage.write_text(plate("all", lines), encoding="utf-8")
     hydra, record = pictures(stage, tmp_path, "--camera", "main")
     if channels:  # which is met by chance: 64 samples a pixel there, 4 here. Five standard errors, 6e-7
         bound = 5.0 * np.sqrt(0.25 * 0.75 * (1 / 64 + 1 / 4) / hydra[..., 3].size)

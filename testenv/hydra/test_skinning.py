@@ -11,28 +11,29 @@ from test_marks import block
 from test_oneTruth import MODES, render_with_hydra
 import usda
 
-STAGE = usda.stage(
-    usda.camera("double shutter:open = SHUTTER_OPEN", "double shutter:close = SHUTTER_CLOSE", at=(0, 1, 6)),
-    usda.prim("SkelRoot", "root", "rel skel:skeleton = </root/skeleton>",
-        usda.prim(
-            "Skeleton", "skeleton", 'uniform token[] joints = ["foot", "foot/knee"]',
-            "uniform matrix4d[] bindTransforms = [ ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)), ((1, 0, 0, 0), "
-            "(0, 1, 0, 0), (0, 0, 1, 0), (0, 1, 0, 1))]",
-            "uniform matrix4d[] restTransforms = [ ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)), ((1, 0, 0, 0), "
-            "(0, 1, 0, 0), (0, 0, 1, 0), (0, 1, 0, 1))]",
-            "rel skel:animationSource = </root/skeleton/bend>",
-            usda.prim("SkelAnimation", "bend", 'uniform token[] joints = ["foot", "foot/knee"]',
-                      "float3[] translations = [(0, 0, 0), (0, 1, 0)]",
-                      "quatf[] rotations = [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]", "half3[] scales = [(1, 1, 1), (1, 1, 1)]"),
-            apis=("SkelBindingAPI",)),
-        usda.mesh("leg", [(-0.5, 0, 0), (0.5, 0, 0), (-0.5, 2, 0), (0.5, 2, 0)],
-                  'int[] primvars:skel:jointIndices = [0, 0, 1, 1] ( elementSize = 1; interpolation = "vertex" )',
-                  'float[] primvars:skel:jointWeights = [1, 1, 1, 1] ( elementSize = 1; interpolation = "vertex" )',
-                  faces=[(0, 1, 3, 2)], apis=("SkelBindingAPI",)),
-        apis=("SkelBindingAPI",)),
-    up="", timeCodesPerSecond=24, startTimeCode=1, endTimeCode=2)
-BEND = "quatf[] rotations = [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]"
-BENDING = "quatf[] rotations.timeSamples = {1: [(1, 0, 0, 0), (1, 0, 0, 0)], 2: [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]}"
+STRAIGHT, BENT = [(1, 0, 0, 0), (1, 0, 0, 0)], [(1, 0, 0, 0), (0.8, 0, 0, -0.6)]
+BENDING = {1: STRAIGHT, 2: BENT}
+REST = "[((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)), ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 1, 0, 1))]"
+
+
+def leg(bend, shutter=0.0):
+    """:param bend: rotations of both joints"""
+    joints = 'uniform token[] joints = ["foot", "foot/knee"]'
+    vertex = '(elementSize = 1; interpolation = "vertex")'
+    skeleton = usda.prim(
+        "Skeleton", "skeleton", joints, f"uniform matrix4d[] bindTransforms = {REST}",
+        f"uniform matrix4d[] restTransforms = {REST}", "rel skel:animationSource = </root/skeleton/bend>",
+        usda.prim("SkelAnimation", "bend", joints, "float3[] translations = [(0, 0, 0), (0, 1, 0)]",
+                  usda.attribute("quatf[] rotations", bend), "half3[] scales = [(1, 1, 1), (1, 1, 1)]"),
+        apis=("SkelBindingAPI",))
+    skinned = usda.mesh("leg", [(-0.5, 0, 0), (0.5, 0, 0), (-0.5, 2, 0), (0.5, 2, 0)],
+                        f"int[] primvars:skel:jointIndices = [0, 0, 1, 1] {vertex}",
+                        f"float[] primvars:skel:jointWeights = [1, 1, 1, 1] {vertex}",
+                        faces=[(0, 1, 3, 2)], apis=("SkelBindingAPI",))
+    return usda.stage(
+        usda.camera("double shutter:open = 0", f"double shutter:close = {shutter}", at=(0, 1, 6)),
+        usda.prim("SkelRoot", "root", "rel skel:skeleton = </root/skeleton>", skeleton, skinned, apis=("SkelBindingAPI",)),
+        up="", timeCodesPerSecond=24, startTimeCode=1, endTimeCode=2)
 
 
 def points_of(text, path="/root/leg"):
@@ -43,16 +44,12 @@ def points_of(text, path="/root/leg"):
 
 
 @MODES
-@pytest.mark.parametrize("bend, shutter, samples", [(BEND, 0.0, 1), (BEND, 0.5, 1), (BENDING, 0.0, 1), (BENDING, 1.0, 2)],
+@pytest.mark.parametrize("bend, shutter, samples", [(BENT, 0.0, 1), (BENT, 0.5, 1), (BENDING, 0.0, 1), (BENDING, 1.0, 2)],
                          ids=["still", "stillWithShutter", "animated", "moving"])
 def test_a_leg_bends(tmp_path, scene_index, bend, shutter, samples):
     if scene_index:
         hydraBuild.skip_before(2505, "scene indices skin nothing")
-    stage = tmp_path / "leg.usda"
-    assert BEND in STAGE
-    text = STAGE.replace(BEND, bend).replace("SHUTTER_OPEN", "0").replace("SHUTTER_CLOSE", str(shutter))
-    stage.write_text(text)
-    shot = stages.Shot(str(stage), tmp_path, width=8)
+    shot = stages.shot_of(leg(bend, shutter), tmp_path, width=8)
     _, dump = render_with_hydra(shot, tmp_path, scene_index)
     found, wanted = points_of(dump), points_of(shot.scene.dump())
     assert len(found) == samples, dump
@@ -61,12 +58,10 @@ def test_a_leg_bends(tmp_path, scene_index, bend, shutter, samples):
 
 
 @MODES
-@pytest.mark.parametrize("bend", [BEND, BENDING], ids=["still", "animated"])
+@pytest.mark.parametrize("bend", [BENT, BENDING], ids=["still", "animated"])
 def test_bones_are_guides(tmp_path, scene_index, bend):
     """Both hosts show the same pyramid for the one bone, where guides are asked for."""
-    stage = tmp_path / "leg.usda"
-    stage.write_text(STAGE.replace(BEND, bend).replace("SHUTTER_OPEN", "0").replace("SHUTTER_CLOSE", "0"))
-    shot = stages.Shot(str(stage), tmp_path, width=8, purposes=("default", "render", "guide"))
+    shot = stages.shot_of(leg(bend), tmp_path, width=8, purposes=("default", "render", "guide"))
     dump = tmp_path / "hydra.txt"
     hydraBuild.run_host(shot.stage, tmp_path / "hydra.exr", *shot.host_flags(), "--purposes", "default,render,guide",
                         "--dump", dump, scene_index=scene_index)

@@ -141,7 +141,6 @@ def test_products_are_written(tmp_path, scene_index):
 
 def test_a_delegate_is_held_to_golden_images_of_the_command_line(tmp_path):
     """`pytest --patina-scenes --renderer`: this plugin through usdrecord shows what `patina record` does."""
-    pytest.importorskip("scipy")
     shutil.copy(os.path.join(stages.SCENES, "lightSphere.usda"), tmp_path)
     # The delegate repeats its noise, which counts as a difference: the margin is for that.
     how = {"arguments": ["-w", "32", "--samples", "256"], "renders": 4, "margin": 0.03, "sees": 0.1}

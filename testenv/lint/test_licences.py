@@ -5,13 +5,10 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 
 import pytest
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-
-import licenceHeaders  # noqa: E402
+import licenceHeaders
 
 
 def read(path):

@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The recorded pairs of docs/measurements/rasterPairs.md, read and not rendered: a lint of committed numbers."""
 import os
-import sys
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "raster"))
-
-import pairs  # noqa: E402
-import recordedPairs  # noqa: E402
+import pairs
+import recordedPairs
 
 HELD = recordedPairs.load()
 

@@ -8,21 +8,19 @@ with Šidák's correction. A scene fails only if two of three seed sets are reje
 """
 import json
 import os
-import sys
 import tempfile
 
 import numpy as np
 import pytest
+from scipy import stats
 
 mi = pytest.importorskip("mitsuba", reason="Mitsuba 3 is not installed")
-stats = pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-from pxr import Usd  # noqa: E402
+from pxr import Usd
 
-sys.path.insert(0, os.path.dirname(__file__))
-import exportScene  # noqa: E402
-import inProcess  # noqa: E402
-from patina.regression import welch  # noqa: E402
-from patina.significance import sidak  # noqa: E402
+import exportScene
+import inProcess
+from patina.regression import welch
+from patina.significance import sidak
 
 SCENES = os.path.join(os.path.dirname(__file__), "..", "scenes")
 WIDTH, HEIGHT = 96, 64

@@ -14,21 +14,11 @@ import numpy as np
 import pytest
 
 mi = pytest.importorskip("mitsuba", reason="Mitsuba 3 is not installed")
-pytest.importorskip("_patina", reason="the module of this build is not found")
 
-from patina.cli import main  # noqa: E402
+import mtlx
+from patina.cli import main
 
 GOLD = ((0.183, 0.421, 1.373), (3.424, 2.346, 1.77))
-DOCUMENT = """<?xml version="1.0"?>
-<materialx version="1.39">
-  <{node} name="lobe" type="BSDF">
-{inputs}  </{node}>
-  <surface name="surface" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="lobe"/></surface>
-  <surfacematerial name="material" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="surface"/>
-  </surfacematerial>
-</materialx>
-"""
 
 
 @pytest.fixture(autouse=True)
@@ -54,8 +44,7 @@ def directions(count, transmits):
 def ours(tmp_path, capsys, monkeypatch, node, inputs, pairs):
     """f times the cosine of each pair, bare single scattering"""
     path = tmp_path / "lobe.mtlx"
-    path.write_text(DOCUMENT.format(node=node, inputs="".join(
-        f'    <input name="{name}" type="{kind}" value="{value}"/>\n' for name, kind, value in inputs)))
+    path.write_text(mtlx.document(mtlx.lobe("material", node, {f"{kind} {name}": value for name, kind, value in inputs})))
     text = "\n".join(" ".join(f"{x:.9g}" for x in pair.ravel()) for pair in pairs)
     monkeypatch.setattr(sys, "stdin", io.StringIO(text))
     assert main.main(["bsdf", "eval", str(path), "--wo", "-", "--wi", "-", "--method",

@@ -9,7 +9,8 @@ import sys
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
+import _patina
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.normpath(os.path.join(HERE, "..", ".."))
 HOST = os.path.join(ROOT, "docs", "examples", "host")

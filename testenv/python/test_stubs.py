@@ -8,9 +8,8 @@ import sys
 
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-import generateStubs  # noqa: E402
+import _patina
+import generateStubs
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 CONSUMER = """

@@ -39,21 +39,20 @@ def light(kind, *lines, name="light", place=ASIDE, **inputs):
     return usda.prim(kind, name, *lines, **inputs, **place)
 
 
-def write(folder, stage):
+def write(folder, stage, name="stage", dim=(0.1, 0.2, 1.0), bright=(20.0, 10.0, 2.0)):
     """Writes the text of a stage beside `lamp.ies` and `image.exr`, which lights may use.
 
+    :param dim: colour of nearly half of the image; others are black
+    :param bright: of few of its texels, which give nearly all of its light
     :returns: its path"""
-    (folder / "stage.usda").write_text(stage)
-    (folder / "lamp.ies").write_text(PROFILE)
-    _write_image(str(folder))
-    return str(folder / "stage.usda")
-
-
-def _write_image(folder):
-    """Few of its texels give nearly all of its light."""
     import _patina
 
+    path = os.path.join(str(folder), name + ".usda")
+    for file, text in ((path, stage), (os.path.join(str(folder), "lamp.ies"), PROFILE)):
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(text)
     values = np.zeros((8, 8, 3), np.float32)
-    values[:, :3] = (0.1, 0.2, 1.0)
-    values[2:4, 5:7] = (20.0, 10.0, 2.0)
-    _patina.write_image(os.path.join(folder, "image.exr"), values, ["R", "G", "B"])
+    values[:, :3] = dim
+    values[2:4, 5:7] = bright
+    _patina.write_image(os.path.join(str(folder), "image.exr"), values, ["R", "G", "B"])
+    return path

@@ -3,11 +3,7 @@
 
 Only the floor and the block are in view, so that whatever is lost of an emitter because the camera does not see it is missing
 from the picture."""
-import os
-
-import numpy as np
-
-from floorLights import PROFILE
+import floorLights
 from usda import camera, floor, lobe, material, mesh, prim, stage
 
 STAGE = stage(
@@ -82,15 +78,5 @@ WITHOUT_BLOCK = ("rect", "glowingMesh", "sun")  # nothing bounces on a floor alo
 
 def write(name, folder, block=True):
     """Writes the stage of an emitter with its files. :returns: its path"""
-    import _patina
-
-    path = os.path.join(folder, f"outOfView-{name}{'' if block else '-alone'}.usda")
-    with open(path, "w", encoding="utf-8") as out:
-        out.write(STAGE % {"block": BLOCK if block else "", "emitter": EMITTERS[name](PLACES[name])})
-    with open(os.path.join(folder, "lamp.ies"), "w", encoding="utf-8") as out:
-        out.write(PROFILE)
-    values = np.zeros((8, 8, 3), np.float32)
-    values[:, :3] = (0.3, 0.5, 1.0)
-    values[2:4, 5:7] = (4.0, 2.0, 0.5)
-    _patina.write_image(os.path.join(folder, "image.exr"), values, ["R", "G", "B"])
-    return path
+    text = STAGE % {"block": BLOCK if block else "", "emitter": EMITTERS[name](PLACES[name])}
+    return floorLights.write(folder, text, f"outOfView-{name}{'' if block else '-alone'}", (0.3, 0.5, 1.0), (4.0, 2.0, 0.5))

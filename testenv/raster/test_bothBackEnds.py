@@ -10,13 +10,11 @@ import os
 import numpy as np
 import pytest
 
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
-import equivalence  # noqa: E402
-import equivalentStages  # noqa: E402
-import pairs  # noqa: E402
-import pairsPage  # noqa: E402
-import sameImage  # noqa: E402
+import equivalence
+import equivalentStages
+import pairs
+import pairsPage
+import sameImage
 
 pytestmark = pytest.mark.usefixtures("opengl")
 

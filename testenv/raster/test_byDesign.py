@@ -8,16 +8,13 @@ import os
 import numpy as np
 import pytest
 
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
-import byDesign  # noqa: E402
-import equivalence  # noqa: E402
-import floorLights  # noqa: E402
-import inProcess  # noqa: E402
-import outOfView  # noqa: E402
-import sameImage  # noqa: E402
-from usda import material  # noqa: E402
-import usda  # noqa: E402
+import byDesign
+import equivalence
+import floorLights
+import inProcess
+import outOfView
+import sameImage
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
@@ -31,15 +28,8 @@ def ball(name, height=0.4):
     return usda.prim("Sphere", "ball", f"rel material:binding = </{name}>", radius=0.4, at=(0.2, height, 0.5))
 
 
-def surface(name, node, inputs):
-    return material(name, {"lobe": (node, inputs), "surface": ("ND_surface", {"bsdf": "<lobe>"})})
-
-
 def write(folder, name, contents, materials="", lights=LAMP):
-    path = os.path.join(str(folder), name + ".usda")
-    with open(path, "w", encoding="utf-8") as out:
-        out.write(outOfView.STAGE % {"block": contents, "emitter": lights} + materials)
-    return path
+    return floorLights.write(folder, outOfView.STAGE % {"block": contents, "emitter": lights} + materials, name)
 
 
 def compare(drawn, traced, depth, *arguments):
@@ -67,7 +57,7 @@ def test_light_between_surfaces_is_left_out(tmp_path):
 
 def test_mirrors_show_the_environment(tmp_path):
     """A mirroring ball over a floor: of the floor it shows nothing."""
-    steel = surface("steel", "ND_conductor_bsdf", {"roughness": (0, 0)})
+    steel = usda.lobe("steel", "conductor_bsdf", roughness=(0, 0))
     stage = write(tmp_path, "mirror", ball("steel"), steel, SKY)
     same(stage, stage, 1)
     found = differences(stage, stage, 16)
@@ -77,7 +67,7 @@ def test_mirrors_show_the_environment(tmp_path):
 def test_what_hides_the_sky_from_mirrors_is_blurred(tmp_path):
     """A mirroring floor, in whose middle a far board's upper edge shows: dark beyond it, the sky before it. The rasterizer
     knows what hides the sky by cells 17 degrees wide, so that the board takes light before its edge."""
-    steel = surface("steel", "ND_conductor_bsdf", {"roughness": (0.02, 0.02)})
+    steel = usda.lobe("steel", "conductor_bsdf", roughness=(0.02, 0.02))
     board = usda.mesh("board", [(-12, 0, -9), (12, 0, -9), (12, 3.6, -9), (-12, 3.6, -9), (-12, 0.01, -8.9), (-12, 0.01, 8),
                        (12, 0.01, 8), (12, 0.01, -8.9)],
                       "rel material:binding = </steel>", faces=[(0, 1, 2, 3), (4, 5, 6, 7)])
@@ -90,8 +80,7 @@ def test_what_hides_the_sky_from_mirrors_is_blurred(tmp_path):
 
 def test_glass_shows_what_is_behind(tmp_path):
     """A pane over the whole floor of the view: direct light alone ends there, the rasterizer goes on behind it."""
-    pane = surface("pane", "ND_dielectric_bsdf", {"ior": 1.0001, "roughness": (0, 0),
-                                                  "scatter_mode": "RT"})
+    pane = usda.lobe("pane", "dielectric_bsdf", ior=1.0001, roughness=(0, 0), scatter_mode="RT")
     glass = usda.prim("Cube", "pane", "rel material:binding = </pane>", at=(0, 0.8, 2.2), scale=(2, 2, 0.01))
     without, with_pane = write(tmp_path, "without", ""), write(tmp_path, "pane", glass, pane)
     same(with_pane, without, 1)
@@ -99,8 +88,8 @@ def test_glass_shows_what_is_behind(tmp_path):
 
 
 def test_subsurface_shows_as_diffuse(tmp_path):
-    wax = surface("thing", "ND_subsurface_bsdf", {"color": (0.8, 0.5, 0.3), "radius": (0.3, 0.2, 0.1)})
-    matte = surface("thing", "ND_oren_nayar_diffuse_bsdf", {"color": (0.8, 0.5, 0.3)})
+    wax = usda.lobe("thing", "subsurface_bsdf", color=(0.8, 0.5, 0.3), radius=(0.3, 0.2, 0.1))
+    matte = usda.lobe("thing", "oren_nayar_diffuse_bsdf", color=(0.8, 0.5, 0.3))
     scattering = write(tmp_path, "wax", ball("thing"), wax)
     same(scattering, write(tmp_path, "matte", ball("thing"), matte), 1)
     assert np.abs(differences(scattering, scattering, 16)).max() > 0.1
@@ -110,8 +99,8 @@ def test_volumes_cast_no_shadow(tmp_path):
     """Somewhere on the floor smoke takes a twentieth of the traced light, and the rasterizer's floor is as without smoke."""
     stage, clear = inProcess.scene("volume"), str(tmp_path / "clear.usda")
     with open(clear, "w", encoding="utf-8") as out:
-        out.write('#usda 1.0\n(\n    subLayers = [@%s@]\n)\nover "World"\n{\n    over "puff" (\n        active = false\n    )'
-                  '\n    {\n    }\n}\n' % stage)
+        gone = usda.prim("", "puff", meta=("active = false",), specifier="over")
+        out.write(usda.stage(usda.prim("", "World", gone, specifier="over"), up="", subLayers=f"[@{stage}@]"))
     smoke = inProcess.Stage(stage, "-w", WIDTH, "--samples", 1)
     smoke.image()
     if smoke.warnings():
@@ -124,15 +113,10 @@ def test_lights_do_not_move_while_the_shutter_is_open(tmp_path):
     """They are where they are in the middle of it."""
     moving, still = (outOfView.EMITTERS["rect"]({**outOfView.PLACE, "at": at})
                      for at in ({0: (-0.4, 2.2, 0.2), 1: (1.6, 2.2, 0.2)}, (0.6, 2.2, 0.2)))
-    shutter = 'double shutter:open = 0\n        double shutter:close = 1\n        float focalLength = 35'
 
     def stage(name, light):
-        path = write(tmp_path, name, outOfView.BLOCK, lights=light)
-        with open(path, encoding="utf-8") as file:
-            text = file.read()
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text.replace("float focalLength = 35", shutter))
-        return path
+        text = outOfView.STAGE.replace("float focalLength = 35", "double shutter:close = 1\n        float focalLength = 35")
+        return floorLights.write(tmp_path, text % {"block": outOfView.BLOCK, "emitter": light}, name)
 
     moves = stage("moving", moving)
     same(moves, stage("still", still), 1, "--frames", "0")
@@ -161,27 +145,13 @@ def test_shadows_of_limited_distance_know_the_near_side(tmp_path):
 
 CORNERS = [(x, y, z) for x in (-2, 2) for y in (0, 3) for z in (-2, 2)]
 SIDES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-ROOM = usda.prim("Mesh", "walls", faceVertexCounts=[4, 4, 4, 4, 4, 4], faceVertexIndices="%s", points="%s",
-                 subdivisionScheme="none") % (list(range(24)), [CORNERS[i] for side in SIDES for i in side])
+ROOM = usda.mesh("walls", [CORNERS[i] for side in SIDES for i in side], faces=[range(i, i + 4) for i in range(0, 24, 4)])
 
 
 def test_a_closed_room_of_thin_walls_is_dark_but_for_its_seams(tmp_path):
     stage = tmp_path / "room.usda"
-    stage.write_text(f"""#usda 1.0
-(
-    upAxis = "Y"
-)
-def Xform "World"
-{{
-{ROOM}{SKY}    def Camera "camera"
-    {{
-        float2 clippingRange = (0.01, 100)
-        float focalLength = 15
-        double3 xformOp:translate = (-0.5, 1.5, 1.9)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-    }}
-}}
-""")
+    camera = usda.camera(clippingRange=(0.01, 100), focalLength=15, at=(-0.5, 1.5, 1.9))
+    stage.write_text(usda.stage(usda.prim("Xform", "World", ROOM, SKY, camera)))
     shown = {width: inProcess.Stage(str(stage), "--backend", "raster", "--samples", 16, "-w", width).image(0).mean()
              for width in (48, 192)}
     assert inProcess.Stage(str(stage), "--samples", 4, "-w", 48).image(0).max() == 0.0

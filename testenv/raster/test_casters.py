@@ -5,11 +5,9 @@ import os
 import numpy as np
 import pytest
 
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
-import floorLights  # noqa: E402
-import sameImage  # noqa: E402
-from usda import ST, floor, material, mesh, prim  # noqa: E402
+import floorLights
+import sameImage
+from usda import ST, floor, material, mesh, prim
 
 pytestmark = pytest.mark.usefixtures("opengl")
 

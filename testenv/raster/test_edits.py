@@ -1,20 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Edits rebuild what they touch, and the image is that of a renderer which has drawn nothing before."""
 import os
-import sys
 
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-import bothBackEnds  # noqa: E402
-
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "bench"))
-
-import rasterTimes  # noqa: E402
-from patina import experiment  # noqa: E402
-from patina.chart import probes  # noqa: E402
+import _patina
+import bothBackEnds
+import rasterTimes
+from patina import experiment
+from patina.chart import probes
 
 pytestmark = pytest.mark.usefixtures("opengl")
 

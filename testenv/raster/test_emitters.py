@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from pxr import Sdf, Usd
 
-_patina = pytest.importorskip("_patina")
-
-import bothBackEnds  # noqa: E402
-from floorLights import PROFILE  # noqa: E402
-from patina import experiment  # noqa: E402
-from patina import stage as reader  # noqa: E402
-import usda  # noqa: E402
+import _patina
+import mtlx
+import bothBackEnds
+from floorLights import PROFILE
+from patina import experiment
+from patina import stage as reader
+import usda
 
 SEEDS, WIDTH, TILE = 8, 32, 8
 MARGIN = 0.01
@@ -216,15 +216,8 @@ def test_light_follows_the_direction_that_an_edf_has(name, renderers, tmp_path):
 def test_the_camera_sees_the_profile_of_a_measured_edf(tmp_path, renderers):
     (tmp_path / "lamp.ies").write_text(PROFILE)
     network = tmp_path / "lamp.mtlx"
-    network.write_text(f"""<?xml version="1.0"?>
-<materialx version="1.39">
-  <measured_edf name="edf" type="EDF"><input name="color" type="color3" value="1, 2, 3"/>
-    <input name="file" type="filename" value="{tmp_path / 'lamp.ies'}"/></measured_edf>
-  <surface name="surface" type="surfaceshader"><input name="edf" type="EDF" nodename="edf"/></surface>
-  <surfacematerial name="m" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="surface"/></surfacematerial>
-</materialx>
-""")
+    edf = ("measured_edf EDF", {"color": (1, 2, 3), "filename file": str(tmp_path / "lamp.ies")})
+    network.write_text(mtlx.document({"edf": edf, **mtlx.shader("m", "surface", {"edf": "<edf>"})}))
     (read,) = _patina.read_mtlx(str(network))
     traced, drawn = _patina.MaterialProbe(read, {}), _patina.RasterProbe(read, {})
     assert drawn.warnings == traced.warnings == []

@@ -16,8 +16,7 @@ import pytest
 import bothBackEnds
 import inProcess
 
-SCENE = os.path.join(bothBackEnds.SCENES, "lightRect.usda")
-TEXTURED = os.path.join(bothBackEnds.SCENES, "texturedDiffuse.usda")
+SCENE, TEXTURED = inProcess.scene("lightRect"), inProcess.scene("texturedDiffuse")
 SIZE = ["-w", "32", "--samples", "4"]
 
 
@@ -37,13 +36,19 @@ def record(stage, image, *arguments, **environment):
         return process, json.load(file)
 
 
+def drawn(stage, image, *arguments, by="raster", **environment):
+    """:returns: the image that this back end drew, where the rasterizer was asked for, and the warnings"""
+    process, statistics = record(stage, image, "--backend", "raster", *arguments, **environment)
+    assert process.returncode == 0, process.stderr
+    assert statistics["backend"] == by
+    return bothBackEnds.pixels(image), statistics["warnings"]
+
+
 @pytest.fixture(scope="module")
 def traced(tmp_path_factory):
     """:returns: the path tracer's image of SCENE"""
     image = tmp_path_factory.mktemp("traced") / "image.exr"
-    process, statistics = record(SCENE, image)
-    assert process.returncode == 0 and statistics["backend"] == "embree"
-    return bothBackEnds.pixels(image)
+    return drawn(SCENE, image, "--backend", "embree", by="embree")[0]
 
 
 # The request, and a part of the message.
@@ -89,12 +94,9 @@ def test_when_the_driver_fails_the_path_tracer_renders(opengl, traced, tmp_path,
 
 
 def test_an_image_larger_than_the_drivers_textures(opengl, tmp_path):
-    image = tmp_path / "image.exr"
-    process, statistics = record(SCENE, image, "--backend", "raster", "--imageWidth", "40000", "--imageHeight", "2",
-                                 "--samples", "1")
-    assert process.returncode == 0, process.stderr
-    assert statistics["backend"] == "embree"
-    assert "no room for an image of 40000 x 2 pixels" in statistics["warnings"][0]["message"]
+    _, warnings = drawn(SCENE, tmp_path / "image.exr", "--imageWidth", "40000", "--imageHeight", "2", "--samples", "1",
+                        by="embree")
+    assert "no room for an image of 40000 x 2 pixels" in warnings[0]["message"]
 
 
 def test_strict_makes_it_a_failure(tmp_path):
@@ -107,58 +109,41 @@ def test_strict_makes_it_a_failure(tmp_path):
 @pytest.fixture(scope="module")
 def textured(opengl, tmp_path_factory):
     """:returns: what the rasterizer makes of TEXTURED"""
-    image = tmp_path_factory.mktemp("textured") / "image.exr"
-    process, statistics = record(TEXTURED, image, "--backend", "raster")
-    assert process.returncode == 0 and statistics["backend"] == "raster" and not statistics["warnings"]
-    return bothBackEnds.pixels(image)
+    image, warnings = drawn(TEXTURED, tmp_path_factory.mktemp("textured") / "image.exr")
+    assert not warnings
+    return image
 
 
 def test_a_material_that_does_not_compile_shows_displaycolor(textured, tmp_path):
     material = "/World/materials/checker"
-    image = tmp_path / "image.exr"
-    process, statistics = record(TEXTURED, image, "--backend", "raster", PATINA_GL_FAULT="material:" + material)
-    assert process.returncode == 0 and statistics["backend"] == "raster"
-    (warning,) = statistics["warnings"]
+    plain, (warning,) = drawn(TEXTURED, tmp_path / "image.exr", PATINA_GL_FAULT="material:" + material)
     assert warning["prim"] == material and warning["count"] == 1
     assert "displayColor is shown" in warning["message"] and "\n" not in warning["message"]
-    plain = bothBackEnds.pixels(image)
     assert plain.mean() > 0.0 and abs(plain - textured).max() > 0.05
 
 
 def test_textures_larger_than_the_driver_takes_are_shown_smaller(textured, tmp_path):
-    image = tmp_path / "image.exr"
-    process, statistics = record(TEXTURED, image, "--backend", "raster", PATINA_GL_FAULT="textureSize:1")
-    assert process.returncode == 0 and statistics["backend"] == "raster"
-    (warning,) = statistics["warnings"]
+    smaller, (warning,) = drawn(TEXTURED, tmp_path / "image.exr", PATINA_GL_FAULT="textureSize:1")
     assert warning["prim"] and "checker.png' has 64 x 64 pixels" in warning["message"]
     assert "shown with 1 x 1" in warning["message"]
-    smaller = bothBackEnds.pixels(image)
     assert abs(textured.mean() - smaller.mean()) < 0.05 * textured.mean()
     assert (textured != smaller).any()
 
 
 def test_images_do_not_depend_on_how_draws_are_grouped(opengl, tmp_path):
-    images = []
-    for fault in ("", "singleDraws:1", "ownPages:1"):
-        image = tmp_path / f"image{fault[:6]}.exr"
-        process, statistics = record(os.path.join(bothBackEnds.SCENES, "instanceValues.usda"), image, "--backend", "raster",
-                                     PATINA_GL_FAULT=fault)
-        assert process.returncode == 0 and statistics["backend"] == "raster"
-        images.append(bothBackEnds.pixels(image))
+    images = [drawn(inProcess.scene("instanceValues"), tmp_path / "image.exr", PATINA_GL_FAULT=fault)[0]
+              for fault in ("", "singleDraws:1", "ownPages:1")]
     assert images[0].std() > 0.0 and (images[0] == images[1]).all() and (images[0] == images[2]).all()
 
 
 def test_samples_of_two_back_ends_are_never_mixed(opengl, traced, tmp_path):
     image = tmp_path / "image.exr"
-    process, statistics = record(SCENE, image, "--backend", "raster", "--samples", "2", "--keepCheckpoint")
-    assert process.returncode == 0 and statistics["backend"] == "raster"
-    process, statistics = record(SCENE, image, "--backend", "raster", "--resume", PATINA_EGL_PLATFORM="none")
-    assert process.returncode == 0 and statistics["backend"] == "embree"
-    assert any("starting anew" in w["message"] for w in statistics["warnings"])
-    np.testing.assert_array_equal(bothBackEnds.pixels(image), traced)
+    drawn(SCENE, image, "--samples", "2", "--keepCheckpoint")
+    resumed, warnings = drawn(SCENE, image, "--resume", by="embree", PATINA_EGL_PLATFORM="none")
+    assert any("starting anew" in w["message"] for w in warnings)
+    np.testing.assert_array_equal(resumed, traced)
     # A render that the path tracer has begun in the rasterizer's place, it also continues.
     for samples, more in (("2", "--keepCheckpoint"), ("4", "--resume")):
-        process, statistics = record(SCENE, image, "--backend", "raster", "--samples", samples, more,
-                                     PATINA_EGL_PLATFORM="none")
-        assert len(statistics["warnings"]) == 1
-    np.testing.assert_array_equal(bothBackEnds.pixels(image), traced)
+        resumed, warnings = drawn(SCENE, image, "--samples", samples, more, by="embree", PATINA_EGL_PLATFORM="none")
+        assert len(warnings) == 1
+    np.testing.assert_array_equal(resumed, traced)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import bothBackEnds
+import inProcess
 from usda import material
 import usda
 
@@ -26,11 +26,9 @@ def floor(folder, thing, turn=-90, **inputs):
         "glass": ("ND_dielectric_bsdf", {f"{kind} {name}": value for name, (kind, value) in nodes.items()}),
         "surface": ("ND_surface", {"bsdf": "<glass>"}),
     })
-    (folder / "stage.usda").write_text(STAGE % {"object": thing, "materials": glass, "turn": turn})
-    image = str(folder / "image.exr")
-    bothBackEnds.record(str(folder / "stage.usda"), image, "--backend", "raster", "--samples", "64", "-w", "32",
-                        "--disableCameraLight")
-    return bothBackEnds.pixels(image).mean(axis=(0, 1))
+    text = STAGE % {"object": thing, "materials": glass, "turn": turn}
+    image = inProcess.shot(folder, text, "--backend", "raster", "--samples", "64", "-w", "32", "--disableCameraLight")
+    return inProcess.pixels(image).mean(axis=(0, 1))
 
 
 def fresnel(cosine, ior):

@@ -5,14 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
-import equivalence  # noqa: E402
-import floorLights  # noqa: E402
-import inProcess  # noqa: E402
-import sameImage  # noqa: E402
-from floorLights import STAGE, light, write  # noqa: E402
-from usda import mesh, prim  # noqa: E402
+import equivalence
+import floorLights
+import inProcess
+import sameImage
+from floorLights import STAGE, light, write
+from usda import mesh, prim
 
 pytestmark = pytest.mark.usefixtures("opengl")
 

@@ -5,10 +5,9 @@ import os
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-from patina.chart import measureSubdivision, probes  # noqa: E402
-from patina.experiment import LUMINANCE, draw, relative_error  # noqa: E402
+import _patina
+from patina.chart import measureSubdivision, probes
+from patina.experiment import LUMINANCE, draw, relative_error
 
 SKY = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes", "textures", "sky.exr")
 MATERIALS = {"diffuse": None, "smooth": 0.003, "rough": 0.4}  # alpha of metals

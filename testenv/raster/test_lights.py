@@ -8,16 +8,14 @@ import dataclasses
 import numpy as np
 import pytest
 
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
-import equivalence  # noqa: E402
-import floorLights  # noqa: E402
-import inProcess  # noqa: E402
-import sameImage  # noqa: E402
-from floorLights import STAGE, light, write  # noqa: E402
-from patina.chart import sweepsSky  # noqa: E402
-from patina.experiment import LUMINANCE, relative_error  # noqa: E402
-from usda import floor, mesh, preview, prim  # noqa: E402
+import equivalence
+import floorLights
+import inProcess
+import sameImage
+from floorLights import STAGE, light, write
+from patina.chart import sweepsSky
+from patina.experiment import LUMINANCE, relative_error
+from usda import floor, mesh, preview, prim
 
 pytestmark = pytest.mark.usefixtures("opengl")
 

@@ -9,15 +9,13 @@ import itertools
 
 import pytest
 
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
-import equivalence  # noqa: E402
-import floorLights  # noqa: E402
-import inProcess  # noqa: E402
-import sameImage  # noqa: E402
-import usda  # noqa: E402
-from floorLights import STAGE, light, write  # noqa: E402
-from test_lights import linked  # noqa: E402
+import equivalence
+import floorLights
+import inProcess
+import sameImage
+import usda
+from floorLights import STAGE, light, write
+from test_lights import linked
 
 pytestmark = pytest.mark.usefixtures("opengl")
 

@@ -10,14 +10,11 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdShade
 
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
-import equivalence  # noqa: E402
-import inProcess  # noqa: E402
-import pairs  # noqa: E402
-import sameImage  # noqa: E402
-from usda import material  # noqa: E402
-import usda  # noqa: E402
+import equivalence
+import inProcess
+import pairs
+import sameImage
+import usda
 
 pytestmark = pytest.mark.usefixtures("opengl")
 
@@ -84,9 +81,7 @@ def test_bumps_of_polygons_stand_in_the_world(tmp_path):
 
 def matte(path):
     """Binds a material of one lobe to all prims: the albedo of the usual surface takes a minute to compile in software."""
-    text = material("matte", {
-        "lobe": ("ND_oren_nayar_diffuse_bsdf", {"color": (0.6, 0.5, 0.4)}),
-        "surface": ("ND_surface", {"bsdf": "<lobe>"})})
+    text = usda.lobe("matte", "oren_nayar_diffuse_bsdf", color=(0.6, 0.5, 0.4))
     with open(os.path.join(os.path.dirname(path), "matte.usda"), "w", encoding="utf-8") as file:
         file.write("#usda 1.0\n" + text)
     stage = Usd.Stage.Open(path)

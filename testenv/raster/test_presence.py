@@ -11,14 +11,13 @@ pytestmark = pytest.mark.usefixtures("opengl")
 
 SIZE, SAMPLES = 32, 64
 CAMERA = usda.stage(usda.camera(lens=(50, 10, 10), at=(0, 0, 10)), up="")
-HALF = "    float[] primvars:displayOpacity = [0.5]\n"
+HALF = "float[] primvars:displayOpacity = [0.5]"
 CARD = [(-2, -2), (2, -2), (2, 2), (-2, 2)]
 
 
-def mesh(name, depths, apart=0, subsets=False, indent=""):
+def mesh(name, depths, *lines, apart=0, **more):
     """:param depths: z of each card
-    :param apart: triangles between the first card and the others, none of which the camera sees
-    :param subsets: each card is a subset of its own"""
+    :param apart: triangles between the first card and the others, none of which the camera sees"""
     points, faces = [(x, y, depths[0]) for x, y in CARD], [(0, 1, 2), (0, 2, 3)]
     beside = len(points)
     points += [(50, 0, 0), (51, 0, 0), (50, 1, 0)]
@@ -27,35 +26,29 @@ def mesh(name, depths, apart=0, subsets=False, indent=""):
         first = len(points)
         points += [(x, y, z) for x, y in CARD]
         faces += [(first, first + 1, first + 2), (first, first + 2, first + 3)]
-    indices = ", ".join(str(i) for face in faces for i in face)
-    text = (f'def Mesh "{name}"\n{{\n    point3f[] points = [{", ".join(f"({x}, {y}, {z})" for x, y, z in points)}]\n'
-            f"    int[] faceVertexCounts = [{', '.join(['3'] * len(faces))}]\n    int[] faceVertexIndices = [{indices}]\n"
-            f'    uniform token subdivisionScheme = "none"\n    bool doubleSided = 1\n{HALF}')
-    if subsets:
-        for name, which in (("front", [0, 1]), ("back", [2, 3])):
-            text += (f'    def GeomSubset "{name}" (prepend apiSchemas = ["MaterialBindingAPI"])\n    {{\n'
-                     f'        uniform token elementType = "face"\n        uniform token familyName = "materialBind"\n'
-                     f"        int[] indices = {which}\n    }}\n")
-    return "".join(indent + line + "\n" for line in (text + "}\n").splitlines())
+    return usda.mesh(name, points, *lines, faces=faces, doubleSided=1, **more)
+
+
+def subset(name, faces):
+    return usda.prim("GeomSubset", name, 'uniform token elementType = "face"', 'uniform token familyName = "materialBind"',
+                     f"int[] indices = {faces}", apis=("MaterialBindingAPI",))
 
 
 # Two of these, half there, are drawn apart. llvmpipe draws 16,384 triangles at once at most: see heldFences.h.
 STAGES = {
-    "prims": mesh("front", [1]) + mesh("back", [0]),
-    "triangles": mesh("both", [1, 0]),
-    "draws": mesh("both", [1, 0], apart=16382),
-    "subsets": mesh("both", [1, 0], subsets=True),
-    "instances": 'def PointInstancer "cards"\n{\n    rel prototypes = </cards/card>\n    int[] protoIndices = [0, 0]\n'
-                 '    point3f[] positions = [(0, 0, 0), (0, 0, 1)]\n' + mesh("card", [0], indent="    ") + "}\n",
+    "prims": mesh("front", [1], HALF) + mesh("back", [0], HALF),
+    "triangles": mesh("both", [1, 0], HALF),
+    "draws": mesh("both", [1, 0], HALF, apart=16382),
+    "subsets": mesh("both", [1, 0], HALF, subset("front", [0, 1]), subset("back", [2, 3])),
+    "instances": usda.prim("PointInstancer", "cards", "rel prototypes = </cards/card>", mesh("card", [0], HALF),
+                           protoIndices=[0, 0], positions=[(0, 0, 0), (0, 0, 1)]),
 }
 
 
 def alpha(folder, stage):
-    file, image = folder / "stage.usda", folder / "image.exr"
-    file.write_text(CAMERA + stage, encoding="utf-8")
-    inProcess.record(str(file), str(image), "--camera", "/camera", "-w", str(SIZE), "--samples", str(SAMPLES), "--backend",
-                     "raster", "--seed", "1")
-    return inProcess.pixels(str(image), "A")
+    image = inProcess.shot(folder, CAMERA + stage, "--camera", "/camera", "-w", SIZE, "--samples", SAMPLES, "--backend",
+                           "raster", "--seed", "1")
+    return inProcess.pixels(image, "A")
 
 
 @pytest.mark.parametrize("name", sorted(STAGES))
@@ -68,24 +61,15 @@ def test_what_lies_behind_each_other_is_drawn_apart(tmp_path, name):
 
 def test_prims_keep_their_random_numbers_when_others_come(tmp_path):
     before = alpha(tmp_path, STAGES["prims"])
-    other = mesh("another", [0]).replace("point3f[]", "double3 xformOp:translate = (90, 0, 0)\n    uniform token[] xformOpOrder"
-                                         ' = ["xformOp:translate"]\n    point3f[]', 1)
+    other = mesh("another", [0], HALF, at=(90, 0, 0))
     np.testing.assert_array_equal(alpha(tmp_path, other + STAGES["prims"]), before)
     assert 0.0 < before.std()
 
 
 def pane(name, opacity, emission, x, z):
     """A card that glows; thin, so that nothing bends what is behind it."""
-    material = (f'def Material "{name}Looks"\n{{\n    token outputs:surface.connect = </{name}Looks/s.outputs:surface>\n'
-                '    def Shader "s"\n    {\n        uniform token info:id = "UsdPreviewSurface"\n'
-                f"        color3f inputs:emissiveColor = ({emission}, 0, 0)\n        color3f inputs:diffuseColor = (0, 0, 0)\n"
-                f"        float inputs:opacity = {opacity}\n        float inputs:ior = 1\n"
-                "        token outputs:surface\n    }\n}\n")
-    bound = (f"    rel material:binding = </{name}Looks>\n    double3 xformOp:translate = ({x}, 0, 0)\n"
-             "    double3 xformOp:scale = (0.14, 1, 1)\n"
-             '    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]\n')
-    return material + mesh(name, [z]).replace(HALF, bound).replace(
-        f'"{name}"\n', f'"{name}" (prepend apiSchemas = ["MaterialBindingAPI"])\n')
+    looks = usda.preview(f"{name}Looks", emissiveColor=(emission, 0, 0), diffuseColor=(0, 0, 0), opacity=opacity, ior=1)
+    return looks + mesh(name, [z], bind=f"{name}Looks", at=(x, 0, 0), scale=(0.14, 1, 1))
 
 
 def test_glow_is_not_scaled_by_opacity(tmp_path):

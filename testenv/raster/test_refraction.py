@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import bothBackEnds
+import inProcess
 from usda import material
 import usda
 
@@ -33,11 +33,7 @@ def _middle(tmp_path, samples=4, terminal="volume", absorption="(0, 0, 0)", scat
     """:returns: the mean of the pixels in the middle of the image"""
     words = {"shape": "Cube", "geometry": "double size = 0.8", "wall": "invisible"}
     words.update(parts, materials=_materials(terminal, absorption, scattering))
-    stage = tmp_path / "stage.usda"
-    stage.write_text(STAGE % words)
-    image = str(tmp_path / "image.exr")
-    bothBackEnds.record(str(stage), image, "--backend", "raster", "--samples", str(samples), "-w", "24")
-    found = bothBackEnds.pixels(image)
+    found = inProcess.pixels(inProcess.shot(tmp_path, STAGE % words, "--backend", "raster", "--samples", samples, "-w", "24"))
     h, w = found.shape[:2]
     return found[h // 2 - 3:h // 2 + 3, w // 2 - 3:w // 2 + 3].mean(axis=(0, 1))
 

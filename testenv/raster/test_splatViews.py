@@ -3,35 +3,23 @@
 other cameras, surfaces that transmit, further AOVs.
 
 Bounds: as there. Two kernels at nearly the same distance may swap, in both back ends."""
-import os
-import sys
-
 import numpy as np
 import pytest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "render"))
-import inProcess  # noqa: E402
+from pxr import UsdVol
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.UsdVol").__dict__.get("ParticleField3DGaussianSplat") or pytest.skip("before OpenUSD 26.03",
-                                                                                           allow_module_level=True)
-from pxr import Gf, Sdf, UsdGeom  # noqa: E402
-from splatStages import (COLOR, CUT, END, FLOAT, Cloud, dome, floor, new_stage, random_cloud, rays, sharp_image,  # noqa: E402
-                         sun)
+import inProcess
+from splatStages import (CUT, DOME, END, PANE, SUN, WHITE, Cloud, floor, new_stage, off, random_cloud, rays,
+                         sharp_image)
+
+if not hasattr(UsdVol, "ParticleField3DGaussianSplat"):
+    pytest.skip("before OpenUSD 26.03", allow_module_level=True)
 
 PIXELS, ROUNDING = 32, 2e-5
 BOTH = pytest.mark.parametrize("backend", ["embree", "raster"])
 
 
-def perspective(stage, distance, half=0.2):
-    """The camera of new_stage() with a perspective from this distance; the image is 2 half wide at distance 1."""
-    camera = UsdGeom.Camera(stage.GetPrimAtPath("/camera"))
-    camera.CreateProjectionAttr("perspective")
-    camera.CreateFocalLengthAttr(10.0)
-    for attribute in (camera.CreateHorizontalApertureAttr(), camera.CreateVerticalApertureAttr()):
-        attribute.Set(20 * half)
-    UsdGeom.XformCommonAPI(camera).SetTranslate((0, 0, distance))
-    return camera
+PINHOLE = (10, 4, 4)  # a perspective whose image is 0.4 wide at distance 1
 
 
 def pinhole_rays(distance, half=0.2, shift=(0.0, 0.0), focus=1.0):
@@ -48,12 +36,11 @@ def pinhole_rays(distance, half=0.2, shift=(0.0, 0.0), focus=1.0):
 @pytest.mark.parametrize("distance", [6.0, 0.3])
 def test_a_perspective_from_afar_and_from_among_the_kernels(tmp_path, backend, distance):
     cloud = random_cloud(150, 31, degree=2)
-    stage = new_stage(near=1e-3)
+    stage = new_stage(near=1e-3, eye=(0, 0, distance), lens=PINHOLE)
     cloud.define(stage)
-    perspective(stage, distance)
     images, _ = sharp_image(stage, tmp_path, PIXELS, backend=backend)
     light, alpha = cloud.seen(*pinhole_rays(distance))
-    difference = np.abs(images["color"][..., :3].reshape(-1, 3) - light).max(1)
+    difference = off(images, light)
     assert np.mean(difference > 1e-4) < 0.01 and difference.max() < 0.05 + END
     assert images["alpha"].ravel() == pytest.approx(alpha, abs=2 * CUT + END)
 
@@ -61,9 +48,8 @@ def test_a_perspective_from_afar_and_from_among_the_kernels(tmp_path, backend, d
 @BOTH
 def test_clipping_ranges_and_planes(tmp_path, backend):
     """A kernel counts as a whole, by the point where it is densest."""
-    stage = new_stage(0.001, near=8.5, far=11.5)
-    camera = UsdGeom.Camera(stage.GetPrimAtPath("/camera"))
-    camera.CreateClippingPlanesAttr([Gf.Vec4f(0, 0, -1, -9.5)])  # of the camera's space: what is farther than 9.5 is seen
+    plane = "float4[] clippingPlanes = [(0, 0, -1, -9.5)]"  # of the camera's space: what is farther than 9.5 is seen
+    stage = new_stage(width=0.001, near=8.5, far=11.5, lines=(plane,))
     Cloud([[0, 0, z] for z in (2, 1, 0, -1, -2)], 0.3, 0.5, [[v] * 3 for v in (0.9, 0.7, 0.5, 0.3, 0.1)]).define(stage)
     images, _ = sharp_image(stage, tmp_path, 1, backend=backend)
     assert images["color"][0, 0, 0] == pytest.approx(0.5 * 0.5 + 0.25 * 0.3, abs=ROUNDING)
@@ -74,11 +60,9 @@ def test_depth_of_field(tmp_path, backend):
     """The mean over the lens of closed forms. Lens samples are spread evenly, 256 of them: their standard error is below
     that of random ones, and the bound is five of those."""
     cloud = random_cloud(12, 33, 0.5, 0.2)
-    stage = new_stage(near=0.1)
+    # A lens 1 unit wide, of a focal length of 1: apertures are in tenths of units.
+    stage = new_stage(near=0.1, eye=(0, 0, 4), lens=PINHOLE, focusDistance=3, fStop=1)
     cloud.define(stage)
-    camera = perspective(stage, 4.0)
-    camera.CreateFocusDistanceAttr(3.0)
-    camera.CreateFStopAttr(1.0)  # a lens 1 unit wide, of a focal length of 1: apertures are in tenths of units
     images, _ = sharp_image(stage, tmp_path, PIXELS, 256, backend=backend)
     random = np.random.default_rng(7)
     radius, turn = 0.5 * np.sqrt(random.uniform(0, 1, 1024)), random.uniform(0, 2 * np.pi, 1024)
@@ -96,12 +80,8 @@ def test_a_pane_that_does_not_bend_light(tmp_path, backend, places):
     colors = [[1, 0.5, 0.2], [0.1, 0.3, 1]][:len(places)]
     images = []
     for pane in (False, True):
-        stage = new_stage()
+        stage = new_stage(DOME, floor(**PANE) if pane else "")
         Cloud([[0, 0, z] for z in places], 0.4, 0.6, colors).define(stage)
-        if pane:
-            floor(stage, shader="ND_dielectric_bsdf", ior=(FLOAT, 1.0), scatter_mode=(Sdf.ValueTypeNames.String, "RT"),
-                  roughness=(Sdf.ValueTypeNames.Float2, (0, 0)))
-        dome(stage)
         images.append(sharp_image(stage, tmp_path, PIXELS, 4, backend=backend)[0]["color"])
     assert images[1] == pytest.approx(images[0], abs=ROUNDING)
 
@@ -114,11 +94,9 @@ def test_first_passes_smooth_what_is_behind(tmp_path, passes):
     cloud = random_cloud(40, 35)
     images = []
     for splats in (False, True):
-        stage = new_stage()
+        stage = new_stage(floor(z=-3.0, **WHITE), DOME)
         if splats:
             cloud.define(stage)
-        floor(stage, z=-3.0, color=(COLOR, (1, 1, 1)))
-        dome(stage)
         images.append(sharp_image(stage, tmp_path, PIXELS, passes, backend="raster")[0]["color"][..., :3].reshape(-1, 3))
     light, alpha = cloud.seen(*rays(PIXELS))
     assert images[1] == pytest.approx(light + (1 - alpha[:, None]) * images[0], abs=1e-4)
@@ -129,9 +107,8 @@ def test_ids_and_mattes_of_what_splats_hide(tmp_path):
     inProcess.needs_opengl()
     found = []
     for backend in ("embree", "raster"):
-        stage = new_stage()
+        stage = new_stage(floor(z=-3.0, **WHITE))
         Cloud([0.4, 0, 0], 0.2, 1.0).define(stage)
-        floor(stage, z=-3.0, color=(COLOR, (1, 1, 1)))
         images, _ = sharp_image(stage, tmp_path, PIXELS, 4, aovs=("primId", "cryptoObject", "albedo"), backend=backend)
         found.append(images)
     for aov in ("primId", "albedo"):
@@ -158,9 +135,7 @@ def test_splats_are_seen_by_the_camera_alone(tmp_path):
     inProcess.needs_opengl()
     images = []
     for kernel in (False, True):
-        stage = new_stage(eye=(0, 0, 2))
-        floor(stage, color=(COLOR, (1, 1, 1)))
-        sun(stage)
+        stage = new_stage(floor(**WHITE), SUN, eye=(0, 0, 2))
         if kernel:
             Cloud([0, 0, 4], 0.3, 1.0, 1.0).define(stage)
         images.append([sharp_image(stage, tmp_path, 8, 4, backend=name)[0]["color"] for name in ("raster", "embree")])

@@ -2,12 +2,9 @@
 """Light that glows inside of a white cloud comes out of it, scattered: nothing of it is lost."""
 import numpy as np
 import pytest
+from scipy import stats
 
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
-from scipy import stats  # noqa: E402
-
-import inProcess  # noqa: E402
+import inProcess
 
 pytestmark = pytest.mark.usefixtures("opengl")
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.stats
 
-from inProcess import SCENES, Stage, patina, record, references, scene  # noqa: F401  (for tests beside this)
+from inProcess import SCENES, Stage, patina, record, references, scene, shot  # noqa: F401  (for tests beside this)
 from inProcess import pixels as color  # noqa: F401
 
 

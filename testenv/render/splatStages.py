@@ -3,9 +3,11 @@
 
 The closed form is written from UsdVol's schema and the papers, in double precision, and shares nothing with the renderer."""
 import numpy as np
-from pxr import Gf, Usd, UsdGeom, UsdLux, UsdShade, UsdVol, Vt
+from pxr import Gf, Usd, UsdGeom, UsdVol, Vt
 from scipy.spatial.transform import Rotation
 from scipy.special import factorial, lpmv
+
+import usda
 
 CUT = 1 / 1024  # shaders/lib/splat.glsl: kernels end where their alpha is that
 END = 1e-4  # and rays where so little is left
@@ -102,20 +104,28 @@ def random_cloud(count, seed, extent=1.0, size=0.15, degree=0):
                  random.uniform(0.1, 1, count), turns=Rotation.random(count, random_state=seed), coefficients=coefficients)
 
 
-def new_stage(width=2.0, eye=(0, 0, 10), rotate=(0, 0, 0), meters=1.0, unit=1.0, near=1.0, far=100.0):
-    """A stage with an orthographic camera that looks along -z, and sees a square of this width.
+def new_stage(*prims, lines=(), width=2.0, eye=(0, 0, 10), rotate=None, meters=1.0, unit=1.0, near=1.0, far=100.0, lens=None,
+              **camera):
+    """A stage with an orthographic camera that looks along -z, and sees a square of this width; with `lens` a perspective.
 
+    :param prims: text of others
+    :param lines, camera: of the camera, as usda.camera() takes them
     :param unit: factor of all lengths"""
+    view = {"lens": lens} if lens else {"flat": (10 * width * unit, 10 * width * unit)}
+    at = tuple((np.array(eye, float) * unit).tolist())
+    seen = usda.camera(*lines, clippingRange=(near * unit, far * unit), at=at, turn=rotate, **view, **camera)
     stage = Usd.Stage.CreateInMemory()
-    UsdGeom.SetStageMetersPerUnit(stage, meters)
-    camera = UsdGeom.Camera.Define(stage, "/camera")
-    camera.CreateProjectionAttr("orthographic")
-    for attribute in (camera.CreateHorizontalApertureAttr(), camera.CreateVerticalApertureAttr()):
-        attribute.Set(10 * width * unit)
-    camera.CreateClippingRangeAttr(Gf.Vec2f(near * unit, far * unit))
-    UsdGeom.XformCommonAPI(camera).SetTranslate(tuple(np.array(eye, float) * unit))
-    UsdGeom.XformCommonAPI(camera).SetRotate(tuple(map(float, rotate)))
+    stage.GetRootLayer().ImportFromString(usda.stage(seen, *prims, metersPerUnit=meters))
     return stage
+
+
+def placement(turn, at=(0.0, 0.0, 0.0)):
+    """:param turn: scipy's rotation, or a matrix
+    :returns: a matrix for column vectors"""
+    matrix = np.eye(4)
+    matrix[:3, :3] = turn.as_matrix() if isinstance(turn, Rotation) else turn
+    matrix[:3, 3] = at
+    return matrix
 
 
 def place(prim, matrix):
@@ -131,43 +141,20 @@ def rays(pixels, width=2.0, height=10.0):
     return origins, np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
 
 
-def floor(stage, path="/floor", half=5.0, z=0.0, shader="ND_oren_nayar_diffuse_bsdf", **inputs):
-    """A square that faces +z, with one lobe."""
-    mesh = UsdGeom.Mesh.Define(stage, path)
-    mesh.CreatePointsAttr([(-half, -half, z), (half, -half, z), (half, half, z), (-half, half, z)])
-    mesh.CreateFaceVertexCountsAttr([4])
-    mesh.CreateFaceVertexIndicesAttr([0, 1, 2, 3])
-    material = UsdShade.Material.Define(stage, path + "Paint")
-    surface = UsdShade.Shader.Define(stage, path + "Paint/surface")
-    surface.SetShaderId("ND_surface")
-    lobe = UsdShade.Shader.Define(stage, path + "Paint/lobe")
-    lobe.SetShaderId(shader)
-    for name, (type_, value) in inputs.items():
-        lobe.CreateInput(name, type_).Set(value)
-    surface.CreateInput("bsdf", lobe.CreateOutput("out", _TOKEN).GetTypeName()).ConnectToSource(lobe.ConnectableAPI(), "out")
-    material.CreateSurfaceOutput().ConnectToSource(surface.ConnectableAPI(), "out")
-    UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim()).Bind(material)
-    return mesh
+def floor(lobe="oren_nayar_diffuse_bsdf", z=0.0, **inputs):
+    """A square that faces +z, with one lobe. :returns: its text"""
+    return usda.card("floor", 5.0, z=z, scheme="", bind="paint") + usda.lobe("paint", lobe, **inputs)
 
 
-def sun(stage, path="/sun"):
-    """Light straight down, irradiance 1 on a floor."""
-    light = UsdLux.DistantLight.Define(stage, path)
-    light.CreateIntensityAttr(1.0)
-    light.CreateAngleAttr(0.0)
-    return light
+WHITE = {"color": (1, 1, 1)}
+PANE = {"lobe": "dielectric_bsdf", "ior": 1.0, "scatter_mode": "RT", "roughness": (0, 0)}  # that does not bend light
+SUN = usda.prim("DistantLight", "sun", intensity=1, angle=0)  # straight down, irradiance 1 on a floor
+DOME = usda.prim("DomeLight", "dome", intensity=1)
 
 
-def dome(stage, path="/dome"):
-    light = UsdLux.DomeLight.Define(stage, path)
-    light.CreateIntensityAttr(1.0)
-    return light
-
-
-from pxr import Sdf  # noqa: E402
-
-_TOKEN = Sdf.ValueTypeNames.Token
-COLOR, FLOAT = Sdf.ValueTypeNames.Color3f, Sdf.ValueTypeNames.Float
+def off(images, light):
+    """:returns: how far the colour of each pixel is off at most"""
+    return np.abs(images["color"][..., :3].reshape(-1, 3) - light).max(1)
 
 
 def sharp_image(stage, folder, pixels=32, samples=1, settings=(), aovs=("color", "alpha"), backend="embree"):

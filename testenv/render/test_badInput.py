@@ -6,18 +6,15 @@ import os
 import numpy as np
 import pytest
 
-from rendering import color, patina, pixels, record, scene
-from usda import camera, prim
+from rendering import color, patina, pixels, record, scene, shot
+from usda import ST, camera, material, preview, prim
+from usda import stage as stage_of
 
 HEAD = '#usda 1.0\n(\n    upAxis = "Y"\n)\n'
 CAMERA = camera(at=(0, 0, 5)) + prim("DomeLight", "dome", intensity=1)
-QUAD = prim("Mesh", "quad", "%(extra)s", bind="material", faceVertexCounts="%(counts)s", faceVertexIndices="%(indices)s",
-            points="%(points)s", subdivisionScheme="%(scheme)s")
-GOOD = {"counts": "[4]", "indices": "[0, 1, 2, 3]", "points": "[(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]",
-        "scheme": "none", "extra": ""}
-PREVIEW = prim("Material", "material", "token outputs:surface.connect = </material/surface.outputs:surface>",
-    prim("Shader", "surface", 'uniform token info:id = "UsdPreviewSurface"', "token outputs:surface", "%s"),
-    "%s")
+GOOD = {"faceVertexCounts": [4], "faceVertexIndices": [0, 1, 2, 3], "subdivisionScheme": "none",
+        "points": [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]}
+PREVIEW = preview("material")
 TINY = ("--imageWidth", 32, "--imageHeight", 32, "--samples", 4)
 
 
@@ -34,43 +31,49 @@ def mentions(warnings, *words):
     return any(all(word in json.dumps(w) for word in words) for w in warnings)
 
 
-def quad(**changes):
-    return QUAD % {**GOOD, **changes}
+def quad(*lines, **changes):
+    return prim("Mesh", "quad", *lines, bind="material", **{**GOOD, **changes})
+
+
+NAN, INF = float("nan"), float("inf")
 
 
 @pytest.mark.parametrize("scheme", ["none", "catmullClark", "loop", "bilinear"])
 @pytest.mark.parametrize("change, word", [
-    ({"indices": "[0, 1, 2, 9]"}, "faceVertexIndices"),
-    ({"indices": "[0, 1, -2, 3]"}, "faceVertexIndices"),
-    ({"counts": "[5]"}, "faceVertex"),
-    ({"counts": "[2, 4]", "indices": "[0, 1, 0, 1, 2, 3]"}, "face"),
-    ({"points": "[(nan, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]"}, "points"),
-    ({"points": "[(inf, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]"}, "points"),
-    ({"extra": "texCoord2f[] primvars:st = [(0, 0), (1, 1)] (interpolation = \"vertex\")"}, "st"),
-    ({"extra": "int[] holeIndices = [7]"}, "holeIndices"),
-    ({"extra": "int[] creaseIndices = [0, 1]\n    int[] creaseLengths = [5]\n    float[] creaseSharpnesses = [1]"}, "crease"),
+    ({"faceVertexIndices": [0, 1, 2, 9]}, "faceVertexIndices"),
+    ({"faceVertexIndices": [0, 1, -2, 3]}, "faceVertexIndices"),
+    ({"faceVertexCounts": [5]}, "faceVertex"),
+    ({"faceVertexCounts": [2, 4], "faceVertexIndices": [0, 1, 0, 1, 2, 3]}, "face"),
+    ({"points": [(NAN, -1, 0), *GOOD["points"][1:]]}, "points"),
+    ({"points": [(INF, -1, 0), *GOOD["points"][1:]]}, "points"),
+    (['texCoord2f[] primvars:st = [(0, 0), (1, 1)] (interpolation = "vertex")'], "st"),
+    (["int[] holeIndices = [7]"], "holeIndices"),
+    (["int[] creaseIndices = [0, 1]", "int[] creaseLengths = [5]", "float[] creaseSharpnesses = [1]"], "crease"),
 ])
 def test_broken_mesh(tmp_path, scheme, change, word):
-    _, image, warnings = render(tmp_path, quad(scheme=scheme, **change) + PREVIEW % ("", ""))
+    lines, changes = ((), change) if isinstance(change, dict) else (change, {})
+    _, image, warnings = render(tmp_path, quad(*lines, **{"subdivisionScheme": scheme, **changes}) + PREVIEW)
     assert np.isfinite(pixels(image)).all()
     if word == "crease" and scheme in ("none", "bilinear") or word == "holeIndices" and scheme == "none":
         return  # the scheme does not read them
     assert mentions(warnings, "/quad", word), warnings
 
 
-@pytest.mark.parametrize("points", ["[]", "[(0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0, 0)]",
-                                    "[(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)]"])
+@pytest.mark.parametrize("points", [[], [(0, 0, 0)] * 4, [(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)]])
 @pytest.mark.parametrize("scheme", ["none", "catmullClark"])
 def test_degenerate_faces_and_empty_meshes(tmp_path, points, scheme):
-    _, image, _ = render(tmp_path, quad(points=points, scheme=scheme) + PREVIEW % ("", ""))
+    _, image, _ = render(tmp_path, quad(points=points, subdivisionScheme=scheme) + PREVIEW)
     assert np.isfinite(pixels(image)).all()
 
 
+def connected(inputs, **nodes):
+    """:param inputs: of the surface"""
+    return material("material", {"surface": ("UsdPreviewSurface", inputs), **nodes})
+
+
 def test_missing_texture_is_magenta_and_named(tmp_path):
-    text = quad(extra='texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")') + PREVIEW % (
-        "color3f inputs:emissiveColor.connect = </material/image.outputs:rgb>\n        color3f inputs:diffuseColor = (0, 0, 0)",
-        'def Shader "image"\n    {\n        uniform token info:id = "UsdUVTexture"\n        asset inputs:file = @absent.png@\n '
-        '       color3f outputs:rgb\n    }')
+    text = quad(st=ST) + connected({"color3f emissiveColor": "<image>", "diffuseColor": (0, 0, 0)},
+                                   image=("UsdUVTexture", {"file": "absent.png"}, "color3f rgb"))
     _, image, warnings = render(tmp_path, text)
     assert mentions(warnings, "/material/image", "absent.png"), warnings
     r, g, b = color(image)[16, 16]
@@ -78,36 +81,29 @@ def test_missing_texture_is_magenta_and_named(tmp_path):
 
 
 def test_missing_primvar_uses_the_fallback_of_its_reader(tmp_path):
-    text = quad() + PREVIEW % (
-        "color3f inputs:emissiveColor.connect = </material/reader.outputs:result>",
-        'def Shader "reader"\n    {\n        uniform token info:id = "UsdPrimvarReader_float3"\n        string inputs:varname '
-        '= "absent"\n        float3 inputs:fallback = (0, 5, 0)\n        float3 outputs:result\n    }')
+    text = quad() + connected({"color3f emissiveColor": "<reader>"}, reader=(
+        "UsdPrimvarReader_float3", {"varname": "absent", "float3 fallback": (0, 5, 0)}))
     _, image, _ = render(tmp_path, text)
     r, g, b = color(image)[16, 16]
     assert g > 4 and r < 2 and b < 2
 
 
 def test_cycle_in_a_network(tmp_path):
-    node = ('def Shader "%s"\n    {\n        uniform token info:id = "ND_multiply_color3"\n'
-            '        color3f inputs:in1.connect = </material/%s.outputs:out>\n'
-            '        color3f outputs:out\n    }\n')
-    text = quad() + PREVIEW % ("color3f inputs:diffuseColor.connect = </material/a.outputs:out>",
-                               node % ("a", "b") + "    " + node % ("b", "a"))
+    text = quad() + connected({"color3f diffuseColor": "<a>"}, **{
+        name: ("ND_multiply_color3", {"color3f in1": f"<{other}>"}, "color3f out") for name, other in ("ab", "ba")})
     _, image, warnings = render(tmp_path, text)
     assert mentions(warnings, "/material", "cycle"), warnings
     assert np.isfinite(pixels(image)).all()
 
 
 def test_unknown_node(tmp_path):
-    text = quad() + PREVIEW % ("color3f inputs:diffuseColor.connect = </material/a.outputs:out>",
-                               'def Shader "a"\n    {\n        uniform token info:id = "NoSuchNode"\n        color3f '
-                               'outputs:out\n    }')
+    text = quad() + connected({"color3f diffuseColor": "<a>"}, a=("NoSuchNode", {}, "color3f out"))
     _, image, warnings = render(tmp_path, text)
     assert mentions(warnings, "/material/a", "NoSuchNode"), warnings
 
 
 def test_type_mismatch(tmp_path):
-    text = quad() + PREVIEW % ('token inputs:roughness = "very"', "")
+    text = quad() + connected({"token roughness": "very"})
     _, image, warnings = render(tmp_path, text)
     assert mentions(warnings, "/material/surface", "roughness"), warnings
     assert np.isfinite(pixels(image)).all()
@@ -120,7 +116,7 @@ def test_binding_to_a_material_that_is_not_there(tmp_path):
 
 
 def test_strict_turns_warnings_into_failure(tmp_path):
-    process, image, _ = render(tmp_path, quad(indices="[0, 1, 2, 9]") + PREVIEW % ("", ""), "--strict", check=False)
+    process, image, _ = render(tmp_path, quad(faceVertexIndices=[0, 1, 2, 9]) + PREVIEW, "--strict", check=False)
     assert process.returncode == 1
     assert "/quad" in process.stderr
 
@@ -159,9 +155,9 @@ def test_truncated_crate(tmp_path):
 
 
 def test_missing_sublayer_is_named_and_the_rest_rendered(tmp_path):
-    stage, image, out = tmp_path / "s.usda", tmp_path / "a.exr", tmp_path / "out.json"
-    stage.write_text('#usda 1.0\n(\n    subLayers = [@missingLayer.usda@]\n)\n' + CAMERA + quad())
-    record(stage, image, *TINY, f"--json={out}")
+    out = tmp_path / "out.json"
+    text = stage_of(CAMERA, quad(), up="", subLayers="[@missingLayer.usda@]")
+    image = shot(tmp_path, text, *TINY, f"--json={out}")
     assert mentions(json.loads(out.read_text())["warnings"], "missingLayer.usda")
     assert color(image)[16, 16].max() > 0
 
@@ -187,22 +183,16 @@ def test_failed_render_keeps_the_image_that_was_there(tmp_path):
     stage.write_text("nonsense")
     fails("record", stage, image)
     assert image.read_bytes() == before
-    assert os.listdir(tmp_path) == sorted(["a.exr", "bad.usda"]) or set(os.listdir(tmp_path)) == {"a.exr", "bad.usda"}
+    assert set(os.listdir(tmp_path)) == {"a.exr", "bad.usda"}
 
 
 def test_empty_stage_renders(tmp_path):
-    stage, image = tmp_path / "empty.usda", tmp_path / "a.exr"
-    stage.write_text("#usda 1.0\n")
-    record(stage, image, *TINY)
-    assert np.isfinite(pixels(image)).all()
+    assert np.isfinite(pixels(shot(tmp_path, "#usda 1.0\n", *TINY))).all()
 
 
 def test_nan_in_lights_and_transforms(tmp_path):
-    text = quad() + PREVIEW % ("", "") + (
-        'def SphereLight "bad"\n{\n    float inputs:intensity = nan\n    double3 xformOp:translate = (nan, 0, 1)\n'
-        '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
-        'def SphereLight "none"\n{\n    float inputs:radius = 0\n    float3 xformOp:scale = (0, 0, 0)\n'
-        '    uniform token[] xformOpOrder = ["xformOp:scale"]\n}\n')
+    text = (quad() + PREVIEW + prim("SphereLight", "bad", intensity=NAN, at=(NAN, 0, 1))
+            + prim("SphereLight", "none", radius=0, scale=(0, 0, 0)))
     _, image, warnings = render(tmp_path, text)
     assert np.isfinite(pixels(image)).all()
     assert mentions(warnings, "/bad"), warnings

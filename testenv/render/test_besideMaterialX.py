@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from patina.experiment import LUMINANCE
-from rendering import pixels, record
+from rendering import pixels, shot
 import usda
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -67,10 +67,8 @@ def theirs(path, *materials):
 
 def ours(path, material, folder):
     """:returns: mean RGB over the same pixels of a path traced ball"""
-    stage = folder / "ball.usda"
-    stage.write_text(STAGE % {"document": path, "material": material})
-    record(stage, folder / "ball.exr", "-w", "48", "--samples", "256", "--camera", "/camera")
-    image = pixels(folder / "ball.exr")[..., :3]
+    text = STAGE % {"document": path, "material": material}
+    image = pixels(shot(folder, text, "-w", "48", "--samples", "256", "--camera", "/camera"))[..., :3]
     y, x = (2.0 * (np.indices(image.shape[:2]) + 0.5) / len(image) - 1.0)
     return image[np.hypot(x, y) < 1.0 - 2.0 / len(image)].mean(0)
 

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 
 from inProcess import needs_opengl
-from rendering import patina, record
+from rendering import patina, record, shot
 import usda
 
+CAMERA = usda.camera(flat=(80, 40), at=(0, 0, 5))
+QUAD = usda.mesh("quad", [(-2.5, -9, 0), (0.5, -9, 0), (0.5, 9, 0), (-2.5, 9, 0)], bind="red")
 STAGE = usda.stage(
-    usda.camera(flat=(80, 40), at=(0, 0, 5)),
+    CAMERA,
     usda.prim("DistantLight", "sun"),
     usda.preview("red"),
-    usda.prim("Xform", "left",
-        usda.mesh("quad", [(-2.5, -9, 0), (0.5, -9, 0), (0.5, 9, 0), (-2.5, 9, 0)], bind="red"),
-        meta=('kind = "component"',)),
+    usda.prim("Xform", "left", QUAD, meta=('kind = "component"',)),
     usda.mesh("right", [(0.5, -9, 0), (3, -9, 0), (3, 9, 0), (0.5, 9, 0)], 'string primvars:patina:cryptoAsset = "set"'),
     usda.prim("Scope", "Render",
         usda.prim("RenderSettings", "main", "rel camera = </camera>", "rel products = </Render/product>", resolution=(8, 4)),
@@ -35,10 +35,7 @@ AOVS = [a for name in ("cryptoObject", "cryptoMaterial", "cryptoAsset") for a in
 def image(request, tmp_path_factory):
     needs_opengl(request.param)
     folder = tmp_path_factory.mktemp("cryptomatte")
-    (folder / "stage.usda").write_text(STAGE)
-    record(folder / "stage.usda", folder / "image.exr", "-w", 8, "--samples", 64, "--filterRadius", 0.5, "--backend",
-           request.param, *AOVS)
-    return folder / "image.exr"
+    return shot(folder, STAGE, "-w", 8, "--samples", 64, "--filterRadius", 0.5, "--backend", request.param, *AOVS)
 
 
 def layers(path):
@@ -125,14 +122,8 @@ def test_only_openexr_holds_it(tmp_path):
 
 
 def test_native_instances_have_their_own_paths(tmp_path):
-    text = STAGE.replace('def Mesh "right"', 'def Mesh "rightmost"').replace('def Xform "left" (\n',
-                                                                             'def Xform "left" (\n    instanceable = true\n')
-    text += 'def Xform "again" (\n    instanceable = true\n    references = </left>\n)\n{\n' \
-            '    double3 xformOp:translate = (1, 0, 1)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
-    text = text.replace('def Xform "left" (\n    instanceable = true\n',
-                        'def Xform "left" (\n    instanceable = true\n    references = </_proto>\n')
-    text = text.replace('{\n    def Mesh "quad"', '{\n}\nclass Xform "_proto"\n{\n    def Mesh "quad"',
-                        1).replace("references = </left>", "references = </_proto>")
-    (tmp_path / "stage.usda").write_text(text)
-    record(tmp_path / "stage.usda", tmp_path / "image.exr", "-w", 8, "--samples", 1, *AOVS)
-    assert {"/left/quad", "/again/quad"} <= set(layers(tmp_path / "image.exr")["crypto_object"][0])
+    instances = [usda.prim("Xform", name, meta=("instanceable = true", "references = </proto>"), at=place)
+                 for name, place in (("left", (0, 0, 0)), ("again", (1, 0, 1)))]
+    text = usda.stage(CAMERA, usda.preview("red"), usda.prim("Xform", "proto", QUAD, specifier="class"), *instances)
+    image = shot(tmp_path, text, "-w", 8, "--samples", 1, *AOVS)
+    assert {"/left/quad", "/again/quad"} <= set(layers(image)["crypto_object"][0])

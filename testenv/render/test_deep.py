@@ -7,7 +7,7 @@ import pytest
 
 import _patina
 import inProcess
-from rendering import patina, record, scene
+from rendering import patina, record, scene, shot
 import usda
 
 # Surfaces, visible lights, domes, presence, media in glass, a volume, catchers with alpha between 0 and 1, motion, lenses.
@@ -69,9 +69,9 @@ def test_asking_for_it_changes_no_bit(tmp_path):
 
 def test_samples_of_coverage_and_presence(tmp_path):
     """A sheet of presence one half, 6 away, over the left half of the image and half of a pixel; a wall 8 away behind all."""
-    stage, image, deep = (tmp_path / n for n in ("stage.usda", "image.exr", "deep.exr"))
-    stage.write_text(HEAD + quad("sheet", -9, 0.5, 4, "half") + quad("wall", -9, 9, 2))
-    record(stage, image, "-w", 8, "--samples", 256, "--filterRadius", 0.5, "--deep", deep)
+    deep = tmp_path / "deep.exr"
+    text = HEAD + quad("sheet", -9, 0.5, 4, "half") + quad("wall", -9, 9, 2)
+    shot(tmp_path, text, "-w", 8, "--samples", 256, "--filterRadius", 0.5, "--deep", deep)
     left, edge, right = (samples_of(deep, x, 2) for x in (1, 4, 6))
     assert [round(s["Z"], 4) for s in left] == [6, 8] and [round(s["Z"], 4) for s in right] == [8]
     # Fair coins, 256 of them: 4.5 deviations of 1/32 (by chance in 1 of 147000 seeds, and the seed is fixed).

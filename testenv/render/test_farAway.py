@@ -6,10 +6,8 @@ import pytest
 import inProcess
 from patina import experiment
 from usdaText import render_text
-from usda import camera, floor, prim
+from usda import camera, floor, material, prim
 
-pytest.importorskip("pxr.Usd")
-pytest.importorskip("_patina")
 
 # Neither whole numbers, nor such that floats have so far away: the spacing of floats is 1/128 there.
 FAR = (100000.3337, 12.1, 50000.1234)
@@ -34,6 +32,14 @@ def look(at, **settings):
     return images
 
 
+def assert_same_color(near, far):
+    """The same rays but for their last bits: few of them pass an edge on its other side."""
+    color = near["color"][..., :3]
+    assert color.max() > 0.1
+    difference = np.abs(color - far["color"][..., :3]).mean() / color.mean()
+    assert difference < 0.01, difference
+
+
 def compare(far, near, at):
     """Positions, depths and normals of all pixels but a hundredth: at an edge the nearest sample may be another one."""
     seen = near["depth"].reshape(32, 32) < 100.0
@@ -49,20 +55,13 @@ def compare(far, near, at):
 def test_shadows_stay_and_so_do_positions_depths_and_normals():
     at = (100000.0, 0.0, 50000.0)
     near, far = look((0, 0, 0)), look(at)
-    color = near["color"][..., :3]
-    assert color.max() > 0.1
-    # The same rays but for their last bits: few of them pass an edge on its other side.
-    difference = np.abs(color - far["color"][..., :3]).mean() / color.mean()
-    assert difference < 0.01, difference
+    assert_same_color(near, far)
     compare(far, near, at)
 
 
 def test_what_floats_cannot_place_at_all_is_seen():
     """Floats are 8 apart there: rays from the world's origin meet nothing of the scene."""
-    near, far = look((0, 0, 0)), look((80000000.0, 0.0, 50000000.0))
-    color = near["color"][..., :3]
-    difference = np.abs(color - far["color"][..., :3]).mean() / color.mean()
-    assert difference < 0.01, difference
+    assert_same_color(look((0, 0, 0)), look((80000000.0, 0.0, 50000000.0)))
 
 
 def test_the_rasterizer_places_as_the_path_tracer_does():
@@ -88,41 +87,13 @@ def test_places_between_the_numbers_that_there_are_stay_apart():
 
 def test_materials_read_the_same_world():
     """Stripes that follow the position in the world stand where they do for a scene that is seen from the origin."""
-    material = """
-def Material "stripes"
-{
-    token outputs:mtlx:surface.connect = </stripes/surface.outputs:out>
-    def Shader "place" { uniform token info:id = "ND_position_vector3"
-        string inputs:space = "world"
-        token outputs:out }
-    def Shader "scale" { uniform token info:id = "ND_multiply_vector3FA"
-        float3 inputs:in1.connect = </stripes/place.outputs:out>
-        float inputs:in2 = 0.00001
-        token outputs:out }
-    def Shader "color" { uniform token info:id = "ND_convert_vector3_color3"
-        float3 inputs:in.connect = </stripes/scale.outputs:out>
-        token outputs:out }
-    def Shader "surface" { uniform token info:id = "ND_surface_unlit"
-        color3f inputs:emission_color.connect = </stripes/color.outputs:out>
-        token outputs:out }
-}
-def Xform "world"
-{
-    double3 xformOp:translate = (100000, 0, 50000)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-    def Camera "camera"
-    {
-        double3 xformOp:translate = (0, 0, 4)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-    }
-    def Sphere "ball" (prepend apiSchemas = ["MaterialBindingAPI"])
-    {
-        rel material:binding = </stripes>
-    }
-}
-"""
-    images, warnings, _ = render_text(material.replace("{ uniform", "{\n        uniform").replace("out }", "out\n    }"),
-                                      samples=1)
+    stripes = material("stripes", {
+        "surface": ("ND_surface_unlit", {"color3f emission_color": "<color>"}),
+        "color": ("ND_convert_vector3_color3", {"float3 in": "<scale>"}),
+        "scale": ("ND_multiply_vector3FA", {"float3 in1": "<place>", "in2": 0.00001}),
+        "place": ("ND_position_vector3", {"space": "world"})})
+    world = prim("Xform", "world", camera(at=(0, 0, 4)), prim("Sphere", "ball", bind="stripes"), at=(100000, 0, 50000))
+    images, warnings, _ = render_text(stripes + world, samples=1)
     assert not warnings
     middle = images["color"][16, 16, :3]
     assert middle == pytest.approx([1.0, 0.0, 0.50001], abs=2e-5)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import inProcess
-from rendering import color, record
+from rendering import color, shot
 import usda
 from usda import material
 
@@ -33,10 +33,8 @@ def distant(name, *lines, intensity=math.pi, **more):
 
 
 def render(tmp_path, *parts, samples=64, arguments=(), channels="RGB"):
-    stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
-    stage.write_text(HEAD + CAMERA + "".join(parts))
-    record(stage, image, "--camera", "/camera", "--imageWidth", 32, "--imageHeight", 32, "--samples", samples,
-           "--filterRadius", 0.5, "--disableCameraLight", *arguments)
+    image = shot(tmp_path, HEAD + CAMERA + "".join(parts), "--camera", "/camera", "--imageWidth", 32, "--imageHeight", 32,
+                 "--samples", samples, "--filterRadius", 0.5, "--disableCameraLight", *arguments)
     return color(image, channels)
 
 
@@ -115,18 +113,16 @@ def test_absorption_follows_beers_law(tmp_path):
         "surface": ("ND_surface", {"bsdf": "<layer>"})})
     cube = usda.prim("Cube", "cube", size=2, bind="glass")
     camera = usda.camera(name="ortho", flat=(10, 10), at=(0, 0, 10))
-    stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
-    stage.write_text(HEAD + camera + cube + quad("back", -3, 3.0, 0, "glow") + glass + glow("glow", (1, 1, 1)))
-    record(stage, image, "--camera", "/ortho", "--imageWidth", 16, "--imageHeight", 16, "--samples", 16)
+    text = HEAD + camera + cube + quad("back", -3, 3.0, 0, "glow") + glass + glow("glow", (1, 1, 1))
+    image = shot(tmp_path, text, "--camera", "/ortho", "--imageWidth", 16, "--imageHeight", 16, "--samples", 16)
     assert color(image)[8, 8] == pytest.approx(np.exp([-1.0, -2.0, -4.0]), rel=1e-3)
 
 
 def test_aovs_of_a_plain_quad(tmp_path):
-    stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
-    stage.write_text(HEAD + CAMERA + quad("a", 0, 1.5) + quad("b", 4, 0.25) + lambert("white", 0.5) + distant("sun"))
-    record(stage, image, "--imageWidth", 33, "--imageHeight", 33, "--samples", 16,
-           *[f for name in ("depth", "cameraDepth", "normal", "Neye", "position", "albedo", "primvars:st", "primId",
-                            "instanceId", "elementId", "sampleCount", "variance") for f in ("--aov", name)])
+    text = HEAD + CAMERA + quad("a", 0, 1.5) + quad("b", 4, 0.25) + lambert("white", 0.5) + distant("sun")
+    image = shot(tmp_path, text, "--imageWidth", 33, "--imageHeight", 33, "--samples", 16,
+                 *[f for name in ("depth", "cameraDepth", "normal", "Neye", "position", "albedo", "primvars:st", "primId",
+                                  "instanceId", "elementId", "sampleCount", "variance") for f in ("--aov", name)])
     data = inProcess.channels(image)
     middle, side = (16, 16), (16, 24)
     assert data["depth.Z"][middle] == pytest.approx(6, abs=1e-4)

@@ -9,8 +9,6 @@ from usdaText import render_text
 from rendering import patina
 import usda
 
-pytest.importorskip("pxr.Usd")
-pytest.importorskip("_patina")
 
 STAGE = (
     usda.camera("float4[] clippingPlanes = %(planes)s", clippingRange="%(range)s", focusDistance="%(focus)s",

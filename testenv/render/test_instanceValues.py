@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from inProcess import needs_opengl
-from rendering import color, patina, record
+from rendering import color, patina, shot
 import usda
 
 HEAD = usda.stage(
@@ -20,59 +20,40 @@ PLACES = [(-1.2, -1, 0), (0, 1, 0), (1.2, -1, 0)]
 COLOURS = [(0.8, 0.1, 0.1), (0.1, 0.8, 0.1), (0.1, 0.1, 0.8)]
 
 
-def primvar(kind, name, values, per_instance):
-    text = ", ".join(str(v) for v in values)
-    end = '(\n        interpolation = "vertex"\n    )' if per_instance else ""
-    return f"    {kind}[] primvars:{name} = [{text}] {end}\n"
+def primvar(kind, name, values, per_instance=False):
+    return f"{kind}[] primvars:{name} = {list(values)}" + ' (interpolation = "vertex")' * per_instance
 
 
-def ball(name, place, primvars, bound):
-    binding = "    rel material:binding = </reads>\n" if bound else ""
-    return f"""def Sphere "{name}" (
-    prepend apiSchemas = ["MaterialBindingAPI"]
-)
-{{
-    double radius = 0.6
-    double3 xformOp:translate = {place}
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-{binding}{primvars}}}
-"""
+def of_instance(primvars, i):
+    """:param primvars: dict name: (type, values)"""
+    return [primvar(kind, name, values[i:i + 1]) for name, (kind, values) in primvars.items()]
 
 
-def instanced(primvars, own="", bound=False):
-    """Balls at PLACES as instances. :param primvars: dict name: (type, values)"""
-    text = "".join(primvar(kind, name, values, True) for name, (kind, values) in primvars.items())
-    return f"""def PointInstancer "balls"
-{{
-    point3f[] positions = {list(PLACES)}
-    int[] protoIndices = [0, 0, 0]
-    int64[] ids = [7, 3, 5]
-    rel prototypes = [</balls/ball>]
-{text}{ball("ball", (0, 0, 0), own, bound)}}}
-"""
+def ball(name, *lines, at=None, bound=False):
+    return usda.prim("Sphere", name, *lines, bind="reads" if bound else "", radius=0.6, at=at)
 
 
-def native(primvars, own="", bound=False):
+def instanced(primvars, *own, bound=False):
+    """Balls at PLACES as instances."""
+    return usda.prim(
+        "PointInstancer", "balls", "int64[] ids = [7, 3, 5]", "rel prototypes = [</balls/ball>]",
+        *(primvar(kind, name, values, True) for name, (kind, values) in primvars.items()), ball("ball", *own, bound=bound),
+        positions=PLACES, protoIndices=[0, 0, 0])
+
+
+def native(primvars, bound=False):
     """The same as native instances below prims that have the values."""
-    prototype = 'class Xform "prototype"\n{\n' + ball("ball", (0, 0, 0), own, bound) + "}\n"
-    return prototype + "".join(usda.prim(
-        "Xform", f"above{i}",
-        f'{"".join(primvar(kind, name, values[i:i + 1], False) for name, (kind, values) in primvars.items())}',
-        usda.prim("Xform", "copy", meta=("instanceable = true", "inherits = </prototype>")),
-        at=place) for i, place in enumerate(PLACES))
+    copy = usda.prim("Xform", "copy", meta=("instanceable = true", "inherits = </prototype>"))
+    return usda.prim("Xform", "prototype", ball("ball", bound=bound), specifier="class") + "".join(
+        usda.prim("Xform", f"above{i}", *of_instance(primvars, i), copy, at=place) for i, place in enumerate(PLACES))
 
 
-def copies(primvars, own="", bound=False):
-    return "".join(ball(f"copy{i}", place, own + "".join(primvar(kind, name, values[i:i + 1], False)
-                                                         for name, (kind, values) in primvars.items()), bound)
-                   for i, place in enumerate(PLACES))
+def copies(primvars, bound=False):
+    return "".join(ball(f"copy{i}", *of_instance(primvars, i), at=place, bound=bound) for i, place in enumerate(PLACES))
 
 
 def render(folder, name, text, *arguments):
-    stage, image = folder / (name + ".usda"), folder / (name + ".exr")
-    stage.write_text(HEAD + text)
-    record(str(stage), str(image), "--imageWidth", "48", "--samples", "16", "--strict", *arguments)
-    return image
+    return shot(folder, HEAD + text, "--imageWidth", "48", "--samples", "16", "--strict", *arguments, name=name)
 
 
 def same(folder, primvars, *arguments, make=instanced, **more):
@@ -119,7 +100,7 @@ def test_what_glows_by_them_lights_alike(tmp_path):
 
 
 def test_the_prims_own_value_wins(tmp_path):
-    own = primvar("color3f", "displayColor", [(0.3, 0.3, 0.9)], False)
+    own = primvar("color3f", "displayColor", [(0.3, 0.3, 0.9)])
     image = color(render(tmp_path, "instances", instanced({"displayColor": ("color3f", COLOURS)}, own)))
     plain = color(render(tmp_path, "plain", instanced({}, own)))
     assert np.array_equal(image, plain)

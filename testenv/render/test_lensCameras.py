@@ -6,20 +6,18 @@ import pytest
 
 from inProcess import without_opengl
 from usdaText import render_text
+import usda
 
-DOME = 'def DomeLight "sky" { asset inputs:texture:file = @%s@\n token inputs:texture:format = "latlong"\n}\n'
-AROUND = """def Sphere "around" { double radius = 10
- color3f[] primvars:displayColor = [(1, 1, 1)]
-}
-def DomeLight "sky" { float inputs:intensity = 1
-}
-"""
-BEHIND = ' double3 xformOp:rotateXYZ = (0, 180, 0)\n uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]\n'
+AROUND = (usda.prim("Sphere", "around", radius=10, color=(1, 1, 1))
+          + usda.prim("DomeLight", "sky", intensity=1))
 
 
-def camera(*lines):
-    return "\n ".join(['def Camera "c" { float2 clippingRange = (0.01, 1000)', "float horizontalAperture = 20",
-                       "float verticalAperture = 20", *lines]) + "\n}\n"
+def dome(image):
+    return usda.prim("DomeLight", "sky", f"asset inputs:texture:file = @{image}@", 'token inputs:texture:format = "latlong"')
+
+
+def camera(*lines, **values):
+    return usda.camera(*lines, name="c", clippingRange=(0.01, 1000), horizontalAperture=20, verticalAperture=20, **values)
 
 
 def render(text, width, height, aovs=("color", "alpha"), backend="embree", **settings):
@@ -54,7 +52,7 @@ def sky(tmp_path_factory):
 
 def test_a_spherical_camera_gives_the_domes_image_back(sky):
     path, texels = sky
-    text = DOME % path + camera('token patina:projection = "spherical"', BEHIND)  # a dome's middle is +z
+    text = dome(path) + camera('token patina:projection = "spherical"', turn=(0, 180, 0))  # a dome's middle is +z
     found, warnings = render(text, 64, 32)
     assert not warnings
     # Directions of 32 bits move a place by less than a thousandth of a texel.
@@ -66,7 +64,7 @@ def test_a_spherical_camera_gives_the_domes_image_back(sky):
 
 def test_a_fisheye_shows_the_dome_by_angle(sky):
     path, texels = sky
-    text = DOME % path + camera('token patina:projection = "fisheye"', "float patina:fieldOfView = 180", BEHIND)
+    text = dome(path) + camera('token patina:projection = "fisheye"', "float patina:fieldOfView = 180", turn=(0, 180, 0))
     found, _ = render(text, 40, 40)
     # Along the horizon the angle is the distance from the middle, and green is the latitude, 0.2 + 1 / 2.
     x = (np.arange(40) + 0.5) / 20 - 1
@@ -92,7 +90,7 @@ def test_beyond_the_circle_of_a_fisheye_nothing_is():
 
 
 def test_maps(tmp_path, sky):
-    plain = DOME % sky[0]
+    plain = dome(sky[0])
     lens = ("float fStop = 2", "float focusDistance = 3")
     write_map(tmp_path / "identity.exr", identity(17, 9))
     write_map(tmp_path / "shifted.exr", identity(32, 32) + [0.5, 0.0])
@@ -107,12 +105,7 @@ def test_maps(tmp_path, sky):
 
 def test_eyes_in_one_image():
     """A card between both eyes' views: its outlines are apart by the closed form's pixels."""
-    text = """def Mesh "card" { int[] faceVertexCounts = [4]
- int[] faceVertexIndices = [0, 1, 2, 3]
- uniform token subdivisionScheme = "none"
- point3f[] points = [(-0.5, -9, -4), (0.5, -9, -4), (0.5, 9, -4), (-0.5, 9, -4)]
-}
-"""
+    text = usda.card("card", (0.5, 9), z=-4)
     lens = ("float focalLength = 20", "float patina:interocularDistance = 0.4", "float patina:convergenceDistance = 8")
     both, warnings = render(text + camera('token patina:stereo = "sideBySide"', *lens), 400, 8, ("alpha",))
     assert not warnings
@@ -138,7 +131,7 @@ BAD = [("int patina:apertureBlades = 1000000000", "patina:apertureBlades"),
 
 @pytest.mark.parametrize("line, name", BAD)
 def test_what_a_camera_does_not_take_is_told(sky, line, name):
-    plain = DOME % sky[0]
+    plain = dome(sky[0])
     found, warnings = render(plain + camera(line), 8, 8)
     assert len(warnings) == 1 and warnings[0].startswith(f"/c {name}: "), warnings
     assert (found["color"] == render(plain + camera(), 8, 8)[0]["color"]).all()
@@ -147,7 +140,7 @@ def test_what_a_camera_does_not_take_is_told(sky, line, name):
 @pytest.mark.skipif(bool(without_opengl()), reason="no OpenGL")
 def test_the_rasterizer_tells_what_it_does_not_draw(sky):
     lines = ['token patina:projection = "fisheye"', "float patina:distortionK1 = 0.1"]
-    plain = DOME % sky[0]
+    plain = dome(sky[0])
     found, warnings = render(plain + camera(*lines), 8, 8, backend="raster")
     assert sorted(w.split(":", 2)[1] for w in warnings) == ["distortionK1", "projection"]
     assert all(w.startswith("/c patina:") and "rasterizer" in w for w in warnings)
@@ -156,8 +149,7 @@ def test_the_rasterizer_tells_what_it_does_not_draw(sky):
 
 @pytest.mark.skipif(bool(without_opengl()), reason="no OpenGL")
 def test_the_rasterizer_draws_one_eye():
-    text = 'def Sphere "s" { double radius = 1\n double3 xformOp:translate = (0, 0, -5)\n' \
-           ' uniform token[] xformOpOrder = ["xformOp:translate"]\n}\ndef DistantLight "sun" { }\n'
+    text = usda.prim("Sphere", "s", radius=1, at=(0, 0, -5)) + usda.prim("DistantLight", "sun")
     eye = camera('token patina:stereo = "right"', "float focalLength = 20", "float patina:interocularDistance = 1",
                  "float patina:convergenceDistance = 20")
     traced = render(text + eye, 48, 48, ("alpha",))[0]["alpha"]

@@ -8,7 +8,7 @@ import pytest
 
 from lightStages import light
 from lightStages import stage as floor_under
-from rendering import color, record
+from rendering import color, shot
 import usda
 
 POINT = ["float inputs:intensity = 4", "float inputs:radius = 0.01", "bool inputs:normalize = 1", "bool treatAsPoint = 1"]
@@ -19,10 +19,8 @@ def filter_text(kind, lines, place=(0.0, 1.0, 0.0), name="filter"):
 
 
 def floor(folder, lamp, filters="", samples=16, flags=(), size=8):
-    stage, image = folder / "stage.usda", folder / "image.exr"
-    stage.write_text(floor_under(lamp, filters))
-    record(stage, image, "--camera", "/camera", "--imageWidth", size, "--imageHeight", size, "--samples", samples, *flags)
-    return color(image).mean()
+    return color(shot(folder, floor_under(lamp, filters), "--camera", "/camera", "--imageWidth", size, "--imageHeight", size,
+                      "--samples", samples, *flags)).mean()
 
 
 def lamp(kind="SphereLight", attributes=POINT, target="</filter>"):

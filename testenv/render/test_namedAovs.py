@@ -12,46 +12,27 @@ import usda
 
 SIZE, DISTANCE = 32, 8.0
 PIXELS = SIZE / DISTANCE  # a unit across at that distance; the aperture is as wide as the focal length
-HEAD = usda.stage(
-    usda.prim("Xform", "world",
-        usda.camera("double shutter:open = %(open)g", "double shutter:close = %(close)g", "%(camera)s", lens=(50, 50, 50),
-                    clippingRange="(%(near)g, %(most)g)"),
-        "%(prims)s", at="(%(far)g, %(far)g, 0)"),
-    usda.prim("DistantLight", "sun"),
-    metersPerUnit="%(metersPerUnit)g", startTimeCode=5, endTimeCode=5)
 WHERE = [dict(metersPerUnit=1), dict(metersPerUnit=0.01, unit=100.0), dict(metersPerUnit=1, far=1e5)]
 places = pytest.mark.parametrize("where", WHERE, ids=["metres", "centimetres", "far"])
 backends = pytest.mark.parametrize("backend", ["embree", "raster"])
 
 
-def moving(op, keys, unit=1.0, more=""):
-    """:param keys: dict of time code -> numbers"""
-    samples = ", ".join(f"{t}: ({', '.join(repr(float(n) * unit) for n in v)})" for t, v in keys.items())
-    return (f"double3 xformOp:{op}.timeSamples = {{{samples}}}\n"
-            f'        uniform token[] xformOpOrder = ["xformOp:{op}"{more}]')
+def sheet(*lines, name="sheet", half=20.0, z=-DISTANCE, **values):
+    """A sheet across the view."""
+    return usda.card(name, half, *lines, z=z, **values)
 
 
-def quad(body="", name="sheet", half=20.0, z=-DISTANCE, kind="Mesh"):
-    """A sheet across the view, in units of the stage over `unit`."""
-    h = half
-    return f'''    def {kind} "{name}"
-    {{
-        int[] faceVertexCounts = [4]
-        int[] faceVertexIndices = [0, 1, 2, 3]
-        point3f[] points = [({-h}, {-h}, {z}), ({h}, {-h}, {z}), ({h}, {h}, {z}), ({-h}, {h}, {z})]
-        uniform token subdivisionScheme = "none"
-        {body}
-    }}
-'''
+def moved(points, unit=1.0):
+    """:param points: dict of time code -> place, in units of the stage over `unit`"""
+    return {time: tuple(float(x) * unit for x in place) for time, place in points.items()}
 
 
-def stage_text(prims, camera="", far=0.0, unit=1.0, metersPerUnit=1.0, shutter=(0.0, 0.0)):
-    return HEAD % dict(prims=prims, camera=camera, far=far, near=0.1 * unit, most=1000 * unit, open=shutter[0],
-                       close=shutter[1], metersPerUnit=metersPerUnit)
-
-
-def scaled(unit):
-    return f'double3 xformOp:scale = ({unit}, {unit}, {unit})\n        uniform token[] xformOpOrder = ["xformOp:scale"]'
+def stage_text(prims, *camera, far=0.0, unit=1.0, metersPerUnit=1.0, shutter=(0.0, 0.0), **values):
+    """:param camera, values: lines and transforms of the camera"""
+    times = [f"double shutter:{end} = {time}" for end, time in zip(("open", "close"), shutter)]
+    shot = usda.camera(*camera, *times, lens=(50, 50, 50), clippingRange=(0.1 * unit, 1000 * unit), **values)
+    return usda.stage(usda.prim("Xform", "world", shot, prims, at=(far, far, 0)), usda.prim("DistantLight", "sun"),
+                      metersPerUnit=metersPerUnit, startTimeCode=5, endTimeCode=5)
 
 
 def render(tmp_path, text, aovs, backend="embree", *arguments, samples=4):
@@ -76,6 +57,7 @@ def rounding(where):
 
 
 MOTION = ("motionForward", "motionBackward")
+FASTER = {4: (0, 0, 0), 5: (0.25, 0.5, 0), 6: (1, 0, 0)}
 
 
 @backends
@@ -83,8 +65,8 @@ MOTION = ("motionForward", "motionBackward")
 def test_a_camera_that_moves(tmp_path, backend, where):
     """It goes 0.5 to the right and 0.25 up a frame: the sheet goes left and down in the image."""
     unit = where.get("unit", 1.0)
-    camera = moving("translate", {0: (-2.5, -1.25, 0), 10: (2.5, 1.25, 0)}, unit)
-    channels, _ = render(tmp_path, stage_text(quad(scaled(unit)), camera, **where), MOTION, backend)
+    text = stage_text(sheet(scale=(unit,) * 3), at=moved({0: (-2.5, -1.25, 0), 10: (2.5, 1.25, 0)}, unit), **where)
+    channels, _ = render(tmp_path, text, MOTION, backend)
     way = np.array([-0.5, 0.25]) * PIXELS
     assert vectors(channels, "motionForward") == pytest.approx(np.broadcast_to(way, (SIZE, SIZE, 2)), abs=rounding(where))
     assert vectors(channels, "motionBackward") == pytest.approx(np.broadcast_to(-way, (SIZE, SIZE, 2)), abs=rounding(where))
@@ -95,9 +77,8 @@ def test_a_camera_that_moves(tmp_path, backend, where):
 def test_a_prim_that_gathers_speed(tmp_path, backend, where):
     """0, 1 and 4 quarters to the right at frames 4, 5 and 6; what is later is not what was earlier."""
     unit = where.get("unit", 1.0)
-    body = (moving("translate", {4: (0, 0, 0), 5: (0.25, 0.5, 0), 6: (1, 0, 0)}, unit, ', "xformOp:scale"')
-            + f"\n        double3 xformOp:scale = ({unit}, {unit}, {unit})")
-    channels, _ = render(tmp_path, stage_text(quad(body), **where), MOTION, backend)
+    faster = sheet(at=moved(FASTER, unit), scale=(unit,) * 3)
+    channels, _ = render(tmp_path, stage_text(faster, **where), MOTION, backend)
     for name, way in (("motionForward", (0.75, 0.5)), ("motionBackward", (-0.25, 0.5))):
         expected = np.broadcast_to(np.array(way) * PIXELS, (SIZE, SIZE, 2))
         assert vectors(channels, name) == pytest.approx(expected, abs=rounding(where))
@@ -107,8 +88,7 @@ def test_a_prim_that_gathers_speed(tmp_path, backend, where):
 def test_what_comes_nearer_goes_outwards(tmp_path, backend):
     """From distance 8 to 7: a place at x pixels from the middle goes to 8/7 x. Within half a pixel of the centre any may be
     shown, whose way differs by a fourteenth."""
-    body = moving("translate", {5: (0, 0, 0), 6: (0, 0, 1)})
-    channels, _ = render(tmp_path, stage_text(quad(body)), MOTION, backend)
+    channels, _ = render(tmp_path, stage_text(sheet(at={5: (0, 0, 0), 6: (0, 0, 1)})), MOTION, backend)
     from_middle = np.arange(SIZE) + 0.5 - SIZE / 2
     x, y = np.meshgrid(from_middle, from_middle)
     assert np.abs(vectors(channels, "motionForward") - np.stack([x, y], -1) / 7).max() < 0.5 / 7 + rounding({})
@@ -118,29 +98,28 @@ def test_what_comes_nearer_goes_outwards(tmp_path, backend):
 @backends
 def test_instances_inside_of_instances(tmp_path, backend):
     """The outer instancer goes right, the inner one up, and the sheet back to the left: 1, 0.5 and -0.25 a frame."""
-    def at(numbers, name="positions"):
-        x, y = numbers
-        return f'point3f[] {name}.timeSamples = {{4: [({x}, {y}, 0)], 6: [({-x}, {-y}, 0)]}}'
+    def instancer(name, prototype, x, y, held):
+        return usda.prim("PointInstancer", name, f"rel prototypes = </world/outer/{prototype}>", held, protoIndices=[0],
+                         positions={4: [(x, y, 0)], 6: [(-x, -y, 0)]})
 
-    sheet = quad(moving("translate", {4: (0.25, 0, 0), 6: (-0.25, 0, 0)}))
-    inner = (f'    def PointInstancer "inner"\n    {{\n        int[] protoIndices = [0]\n        {at((0, -0.5))}\n'
-             f'        rel prototypes = </world/outer/inner/sheet>\n{sheet}    }}\n')
-    outer = (f'    def PointInstancer "outer"\n    {{\n        int[] protoIndices = [0]\n        {at((-1, 0))}\n'
-             f'        rel prototypes = </world/outer/inner>\n{inner}    }}\n')
+    inner = instancer("inner", "inner/sheet", 0, -0.5, sheet(at={4: (0.25, 0, 0), 6: (-0.25, 0, 0)}))
+    outer = instancer("outer", "inner", -1, 0, inner)
     channels, _ = render(tmp_path, stage_text(outer), MOTION, backend)
     expected = np.broadcast_to(np.array([0.75, -0.5]) * PIXELS, (SIZE, SIZE, 2))
     assert vectors(channels, "motionForward") == pytest.approx(expected, abs=rounding({}))
     assert vectors(channels, "motionBackward") == pytest.approx(-expected, abs=rounding({}))
 
 
-DEFORMING = quad().replace("point3f[] points =", "point3f[] points.timeSamples = {5:").replace(
-    ")]\n        uniform", ")], 6: [(-18, -20, -8), (22, -20, -8), (22, 20, -8), (-18, 20, -8)]}\n        uniform")
+def deforming(name="sheet", z=-DISTANCE, scheme="none"):
+    """2 to the right in the next frame; nothing before."""
+    points = {time: [(x - 20, -20, z), (x + 20, -20, z), (x + 20, 20, z), (x - 20, 20, z)] for time, x in ((5, 0), (6, 2))}
+    return usda.prim("Mesh", name, points=points, faceVertexCounts=[4], faceVertexIndices=[0, 1, 2, 3],
+                     subdivisionScheme=scheme)
 
 
 @pytest.mark.parametrize("scheme", ["none", "catmullClark"])
 def test_points_that_move(tmp_path, scheme):
-    """2 to the right in the next frame; nothing before."""
-    channels, _ = render(tmp_path, stage_text(DEFORMING.replace('"none"', f'"{scheme}"')), MOTION)
+    channels, _ = render(tmp_path, stage_text(deforming(scheme=scheme)), MOTION)
     assert vectors(channels, "motionForward") == pytest.approx(
         np.broadcast_to(np.array([2.0, 0.0]) * PIXELS, (SIZE, SIZE, 2)), abs=rounding({}))
     assert np.abs(vectors(channels, "motionBackward")).max() < rounding({})
@@ -149,24 +128,23 @@ def test_points_that_move(tmp_path, scheme):
 @pytest.mark.parametrize("kind", ["curves", "points"])
 def test_curves_and_points_that_move(tmp_path, kind):
     if kind == "points":
-        text = usda.prim("Points", "balls", "point3f[] points.timeSamples = {5: [(0, 0, -8)], 6: [(0.5, 0, -8)]}", widths=[4])
+        text = usda.prim("Points", "balls", points={5: [(0, 0, -8)], 6: [(0.5, 0, -8)]}, widths=[4])
     else:
-        text = usda.prim("BasisCurves", "fibres",
-                         "point3f[] points.timeSamples = {5: [(0, -9, -8), (0, 9, -8)], 6: [(0.5, -9, -8), (0.5, 9, -8)]}",
-                         type="linear", curveVertexCounts=[2], widths=[4, 4])
+        text = usda.prim("BasisCurves", "fibres", type="linear", curveVertexCounts=[2], widths=[4, 4],
+                         points={5: [(0, -9, -8), (0, 9, -8)], 6: [(0.5, -9, -8), (0.5, 9, -8)]})
     channels, _ = render(tmp_path, stage_text(text), MOTION)
     middle = (SIZE // 2, SIZE // 2)
     assert vectors(channels, "motionForward")[middle] == pytest.approx((0.5 * PIXELS, 0), abs=rounding({}))
 
 
 def test_the_rasterizer_says_that_it_does_not_follow_points(tmp_path):
-    channels, report = render(tmp_path, stage_text(DEFORMING), MOTION, "raster")
+    channels, report = render(tmp_path, stage_text(deforming()), MOTION, "raster")
     assert np.abs(vectors(channels, "motionForward")).max() < rounding({})
     assert [w["prim"] for w in report["warnings"] if w["id"] == "motionOfPointsLeftOut"] == ["/world/sheet"]
 
 
 def test_a_film_that_is_no_plane(tmp_path):
-    text = stage_text(quad(moving("translate", {4: (0, 0, 0), 6: (1, 0, 0)})), 'token patina:projection = "spherical"')
+    text = stage_text(sheet(at={4: (0, 0, 0), 6: (1, 0, 0)}), 'token patina:projection = "spherical"')
     channels, report = render(tmp_path, text, MOTION)
     assert not vectors(channels, "motionForward").any()
     assert [w["id"] for w in report["warnings"]] == ["motionAovsEmpty"]
@@ -176,9 +154,8 @@ def test_a_film_that_is_no_plane(tmp_path):
 @pytest.mark.parametrize("shutter", [(0.0, 0.5), (-0.25, 0.25), (0.0, 0.0)])
 def test_without_blur_prims_are_where_the_frame_has_them(tmp_path, backend, shutter):
     """A card whose left edge crosses the view: it turns about the view's axis, which interpolated matrices do not."""
-    text = stage_text(quad('''float xformOp:rotateZ.timeSamples = {0: 0, 10: 90}
-        uniform token[] xformOpOrder = ["xformOp:rotateZ"]''', half=3.0), shutter=shutter)
-    still = text.replace("{0: 0, 10: 90}", "{0: 45}")
+    text, still = (stage_text(sheet(half=3.0, turn=turn), shutter=shutter)
+                   for turn in ({0: (0, 0, 0), 10: (0, 0, 90)}, (0, 0, 45)))
     found, _ = render(tmp_path, text, ("position", *MOTION), backend, "--disableMotionBlur")
     expected, _ = render(tmp_path, still, ("position",), backend, "--disableMotionBlur")
     for channel, values in expected.items():
@@ -195,8 +172,7 @@ def test_without_blur_prims_are_where_the_frame_has_them(tmp_path, backend, shut
 
 @backends
 def test_asking_for_motion_changes_no_picture(tmp_path, backend):
-    body = moving("translate", {4: (0, 0, 0), 5: (0.25, 0.5, 0), 6: (1, 0, 0)})
-    text = stage_text(quad(body, half=3.0) + DEFORMING.replace("sheet", "back").replace("-8)", "-12)"), shutter=(-0.25, 0.25))
+    text = stage_text(sheet(half=3.0, at=FASTER) + deforming("back", z=-12), shutter=(-0.25, 0.25))
     alone, _ = render(tmp_path, text, (), backend)
     beside, _ = render(tmp_path, text, MOTION, backend)
     for channel in "RGBA":
@@ -219,7 +195,7 @@ def test_a_product_without_blur(tmp_path):
         usda.prim("RenderVar", "st", dataType="texCoord2f", sourceName="st"),
         usda.prim("RenderVar", "P", sourceName="P"))
     (tmp_path / "stage.usda").write_text(
-        stage_text(quad(moving("translate", {0: (-5, 0, 0), 10: (5, 0, 0)})), shutter=(0.5, 0.75)) + settings)
+        stage_text(sheet(at={0: (-5, 0, 0), 10: (5, 0, 0)}), shutter=(0.5, 0.75)) + settings)
     patina("record", tmp_path / "stage.usda", "--settings", "/Render/main", "--outputFolder", tmp_path, "--frames", 5,
            "--samples", 4, "--quiet")
     channels = inProcess.channels(tmp_path / "product.exr")
@@ -235,14 +211,9 @@ def test_a_product_without_blur(tmp_path):
 def test_geometric_normal_of_a_tilted_sheet(tmp_path, backend, where):
     """The authored normals point elsewhere: they are the shading normal alone."""
     unit = where.get("unit", 1.0)
-    body = f'''double xformOp:rotateX = 30
-        double3 xformOp:translate = (0, 0, {-DISTANCE * unit})
-        double3 xformOp:scale = ({unit}, {2 * unit}, {unit})
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX", "xformOp:scale"]
-        normal3f[] normals = [(0.6, 0, 0.8), (0.6, 0, 0.8), (0.6, 0, 0.8), (0.6, 0, 0.8)] (
-            interpolation = "vertex"
-        )'''
-    channels, _ = render(tmp_path, stage_text(quad(body, z=0.0, half=40), **where), ("Ng", "normal"), backend)
+    normals = f'normal3f[] normals = {[(0.6, 0, 0.8)] * 4} (interpolation = "vertex")'
+    tilted = sheet(normals, z=0.0, half=40.0, at=(0, 0, -DISTANCE * unit), rotateX=30, scale=(unit, 2 * unit, unit))
+    channels, _ = render(tmp_path, stage_text(tilted, **where), ("Ng", "normal"), backend)
     expected = np.broadcast_to((0.0, -0.5, np.sqrt(0.75)), (SIZE, SIZE, 3))
     assert vectors(channels, "Ng", "XYZ") == pytest.approx(expected, abs=1e-5)
     # (0.6, 0, 0.8) turned by 30 degrees about x
@@ -253,16 +224,13 @@ def test_geometric_normal_of_a_tilted_sheet(tmp_path, backend, where):
 @backends
 def test_texture_coordinates(tmp_path, backend):
     """(x + 4) / 8 over the view; a prim without them has zeros."""
-    body = '''texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (
-            interpolation = "varying"
-        )'''
-    channels, _ = render(tmp_path, stage_text(quad(body, half=4)), ("uv", "primvars:st", "Ng", "Pref"), backend)
+    channels, _ = render(tmp_path, stage_text(sheet(half=4.0, st=usda.ST)), ("uv", "primvars:st", "Ng", "Pref"), backend)
     across = (np.arange(SIZE) + 0.5) / SIZE
     s, t = np.meshgrid(across, across[::-1])
     found = vectors(channels, "uv", "UV")
     assert np.abs(found - np.stack([s, t], -1)).max() <= 0.5 / SIZE + 1e-6  # any place of a pixel may be shown
     assert np.array_equal(found, vectors(channels, "primvars:st"))
-    without, _ = render(tmp_path, stage_text(quad()), ("uv",), backend)
+    without, _ = render(tmp_path, stage_text(sheet()), ("uv",), backend)
     assert not vectors(without, "uv", "UV").any()
 
 
@@ -274,18 +242,12 @@ def test_reference_position(tmp_path, backend, where, scheme):
     sums of the same corners with the same weights, so that roundings alone part them."""
     unit = where.get("unit", 1.0)
     grid = np.array([(x, y, -DISTANCE + 0.3 * np.sin(2 * x + y)) for y in range(-5, 6) for x in range(-5, 6)]) * unit
-
-    def text(points):
-        return "[" + ", ".join(f"({x:.9g}, {y:.9g}, {z:.9g})" for x, y, z in points) + "]"
-
     faces = [(r * 11 + c, r * 11 + c + 1, r * 11 + c + 12, r * 11 + c + 11) for r in range(10) for c in range(10)]
     if scheme == "loop":
         faces = [t for a, b, c, d in faces for t in ((a, b, c), (a, c, d))]
-    move = np.array([5 * unit, 0, 0])
-    prim = usda.prim("Mesh", "cloth", f'point3f[] primvars:Pref = {text(grid)} ( interpolation = "vertex" )',
-                     faceVertexCounts=[", ".join(str(len(f)) for f in faces)],
-                     faceVertexIndices=[", ".join(str(i) for f in faces for i in f)], points=text(grid + move),
-                     subdivisionScheme=scheme, at=(-5 * unit, 0, 0))
+    rest, bent = (list(map(tuple, (grid + move).tolist())) for move in (0, (5 * unit, 0, 0)))
+    prim = usda.mesh("cloth", bent, f'point3f[] primvars:Pref = {rest} (interpolation = "vertex")', faces=faces, scheme=scheme,
+                     at=(-5 * unit, 0, 0))
     channels, _ = render(tmp_path, stage_text(prim, **where), ("Pref", "position"), backend)
     seen = channels["A"] == 1
     found = vectors(channels, "Pref", "XYZ")[seen]
@@ -298,10 +260,8 @@ def test_reference_position(tmp_path, backend, where, scheme):
 @backends
 def test_reference_position_without_the_primvar(tmp_path, backend):
     """The place in the prim's own space; and where it is asked for by the primvar's name, nothing."""
-    body = '''double3 xformOp:translate = (1, 2, 0)
-        double3 xformOp:scale = (2, 2, 1)
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]'''
-    channels, _ = render(tmp_path, stage_text(quad(body)), ("Pref", "position", "primvars:Pref"), backend)
+    text = stage_text(sheet(at=(1, 2, 0), scale=(2, 2, 1)))
+    channels, _ = render(tmp_path, text, ("Pref", "position", "primvars:Pref"), backend)
     own = (vectors(channels, "position", "XYZ") - (1, 2, 0)) / (2, 2, 1)
     assert vectors(channels, "Pref", "XYZ") == pytest.approx(own, abs=1e-5)
     assert not vectors(channels, "primvars:Pref", "XYZ").any()
@@ -311,9 +271,8 @@ def test_reference_position_without_the_primvar(tmp_path, backend):
 def test_equal_spheres_that_share_their_triangles(tmp_path, backend):
     """Twenty of them, each with ways of its own: to the right before the frame, up after it."""
     places_ = [((i % 5 - 2) * 1.5, (i // 5 - 1.5) * 1.5) for i in range(20)]
-    prims = "".join(usda.prim("Sphere", f"s{i:02d}",
-                              f'{moving("translate", {4: (x - 0.1 * i, y, -8), 5: (x, y, -8), 6: (x, y + 0.05 * i, -8)})}',
-                              radius=0.7) for i, (x, y) in enumerate(places_))
+    prims = "".join(usda.prim("Sphere", f"s{i:02d}", radius=0.7, at={
+        4: (x - 0.1 * i, y, -8), 5: (x, y, -8), 6: (x, y + 0.05 * i, -8)}) for i, (x, y) in enumerate(places_))
     channels, _ = render(tmp_path, stage_text(prims), ("Pref", "position", "primId", *MOTION), backend)
     for i, (x, y) in enumerate(places_):
         seen = channels["primId"] == i
@@ -326,9 +285,9 @@ def test_equal_spheres_that_share_their_triangles(tmp_path, backend):
 
 
 def test_the_rasterizer_has_targets_for_three_primvars_beside_the_normal(tmp_path):
-    values = "\n        ".join(f"float3 primvars:{name} = (0.25, 0.5, 0.75)" for name in "abcd")
+    values = [f"float3 primvars:{name} = (0.25, 0.5, 0.75)" for name in "abcd"]
     aovs = ("Ng", *(f"primvars:{name}" for name in "abcd"))
-    channels, report = render(tmp_path, stage_text(quad(values)), aovs, "raster")
+    channels, report = render(tmp_path, stage_text(sheet(*values)), aovs, "raster")
     for name in "abc":
         assert vectors(channels, f"primvars:{name}", "XYZ") == pytest.approx(
             np.broadcast_to((0.25, 0.5, 0.75), (SIZE, SIZE, 3)), abs=1e-6)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lightStages import ABOVE, light, stage
-from rendering import color, record
+from rendering import color, shot
 from usda import mesh
 
 def glowing(intensity, color):
@@ -23,10 +23,8 @@ LIGHTS = {
 
 
 def picture(folder, name, intensity, *flags, tint=(1.0, 0.5, 0.25)):
-    path, image = folder / f"{name}{intensity}.usda", folder / f"{name}{intensity}.exr"
-    path.write_text(stage(LIGHTS[name](intensity=intensity, color=tint)))
-    record(path, image, "--camera", "/camera", "--imageWidth", 8, "--imageHeight", 8, "--samples", 16, *flags)
-    return color(image)
+    text = stage(LIGHTS[name](intensity=intensity, color=tint))
+    return color(shot(folder, text, "--camera", "/camera", "--imageWidth", 8, "--imageHeight", 8, "--samples", 16, *flags))
 
 
 @pytest.mark.parametrize("backend", ["embree", "raster"])

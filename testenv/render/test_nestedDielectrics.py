@@ -8,10 +8,8 @@ How many pixels may choose otherwise is chosen, not derived: an ior that is not 
 import numpy as np
 import pytest
 
-pytest.importorskip("_patina")
-
-from rendering import color, patina, record  # noqa: E402
-import usda  # noqa: E402
+from rendering import color, patina, shot
+import usda
 
 GLASS, WATER, ICE = 1.5, 1.33, 1.31
 
@@ -46,11 +44,8 @@ def sphere(name, radius, paint, priority=0, inside_out=False, at=(0.0, 0.0, 0.0)
 
 
 def image(folder, name, text, *flags):
-    stage = folder / (name + ".usda")
-    stage.write_text(text)
-    record(stage, folder / (name + ".exr"), "--camera", "/camera", "--imageWidth", 48, "--imageHeight", 48,
-           "--samples", 16, "--strict", *flags)
-    return color(folder / (name + ".exr"))
+    return color(shot(folder, text, "--camera", "/camera", "--imageWidth", 48, "--imageHeight", 48, "--samples", 16,
+                      "--strict", *flags, name=name))
 
 
 def assert_equal(found, truth, but=0.02):

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from rendering import SCENES, color, record
 import usda
@@ -35,7 +36,6 @@ def pictures(tmp_path_factory):
 
 def test_the_mean_is_the_same(pictures):
     """Two-sample t-test (Welch) on the mean of each picture; seeds are 0 to 15 of either."""
-    stats = pytest.importorskip("scipy.stats", reason="SciPy is not installed")
     guided, plain = (p.mean(axis=(1, 2, 3)) for p in pictures)
     found = stats.ttest_ind(guided, plain, equal_var=False)
     assert found.pvalue > SIGNIFICANCE, (guided.mean(), plain.mean(), found)

@@ -5,20 +5,18 @@ import pytest
 
 from inProcess import needs_opengl
 from usdaText import render_text
-from usda import camera, preview, prim
+from usda import camera, mesh, preview, prim
 
 SIZE = 32
 CAMERA = camera(flat=(40, 40), clippingRange=(0.1, 100), at=(0, 0, 10))
-SUN = prim("DistantLight", "sun", "double3 xformOp:rotateXYZ = (0, 0, 0)",
-           'uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]', angle=0, intensity=2)
-DOME = 'def DomeLight "sky"\n{\n    float inputs:intensity = 0.7\n}\n'
+SUN = prim("DistantLight", "sun", angle=0, intensity=2)
+DOME = prim("DomeLight", "sky", intensity=0.7)
 MIRROR = preview("mirror", useSpecularWorkflow=1, specularColor=(1, 1, 1), diffuseColor=(0, 0, 0), roughness=0)
 
 
-def quad(name, z=0.0, x=(-9.0, 9.0), y=(-9.0, 9.0), marks="", color=(0.5, 0.5, 0.5), more=""):
-    corners = ", ".join(f"({a}, {b}, {z})" for a, b in ((x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])))
-    return prim("Mesh", name, marks, more, points=[corners], faceVertexCounts=[4], faceVertexIndices=[0, 1, 2, 3],
-                subdivisionScheme="none", apis=("MaterialBindingAPI",), color=color)
+def quad(name, z=0.0, *lines, x=(-9.0, 9.0), y=(-9.0, 9.0), marks="", color=(0.5, 0.5, 0.5), bind=""):
+    corners = [(x[0], y[0], z), (x[1], y[0], z), (x[1], y[1], z), (x[0], y[1], z)]
+    return mesh(name, corners, marks, *lines, bind=bind, color=color)
 
 
 def render(text, aovs=("color", "alpha"), samples=4, depth=1, **settings):
@@ -52,7 +50,7 @@ def test_what_the_camera_does_not_see_keeps_its_shadow(mark):
     'string primvars:karma:object:rendervisibility = "-shadow"', "int primvars:ri:attributes:visibility:transmission = 0"])
 def test_what_casts_no_shadow_leaves_the_floor_lit(mark, backend="embree"):
     # From the side, so that the card is seen beside its shadow.
-    sun = SUN.replace("(0, 0, 0)", "(0, -45, 0)")
+    sun = prim("DistantLight", "sun", angle=0, intensity=2, turn=(0, -45, 0))
     floor, card = quad("floor"), quad("card", 1.0, x=(-1.9, -1.0), y=(-1.0, 1.0), marks=mark)
     lit = render(floor + sun, backend=backend)["color"]
     seen = render(floor + card + sun, backend=backend)["color"]
@@ -69,9 +67,9 @@ def test_the_rasterizer_shows_no_shadow_either():
 
 
 def test_marks_are_inherited():
-    text = quad("floor") + SUN + 'def Xform "set"\n{\n    bool primvars:patina:visibility:shadow = 0\n' + quad("card", 1.0,
-                                                                                                               **CARD) + "}\n"
-    plain = quad("floor") + SUN + quad("card", 1.0, marks="bool primvars:patina:visibility:shadow = 0", **CARD)
+    mark = "bool primvars:patina:visibility:shadow = 0"
+    text = quad("floor") + SUN + prim("Xform", "set", mark, quad("card", 1.0, **CARD))
+    plain = quad("floor") + SUN + quad("card", 1.0, marks=mark, **CARD)
     assert np.array_equal(render(text)["color"], render(plain)["color"])
 
 
@@ -79,7 +77,7 @@ def test_marks_are_inherited():
 def test_a_mirror_shows_what_specular_rays_see(kind, seen):
     """A black card behind the camera stands before the sky that the mirror shows else."""
     back = quad("back", 20.0, marks=f"bool primvars:patina:visibility:{kind} = 0", color=(0.0, 0.0, 0.0))
-    image = render(quad("mirror_quad", more="rel material:binding = </mirror>") + MIRROR + DOME + back, depth=2)["color"]
+    image = render(quad("mirror_quad", bind="mirror") + MIRROR + DOME + back, depth=2)["color"]
     assert (image.mean() < 0.35) == seen  # half of the sky's radiance
 
 
@@ -88,9 +86,8 @@ GLOW = preview("glow", diffuseColor=(0, 0, 0), emissiveColor=(3, 3, 3))
 
 def glow(mark, backend="embree", samples=4):
     """:returns: what a card that glows adds to a floor"""
-    down = 'uniform token orientation = "leftHanded"\nrel material:binding = </glow>'
-    card = quad("card", 2.0, marks=mark, more=down, **CARD)
-    dark = 'def SphereLight "dark"\n{\n    float inputs:intensity = 0\n}\n'
+    card = quad("card", 2.0, 'uniform token orientation = "leftHanded"', marks=mark, bind="glow", **CARD)
+    dark = prim("SphereLight", "dark", intensity=0)
     return render(quad("floor") + GLOW + card + dark, samples=samples, backend=backend)["color"][~MIDDLE]
 
 
@@ -121,7 +118,7 @@ def test_a_matte_is_a_hole_in_the_picture(mark):
 
 
 def test_a_matte_is_seen_in_mirrors_as_it_is():
-    text = quad("mirror_quad", more="rel material:binding = </mirror>") + MIRROR + DOME
+    text = quad("mirror_quad", bind="mirror") + MIRROR + DOME
     plain = render(text + quad("back", 20.0), depth=2)["color"]
     matte = render(text + quad("back", 20.0, marks="bool primvars:patina:matte = 1"), depth=2)["color"]
     assert plain.mean() > 0.1
@@ -139,10 +136,8 @@ def test_a_shadow_catcher_is_as_opaque_as_its_light_is_missing():
 
 def test_a_shadow_catcher_weighs_lights_by_what_they_give():
     """Two suns of intensities 3 and 1 from above, one of which the card does not shadow: alpha is 3/4 or 1/4 there."""
-    one = SUN.replace("= 2", "= 3").replace('"sun"', '"one"')
-    other = SUN.replace("= 2", "= 1").replace('"sun"', '"other"').replace(
-        "float inputs:angle", "bool inputs:shadow:enable = 0\n    float inputs:angle").replace(
-        'def DistantLight "other"', 'def DistantLight "other" (\n    prepend apiSchemas = ["ShadowAPI"]\n)')
+    one = prim("DistantLight", "one", angle=0, intensity=3)
+    other = prim("DistantLight", "other", "bool inputs:shadow:enable = 0", angle=0, intensity=1, apis=("ShadowAPI",))
     samples = 64
     caught = render(quad("floor", marks="bool primvars:patina:shadowCatcher = 1") + one + other +
                     quad("card", 1.0, marks="bool primvars:patina:visibility:camera = 0", **CARD), samples=samples)
@@ -153,7 +148,7 @@ def test_a_shadow_catcher_weighs_lights_by_what_they_give():
 
 def test_a_reflection_catcher_is_opaque_where_it_mirrors_a_prim():
     """The card behind the camera covers the middle of the mirror, whose reflectance is 1."""
-    mirror = quad("mirror_quad", more="rel material:binding = </mirror>", marks="bool primvars:patina:reflectionCatcher = 1")
+    mirror = quad("mirror_quad", bind="mirror", marks="bool primvars:patina:reflectionCatcher = 1")
     back = quad("back", 20.0, **CARD)
     caught = render(mirror + MIRROR + DOME + back, samples=64, depth=2)
     plain = render(mirror.replace("reflectionCatcher = 1", "reflectionCatcher = 0") + MIRROR + DOME + back, samples=64, depth=2)

@@ -7,10 +7,9 @@ import json
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-from rendering import color, patina, record  # noqa: E402
-import usda  # noqa: E402
+import _patina
+from rendering import color, patina, record
+import usda
 
 # Rec.709 to AP1; its rows sum to 1.
 AP1 = np.array([[0.613097402, 0.339523146, 0.047379451],

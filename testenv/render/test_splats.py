@@ -6,16 +6,16 @@ than CUT of alpha, so `n` kernels at a ray change its light by less than n CUT t
 light nothing is shown; what is left is rounding: floats of kernels and rays, 2e-5 of values up to 1 for the sizes here."""
 import numpy as np
 import pytest
+from pxr import Gf, Sdf, UsdGeom, UsdVol
+from scipy.spatial.transform import Rotation
 
-_patina = pytest.importorskip("_patina")
-pytest.importorskip("pxr.UsdVol").__dict__.get("ParticleField3DGaussianSplat") or pytest.skip("before OpenUSD 26.03",
-                                                                                           allow_module_level=True)
-from pxr import Gf, Sdf, UsdGeom  # noqa: E402
-from scipy.spatial.transform import Rotation  # noqa: E402
+from rendering import pixels, record
+from splatStages import (CUT, DOME, END, PANE, SUN, WHITE, Cloud, basis, floor, new_stage, off, place, placement, random_cloud,
+                         rays, sharp_image)
+import usda
 
-from rendering import pixels, record  # noqa: E402
-from splatStages import (COLOR, CUT, END, FLOAT, Cloud, basis, dome, floor, new_stage, place, random_cloud, rays,  # noqa: E402
-                         sharp_image, sun)
+if not hasattr(UsdVol, "ParticleField3DGaussianSplat"):
+    pytest.skip("before OpenUSD 26.03", allow_module_level=True)
 
 ROUNDING = 2e-5
 PIXELS = 32
@@ -36,7 +36,7 @@ def test_one_kernel_shows_its_projected_gaussian(tmp_path, backend, rotate, axes
     scales, opacity, color = np.array([0.2, 0.3, 0.4]), 0.8, np.array([0.9, 0.4, 0.1])
     eye = np.zeros(3)
     eye[depth] = 10
-    stage = new_stage(2.5, eye, rotate)
+    stage = new_stage(width=2.5, eye=eye, rotate=rotate)
     Cloud([0, 0, 0], scales, opacity, color).define(stage)
     images, _ = sharp_image(stage, tmp_path, PIXELS, backend=backend)
     x = (np.arange(PIXELS) + 0.5) / PIXELS * 2.5 - 1.25
@@ -54,7 +54,7 @@ def test_one_kernel_shows_its_projected_gaussian(tmp_path, backend, rotate, axes
 @pytest.mark.parametrize("first", [0, 1])
 @BOTH
 def test_two_kernels_are_composited_front_to_back(tmp_path, backend, first):
-    stage = new_stage(0.01)
+    stage = new_stage(width=0.01)
     colors, opacities = np.array([[1, 0.2, 0.1], [0.1, 0.3, 1]]), np.array([0.6, 0.7])
     Cloud([[0, 0, 1], [0, 0, -1]], 1.0, opacities[[first, 1 - first]], colors[[first, 1 - first]]).define(stage)
     images, _ = sharp_image(stage, tmp_path, 1, backend=backend)
@@ -70,7 +70,7 @@ def test_more_kernels_than_one_traversal_takes(tmp_path, backend):
     random = np.random.default_rng(5)
     order = random.permutation(100)
     colors = random.uniform(0, 1, (100, 3))
-    stage = new_stage(0.001)
+    stage = new_stage(width=0.001)
     Cloud(np.stack([np.zeros(100), np.zeros(100), -0.01 * order], 1), 0.3, 0.05, colors).define(stage)
     images, _ = sharp_image(stage, tmp_path, 1, backend=backend)
     shares = 0.05 * 0.95 ** order
@@ -82,7 +82,7 @@ def test_more_kernels_than_one_traversal_takes(tmp_path, backend):
 def test_kernels_of_one_place_have_an_order(tmp_path, backend):
     """The densest points coincide: the order of the array counts, through several traversals too."""
     colors = np.linspace(0, 1, 40)[:, None] * [1, 0.5, 0.25]
-    stage = new_stage(0.001)
+    stage = new_stage(width=0.001)
     Cloud(np.zeros((40, 3)), 0.5, 0.1, colors).define(stage)
     images, _ = sharp_image(stage, tmp_path, 1, backend=backend)
     assert images["color"][0, 0, :3] == pytest.approx(((0.1 * 0.9 ** np.arange(40))[:, None] * colors).sum(0), abs=ROUNDING)
@@ -94,14 +94,13 @@ def test_many_turned_kernels_match_the_closed_form(tmp_path, backend, degree):
     """Thin kernels in any direction, whose densest points come in another order than their middles; and the harmonics of all
     degrees, from another axis than the cloud's."""
     cloud = random_cloud(200, 11 + degree, degree=degree)
-    matrix = np.eye(4)
-    matrix[:3, :3] = Rotation.from_euler("xyz", [20, 130, 50], degrees=True).as_matrix()
+    matrix = placement(Rotation.from_euler("xyz", [20, 130, 50], degrees=True))
     stage = new_stage()
     place(cloud.define(stage), matrix)
     images, _ = sharp_image(stage, tmp_path, PIXELS, backend=backend)
     light, alpha = cloud.seen(*rays(PIXELS), matrix)
     # Two kernels at nearly the same distance may swap, and one at the cut come or go: a product of two alphas, or CUT.
-    difference = np.abs(images["color"][..., :3].reshape(-1, 3) - light).max(1)
+    difference = off(images, light)
     assert np.mean(difference > 1e-4) < 0.01 and difference.max() < 0.05 + END
     assert images["alpha"].ravel() == pytest.approx(alpha, abs=2 * CUT)
 
@@ -113,23 +112,21 @@ def test_flat_kernels_match_the_closed_form(tmp_path, backend, shape):
     float more or less at a pixel on an edge: few pixels."""
     cloud = random_cloud(120, 21, size=0.3, degree=1)
     cloud.shape = shape
-    matrix = np.eye(4)
-    matrix[:3, :3] = Rotation.from_euler("xyz", [40, 10, 70], degrees=True).as_matrix() @ np.diag([1, 0.6, 1.3])
+    matrix = placement(Rotation.from_euler("xyz", [40, 10, 70], degrees=True).as_matrix() @ np.diag([1, 0.6, 1.3]))
     stage = new_stage()
     place(cloud.define(stage), matrix)
     images, rendered = sharp_image(stage, tmp_path, PIXELS, backend=backend)
     assert not rendered.warnings()
     light, alpha = cloud.seen(*rays(PIXELS), matrix)
-    difference = np.abs(images["color"][..., :3].reshape(-1, 3) - light).max(1)
     assert alpha.std() > 0.2
-    assert np.mean(difference > 1e-4) < 0.01
+    assert np.mean(off(images, light) > 1e-4) < 0.01
     assert np.mean(np.abs(images["alpha"].ravel() - alpha) > 2 * CUT) < 0.01
 
 
 @BOTH
 def test_a_flat_kernel_is_seen_from_both_sides_and_not_along_its_plane(tmp_path, backend):
     for angle, seen in ((0, 0.5), (180, 0.5), (60, 0.5), (90, 0.0)):
-        stage = new_stage(0.001)
+        stage = new_stage(width=0.001)
         Cloud([0, 0.001, 0], 0.3, 0.5, 1.0, turns=Rotation.from_euler("x", [[angle]], degrees=True),
               shape="GaussianSurflet").define(stage)
         images, _ = sharp_image(stage, tmp_path, 1, backend=backend)
@@ -148,9 +145,8 @@ def test_harmonics_of_one_kernel(tmp_path, backend, degree):
     random = np.random.default_rng(degree)
     cloud = Cloud([0, 0, 0], 1.0, 1.0, coefficients=random.normal(0, 0.2, (1, (degree + 1) ** 2, 3)))
     for turn in Rotation.random(4, random_state=degree):
-        matrix = np.eye(4)
-        matrix[:3, :3] = turn.as_matrix()
-        stage = new_stage(0.001)
+        matrix = placement(turn)
+        stage = new_stage(width=0.001)
         place(cloud.define(stage), matrix)
         images, _ = sharp_image(stage, tmp_path, 1, backend=backend)
         assert images["color"][0, 0, :3] == pytest.approx(cloud.seen([[0, 0, 10]], [[0, 0, -1]], matrix)[0][0], abs=ROUNDING)
@@ -159,36 +155,32 @@ def test_harmonics_of_one_kernel(tmp_path, backend, degree):
 def test_a_mirror_shows_what_is_behind_the_camera(tmp_path):
     cloud = random_cloud(40, 3, 0.8, degree=2)
     cloud.positions[:, 2] += 6
-    stage = new_stage(eye=(0, 0, 3))
+    mirror = floor("generalized_schlick_bsdf", color0=(1, 1, 1), color90=(1, 1, 1), roughness=(0, 0))
+    stage = new_stage(mirror, eye=(0, 0, 3))
     cloud.define(stage)
-    floor(stage, shader="ND_generalized_schlick_bsdf", color0=(COLOR, (1, 1, 1)), color90=(COLOR, (1, 1, 1)),
-          roughness=(Sdf.ValueTypeNames.Float2, (0, 0)))
     images, _ = sharp_image(stage, tmp_path, PIXELS)
     origins, directions = rays(PIXELS, height=0.0)
     light, _ = cloud.seen(origins, -directions)
-    assert np.quantile(np.abs(images["color"][..., :3].reshape(-1, 3) - light).max(1), 0.99) < 1e-4
+    assert np.quantile(off(images, light), 0.99) < 1e-4
     assert images["alpha"] == pytest.approx(1.0)  # the mirror's
 
 
 def test_glass_shows_what_is_behind_it(tmp_path):
     cloud = random_cloud(40, 4, 0.8, degree=1)
     cloud.positions[:, 2] -= 3
-    stage = new_stage()
+    stage = new_stage(floor(**PANE))
     cloud.define(stage)
-    floor(stage, shader="ND_dielectric_bsdf", ior=(FLOAT, 1.0), scatter_mode=(Sdf.ValueTypeNames.String, "RT"),
-          roughness=(Sdf.ValueTypeNames.Float2, (0, 0)))
     images, _ = sharp_image(stage, tmp_path, PIXELS)
     light, _ = cloud.seen(*rays(PIXELS))
-    assert np.quantile(np.abs(images["color"][..., :3].reshape(-1, 3) - light).max(1), 0.99) < 1e-4
+    assert np.quantile(off(images, light), 0.99) < 1e-4
 
 
 @BOTH
 def test_a_surface_hides_what_is_behind_it(tmp_path, backend):
     """By the point where a kernel is densest, as a whole."""
     cloud = random_cloud(60, 6)
-    stage = new_stage()
+    stage = new_stage(floor())
     cloud.define(stage)
-    floor(stage)
     images, _ = sharp_image(stage, tmp_path, PIXELS, backend=backend)
     origins, directions = rays(PIXELS)
     parts = cloud.seen(-directions * 0 + origins * [1, 1, 0], -directions)  # upwards from the floor: the same kernels
@@ -207,10 +199,8 @@ def test_a_surface_hides_what_is_behind_it(tmp_path, backend):
 
 def test_the_shadow_of_a_kernel(tmp_path):
     """A white floor under a sun has 1 / pi times what the kernel lets through."""
-    stage = new_stage(eye=(0, 0, 2))
+    stage = new_stage(floor(**WHITE), SUN, eye=(0, 0, 2))
     Cloud([0, 0, 4], [0.3, 0.5, 0.1], 0.9, 0.0).define(stage)
-    floor(stage, color=(COLOR, (1, 1, 1)))
-    sun(stage)
     images, _ = sharp_image(stage, tmp_path, PIXELS)
     x = (np.arange(PIXELS) + 0.5) / PIXELS * 2 - 1
     alpha = 0.9 * np.exp(-0.5 * ((x[None] / 0.3) ** 2 + (x[:, None] / 0.5) ** 2))
@@ -222,10 +212,8 @@ def test_shadows_of_many_kernels_multiply(tmp_path):
     cloud = random_cloud(200, 8)
     cloud.coefficients[:] = -10  # black: the floor does not see them shine
     cloud.positions[:, 2] += 5
-    stage = new_stage(eye=(0, 0, 2))
+    stage = new_stage(floor(**WHITE), SUN, eye=(0, 0, 2))
     cloud.define(stage)
-    floor(stage, color=(COLOR, (1, 1, 1)))
-    sun(stage)
     images, _ = sharp_image(stage, tmp_path, PIXELS)
     _, alpha = cloud.seen(*rays(PIXELS))
     assert images["color"][..., 0].ravel() * np.pi == pytest.approx(1 - alpha, abs=2 * CUT + END)
@@ -234,9 +222,8 @@ def test_shadows_of_many_kernels_multiply(tmp_path):
 def test_kernels_light_a_floor(tmp_path):
     """A ball of opacity 1 that is small and far above: its integral 2 pi s² times the cosine over the distance squared. Paths
     find it by chance: 64 x 64 x 256 of them, and the bound is five standard errors of what they find."""
-    stage = new_stage(0.01, eye=(0, 0, 2))
+    stage = new_stage(floor(**WHITE), width=0.01, eye=(0, 0, 2))
     Cloud([0, 0, 6], 0.5, 1.0, 1.0).define(stage)
-    floor(stage, color=(COLOR, (1, 1, 1)))
     means = [sharp_image(stage, tmp_path, 16, 256, ("--seed", seed))[0]["color"][..., 0].mean() for seed in range(8)]
     # Over directions of the angle a: the ray passes at 6 sin a, the albedo over pi times the cosine of each.
     angle = np.linspace(0, np.pi / 2, 20001)
@@ -253,10 +240,8 @@ def test_light_samples_keep_the_energy(tmp_path):
     cloud = random_cloud(100, 22)
     cloud.coefficients[:] = 0.5 / 0.28209479177
     cloud.positions[:, 2] += 0.9
-    stage = new_stage()
+    stage = new_stage(floor(**WHITE), DOME)
     cloud.define(stage)
-    floor(stage, color=(COLOR, (1, 1, 1)))
-    dome(stage)
     means = [sharp_image(stage, tmp_path, 16, 64, ("--seed", seed, "--maxDepth", 100))[0]["color"][..., :3].mean()
              for seed in range(8)]
     error = np.std(means, ddof=1) / np.sqrt(8)
@@ -269,9 +254,8 @@ def test_energy_in_a_white_world(tmp_path, backend):
     """White kernels under a white sky: everything has radiance 1, however the light is divided."""
     cloud = random_cloud(100, 9)
     cloud.coefficients[:] = 0.5 / 0.28209479177
-    stage = new_stage()
+    stage = new_stage(DOME)
     cloud.define(stage)
-    dome(stage)
     images, _ = sharp_image(stage, tmp_path, PIXELS, backend=backend)
     assert images["color"][..., :3] == pytest.approx(1.0, abs=ROUNDING + END)
     alpha = cloud.seen(*rays(PIXELS))[1]
@@ -280,20 +264,10 @@ def test_energy_in_a_white_world(tmp_path, backend):
 
 def test_absorption_of_a_medium_in_front(tmp_path):
     """In a box that absorbs, light of a kernel at the depth s is exp(-absorption s) of its own."""
-    stage = new_stage(0.001)
+    fog = usda.material("fog", {"vdf": ("ND_absorption_vdf", {"float3 absorption": (0.2, 0.4, 0.8)}),
+                                "volume": ("ND_volume", {"vdf": "<vdf>"})}, volume="volume")
+    stage = new_stage(usda.prim("Cube", "box", size=4, bind="fog"), fog, width=0.001)
     Cloud([[0, 0, 1], [0, 0, -1]], 0.1, [0.5, 0.8], [[1, 0.5, 0.25], [0.2, 1, 0.4]]).define(stage)
-    box = UsdGeom.Cube.Define(stage, "/box")
-    box.CreateSizeAttr(4.0)
-    from pxr import UsdShade
-    material = UsdShade.Material.Define(stage, "/fog")
-    vdf = UsdShade.Shader.Define(stage, "/fog/vdf")
-    vdf.SetShaderId("ND_absorption_vdf")
-    vdf.CreateInput("absorption", Sdf.ValueTypeNames.Float3).Set((0.2, 0.4, 0.8))
-    volume = UsdShade.Shader.Define(stage, "/fog/volume")
-    volume.SetShaderId("ND_volume")
-    volume.CreateInput("vdf", Sdf.ValueTypeNames.Token).ConnectToSource(vdf.ConnectableAPI(), "out")
-    material.CreateVolumeOutput().ConnectToSource(volume.ConnectableAPI(), "out")
-    UsdShade.MaterialBindingAPI.Apply(box.GetPrim()).Bind(material)
     images, _ = sharp_image(stage, tmp_path, 1)
     fades = [np.exp(-np.array([0.2, 0.4, 0.8]) * s) for s in (1, 3)]
     expected = 0.5 * np.array([1, 0.5, 0.25]) * fades[0] + 0.5 * 0.8 * np.array([0.2, 1, 0.4]) * fades[1]
@@ -311,13 +285,15 @@ def test_other_units_and_far_away(tmp_path, backend, unit, far):
                    coefficients=cloud.coefficients)
     offset = np.array([far, -0.5 * far, 0.25 * far])
     stage = new_stage(eye=np.array([0, 0, 10]) + offset, unit=unit)
-    matrix = np.eye(4)
-    matrix[:3, 3] = offset * unit
-    place(scaled.define(stage), matrix)
+    place(scaled.define(stage), placement(np.eye(3), offset * unit))
     images, _ = sharp_image(stage, tmp_path, PIXELS, backend=backend)
-    difference = np.abs(images["color"][..., :3].reshape(-1, 3) - light).max(1)
-    assert np.mean(difference > 1e-3) < 0.01
+    assert np.mean(off(images, light) > 1e-3) < 0.01
     assert images["alpha"].ravel() == pytest.approx(alpha, abs=2 * CUT + END)
+
+
+def copy(name):
+    """:returns: text of an instance of /prototype"""
+    return usda.prim("Xform", name, meta=("instanceable = true", "references = </prototype>"))
 
 
 @BOTH
@@ -326,25 +302,19 @@ def test_instances_with_any_transform(tmp_path, backend):
     cloud = random_cloud(60, 13, 0.5, degree=2)
     matrices = []
     for i, turn in enumerate(Rotation.random(3, random_state=2)):
-        matrix = np.eye(4)
-        matrix[:3, :3] = turn.as_matrix() @ np.diag([0.3, 1.5, 0.8]) @ np.array([[1, 0.4, 0], [0, 1, 0], [0, 0, 1]])
-        matrix[:3, 3] = [0.3 * i - 0.3, 0.1, 4 - 4 * i]
-        matrices.append(matrix)
-    stage = new_stage(eye=(0, 0, 10))
+        stretched = turn.as_matrix() @ np.diag([0.3, 1.5, 0.8]) @ np.array([[1, 0.4, 0], [0, 1, 0], [0, 0, 1]])
+        matrices.append(placement(stretched, [0.3 * i - 0.3, 0.1, 4 - 4 * i]))
+    stage = new_stage(*(copy(f"copy{i}") for i in range(3)))
     cloud.define(stage, "/prototype/splats")
     stage.GetPrimAtPath("/prototype").SetSpecifier(Sdf.SpecifierOver)
     for i, matrix in enumerate(matrices):
-        prim = UsdGeom.Xform.Define(stage, f"/copy{i}").GetPrim()
-        prim.GetReferences().AddInternalReference("/prototype")
-        prim.SetInstanceable(True)
-        place(prim, matrix)
+        place(stage.GetPrimAtPath(f"/copy{i}"), matrix)
     images, _ = sharp_image(stage, tmp_path, PIXELS, backend=backend)
     light, left = np.zeros((PIXELS**2, 3)), np.ones((PIXELS**2, 1))
     for matrix in matrices:
         part, alpha = cloud.seen(*rays(PIXELS), matrix)
         light, left = light + left * part, left * (1 - alpha[:, None])
-    difference = np.abs(images["color"][..., :3].reshape(-1, 3) - light).max(1)
-    assert np.mean(difference > 1e-4) < 0.01
+    assert np.mean(off(images, light) > 1e-4) < 0.01
     assert images["alpha"].ravel() == pytest.approx(1 - left.ravel(), abs=3 * CUT + END)
 
 
@@ -353,20 +323,13 @@ def test_instances_with_any_transform(tmp_path, backend):
 def test_motion_of_the_transform(tmp_path, backend, instanced):
     """A kernel that crosses the view while the shutter is open: the mean of its alpha over its way. Times are spread evenly,
     256 of them, so the standard error is below 0.5 / 16; the bound is five of these."""
-    stage = new_stage()
+    moving = copy("moving") if instanced else usda.prim("Xform", "moving")
+    stage = new_stage(moving, lines=("double shutter:open = 0", "double shutter:close = 1"))
     stage.SetStartTimeCode(0)
-    camera = UsdGeom.Camera(stage.GetPrimAtPath("/camera"))
-    camera.CreateShutterOpenAttr(0.0)
-    camera.CreateShutterCloseAttr(1.0)
-    prim = Cloud([0, 0, 0], 0.2, 0.8, 1.0).define(stage, "/moves/splats").GetParent()
+    Cloud([0, 0, 0], 0.2, 0.8, 1.0).define(stage, "/prototype/splats" if instanced else "/moving/splats")
     if instanced:
-        stage.GetPrimAtPath("/moves").SetSpecifier(Sdf.SpecifierOver)
-        prim = UsdGeom.Xform.Define(stage, "/copy").GetPrim()
-        prim.GetReferences().AddInternalReference("/moves")
-        prim.SetInstanceable(True)
-    else:
-        prim = UsdGeom.Xform.Define(stage, "/moves").GetPrim()
-    operation = UsdGeom.Xformable(prim).AddTranslateOp()
+        stage.GetPrimAtPath("/prototype").SetSpecifier(Sdf.SpecifierOver)
+    operation = UsdGeom.Xform(stage.GetPrimAtPath("/moving")).AddTranslateOp()
     for time, x in ((0, -0.5), (1, 0.5)):
         operation.Set(Gf.Vec3d(x, 0, 0), time)
     images, _ = sharp_image(stage, tmp_path, PIXELS, 256, backend=backend)
@@ -380,12 +343,10 @@ def test_motion_of_the_transform(tmp_path, backend, instanced):
 
 
 def test_thread_count_does_not_change_a_bit(tmp_path):
-    stage = new_stage()
+    stage = new_stage(floor(z=-2.0, **WHITE), DOME)
     cloud = random_cloud(3000, 14, degree=1)
     cloud.positions[:1000] = cloud.positions[1000:2000]  # ties
     cloud.define(stage)
-    floor(stage, z=-2.0, color=(COLOR, (1, 1, 1)))
-    dome(stage)
     stage.Export(str(tmp_path / "stage.usda"))
     images = []
     for threads in (1, 2, 3):
@@ -399,9 +360,8 @@ def test_thread_count_does_not_change_a_bit(tmp_path):
 def test_depth_is_where_half_of_the_light_is_taken(tmp_path, backend):
     """Of three kernels of 0.3 the second leaves 0.49. A single one of 0.3 leaves the surface behind in view."""
     for count, depth in ((3, 10.0), (1, 13.0)):
-        stage = new_stage(0.001)
+        stage = new_stage(floor(z=-3.0, color=(0.8, 0.8, 0.8)), width=0.001)
         Cloud([[0, 0, 1 - i] for i in range(count)], 0.1, 0.3).define(stage)
-        floor(stage, z=-3.0, color=(COLOR, (0.8, 0.8, 0.8)))
         images, _ = sharp_image(stage, tmp_path, 1, aovs=("depth", "normal", "alpha", "position", "albedo"), backend=backend)
         assert images["depth"].item() == pytest.approx(depth, rel=1e-5)
         assert images["position"].ravel()[2] == pytest.approx(10 - depth, abs=1e-5)
@@ -418,7 +378,7 @@ def test_colour_spaces(tmp_path, backend):
                        [0.020615593, 0.109569773, 0.869814634]])
     for space, flags, expected in ((None, (), signal), ("srgb_rec709_scene", (), linear),
                                    ("lin_rec709_scene", ("--renderingColorSpace", "acescg"), to_ap1 @ signal)):
-        stage = new_stage(0.001)
+        stage = new_stage(width=0.001)
         prim = Cloud([0, 0, 0], 1.0, 1.0, signal).define(stage)
         if space:
             prim.ApplyAPI("ColorSpaceAPI")
@@ -431,7 +391,7 @@ def test_colour_spaces(tmp_path, backend):
 def test_marks(tmp_path, backend):
     """A matte takes light and alpha away; the camera does not see what it may not, and its shadow stays."""
     for mark, color, alpha in (("patina:matte", 0.5 * 0.4, 0.5 * 0.4), ("patina:visibility:camera", 0.4, 0.4)):
-        stage = new_stage(0.001)
+        stage = new_stage(width=0.001)
         Cloud([0, 0, -1], 1.0, 0.4, 1.0).define(stage, "/behind")
         prim = Cloud([0, 0, 1], 1.0, 0.5, 1.0).define(stage)
         value = mark == "patina:matte"
@@ -467,10 +427,9 @@ def test_broken_arrays_are_told_and_drawn_as_the_schema_says(tmp_path, backend):
     ("radiance:sphericalHarmonicsCoefficients", [(float("nan"), 0, 0), (float("inf"), 1e38, -1e38)])])
 @BOTH
 def test_hostile_values_do_no_harm(tmp_path, backend, name, value):
-    stage = new_stage()
+    stage = new_stage(DOME)
     prim = Cloud([[0, 0, 0], [0.1, 0, 0]], 0.3, 0.5).define(stage)
     prim.GetAttribute(name).Set(value)
-    dome(stage)
     images, rendered = sharp_image(stage, tmp_path, 8, backend=backend)
     assert np.isfinite(images["color"]).all()
     assert rendered.warnings()

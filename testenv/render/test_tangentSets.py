@@ -46,66 +46,45 @@ def expected(run, mirrors=False):
     return normal * (-1, 1, 1) if mirrors else normal
 
 
-def shader(name, kind, inputs, output):
-    lines = "".join(f"        {line}\n" for line in inputs)
-    return f'    def Shader "{name}"\n    {{\n        uniform token info:id = "{kind}"\n{lines}        {output}\n    }}\n'
-
-
 def glowing(name, sets):
     """A material that gives off the mean of its maps' normals, from 0 to 1 for -1 to 1."""
-    text, total = "", "map0"
-    for i, uv in enumerate(sets):
-        text += shader(f"uv{i}", "ND_geompropvalue_vector2", [f'string inputs:geomprop = "{uv}"'], "float2 outputs:out")
-        text += shader(f"image{i}", "ND_image_vector3", ["asset inputs:file = @map.exr@",
-                       f"float2 inputs:texcoord.connect = </{name}/uv{i}.outputs:out>"], "float3 outputs:out")
-        text += shader(f"map{i}", "ND_normalmap_float", [f"float3 inputs:in.connect = </{name}/image{i}.outputs:out>"],
-                       "float3 outputs:out")
+    nodes = {"surface": ("ND_surface_unlit", {"color3f emission_color": "<color>"}),
+             "color": ("ND_convert_vector3_color3", {"float3 in": "<above>"}, "color3f out"),
+             "above": ("ND_add_vector3FA", {"float3 in1": "<half>", "in2": 0.5}, "float3 out"),
+             "half": ("ND_multiply_vector3FA", {"float3 in1": "<sum>" if len(sets) > 1 else "<map0>", "in2": 0.5 / len(sets)},
+                      "float3 out")}
     if len(sets) > 1:
-        total = "sum"
-        text += shader("sum", "ND_add_vector3", [f"float3 inputs:in{i + 1}.connect = </{name}/map{i}.outputs:out>"
-                                                 for i in range(2)], "float3 outputs:out")
-    text += shader("half", "ND_multiply_vector3FA", [f"float3 inputs:in1.connect = </{name}/{total}.outputs:out>",
-                                                     f"float inputs:in2 = {0.5 / len(sets)}"], "float3 outputs:out")
-    text += shader("above", "ND_add_vector3FA", [f"float3 inputs:in1.connect = </{name}/half.outputs:out>",
-                                                 "float inputs:in2 = 0.5"], "float3 outputs:out")
-    text += shader("color", "ND_convert_vector3_color3", [f"float3 inputs:in.connect = </{name}/above.outputs:out>"],
-                   "color3f outputs:out")
-    text += shader("surface", "ND_surface_unlit", [f"color3f inputs:emission_color.connect = </{name}/color.outputs:out>"],
-                   "token outputs:out")
-    return f'def Material "{name}"\n{{\n    token outputs:mtlx:surface.connect = </{name}/surface.outputs:out>\n{text}}}\n'
+        nodes["sum"] = ("ND_add_vector3", {"float3 in1": "<map0>", "float3 in2": "<map1>"}, "float3 out")
+    for i, uv in enumerate(sets):
+        nodes[f"uv{i}"] = ("ND_geompropvalue_vector2", {"geomprop": uv}, "float2 out")
+        nodes[f"image{i}"] = ("ND_image_vector3", {"file": "map.exr", "float2 texcoord": f"<uv{i}>"}, "float3 out")
+        nodes[f"map{i}"] = ("ND_normalmap_float", {"float3 in": f"<image{i}>"}, "float3 out")
+    return usda.material(name, nodes)
 
 
 def preview(name, uv):
-    text = shader("uv", "UsdPrimvarReader_float2", [f'string inputs:varname = "{uv}"'], "float2 outputs:result")
-    text += shader("map", "UsdUVTexture", ["asset inputs:file = @map.exr@", 'token inputs:sourceColorSpace = "raw"',
-                   "float4 inputs:scale = (2, 2, 2, 1)", "float4 inputs:bias = (-1, -1, -1, 0)",
-                   f"float2 inputs:st.connect = </{name}/uv.outputs:result>"], "float3 outputs:rgb")
-    text += shader("surface", "UsdPreviewSurface", [f"color3f inputs:diffuseColor = ({ALBEDO}, {ALBEDO}, {ALBEDO})",
-                   "float inputs:roughness = 1", "float inputs:ior = 1",
-                   f"normal3f inputs:normal.connect = </{name}/map.outputs:rgb>"], "token outputs:surface")
-    return f'def Material "{name}"\n{{\n    token outputs:surface.connect = </{name}/surface.outputs:surface>\n{text}}}\n'
+    return usda.material(name, {
+        "surface": ("UsdPreviewSurface", {"diffuseColor": (ALBEDO, ALBEDO, ALBEDO), "roughness": 1, "ior": 1,
+                                          "normal3f normal": "<map>"}),
+        "map": ("UsdUVTexture", {"file": "map.exr", "token sourceColorSpace": "raw", "float4 scale": (2, 2, 2, 1),
+                                 "float4 bias": (-1, -1, -1, 0), "float2 st": "<uv>"}),
+        "uv": ("UsdPrimvarReader_float2", {"varname": uv})})
 
 
 def card(name, material, sets, x, how=""):
     """A square of width 1 about (x, 0, 0); its points are from -2 to 2 along x, which its transform makes narrower."""
-    uvs = "".join(f"    texCoord2f[] primvars:{uv} = {UVS[run]} (\n        interpolation = \"vertex\"\n    )\n"
-                  for uv, run in sets.items())
-    scale = "(-0.25, 0.5, 3)" if how == "instance" else "(0.25, 0.5, 3)"
-    place = (f"    double3 xformOp:translate = ({x}, 0, 0)\n    float3 xformOp:scale = {scale}\n"
-             '    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]\n')
-    bound = f"    rel material:binding = </{material}>\n"
-    subset = (f'    def GeomSubset "all" (prepend apiSchemas = ["MaterialBindingAPI"])\n    {{\n'
-              f'        uniform token elementType = "face"\n        uniform token familyName = "materialBind"\n'
-              f"        int[] indices = [0]\n    {bound}    }}\n" if how == "subset" else "")
-    mesh = (f"    point3f[] points = [(-2, -1, 0), (2, -1, 0), (2, 1, 0), (-2, 1, 0)]\n    int[] faceVertexCounts = [4]\n"
-            f"    int[] faceVertexIndices = [0, 1, 2, 3]\n{uvs}{subset or ('' if how == 'instance' else bound)}"
-            f'    uniform token subdivisionScheme = "{"catmullClark" if how == "subdivided" else "none"}"\n')
-    schemas = '(prepend apiSchemas = ["MaterialBindingAPI"])'
+    points = [(-2, -1, 0), (2, -1, 0), (2, 1, 0), (-2, 1, 0)]
+    held = [f'texCoord2f[] primvars:{uv} = {UVS[run]} (interpolation = "vertex")' for uv, run in sets.items()]
+    place = {"at": (x, 0, 0), "scale": (-0.25 if how == "instance" else 0.25, 0.5, 3)}
     if how == "instance":
-        return (f'class "{name}_source"\n{{\n    def Mesh "mesh"\n    {{\n{mesh}    }}\n}}\n'
-                f'def Xform "{name}" (\n    instanceable = true\n    inherits = </{name}_source>\n'
-                f'    prepend apiSchemas = ["MaterialBindingAPI"]\n)\n{{\n{bound}{place}}}\n')
-    return f'def Mesh "{name}" {schemas}\n{{\n{mesh}{place}}}\n'
+        source = usda.prim("", f"{name}_source", usda.mesh("mesh", points, *held), specifier="class")
+        meta = ("instanceable = true", f"inherits = </{name}_source>")
+        return source + usda.prim("Xform", name, meta=meta, bind=material, **place)
+    if how == "subset":
+        held.append(usda.prim("GeomSubset", "all", 'uniform token elementType = "face"', "int[] indices = [0]",
+                              'uniform token familyName = "materialBind"', bind=material))
+    return usda.mesh(name, points, *held, scheme="catmullClark" if how == "subdivided" else "none",
+                     bind="" if how == "subset" else material, **place)
 
 
 @pytest.fixture(scope="module")

@@ -5,6 +5,7 @@ import pytest
 
 from inProcess import Stage
 from rendering import scene
+import usda
 
 COLOR = (1.0, 0.5, 0.25)
 
@@ -12,20 +13,12 @@ COLOR = (1.0, 0.5, 0.25)
 def rendered(folder, lines):
     """:returns: an image of the puff and its floor, lit by nothing but its glow"""
     over = folder / "over.usda"
-    over.write_text(f"""#usda 1.0
-(
-    subLayers = [@{scene('volume')}@]
-)
-over "World"
-{{
-    over "sun" (active = false) {{}}
-    over "sky" (active = false) {{}}
-    over "puff"{' (prepend apiSchemas = ["VolumeLightAPI"])' if lines is not None else ''}
-    {{
-        {lines or ''}
-    }}
-}}
-""")
+    apis = ("VolumeLightAPI",) if lines is not None else ()
+    over.write_text(usda.stage(
+        usda.prim("", "World", usda.prim("", "sun", meta=("active = false",), specifier="over"),
+                  usda.prim("", "sky", meta=("active = false",), specifier="over"),
+                  usda.prim("", "puff", lines or "", apis=apis, specifier="over"), specifier="over"),
+        up="", subLayers=f"[@{scene('volume')}@]"))
     stage = Stage(over, "--imageWidth", 32, "--samples", 16)
     assert not stage.scene.warnings()
     return stage.image(1)

@@ -5,61 +5,30 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from rendering import color, patina, record, scene
+from rendering import color, patina, record
+import usda
 
 SIZE, SAMPLES = 24, 128
-DIFFUSE = '''                uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
-                color3f inputs:color = (0.8, 0.8, 0.8)
-                float inputs:roughness = 0
-                token outputs:out
-            }
-'''
-METAL = '''                uniform token info:id = "ND_conductor_bsdf"
-                color3f inputs:ior = (%g, %g, %g)
-                color3f inputs:extinction = (2.3, 2.3, 2.3)
-                float2 inputs:roughness = (0.8, 0.8)
-                token outputs:out
-            }
-'''
-COATED = '''                uniform token info:id = "ND_layer_bsdf"
-                token inputs:top.connect = </World/materials/white/coat.outputs:out>
-                token inputs:base.connect = </World/materials/white/base.outputs:out>
-                token outputs:out
-            }
-
-            def Shader "coat"
-            {
-                uniform token info:id = "ND_dielectric_bsdf"
-                float2 inputs:roughness = (%g, %g)
-                token outputs:out
-            }
-
-            def Shader "base"
-            {
-                uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
-                color3f inputs:color = (1, 1, 1)
-                token outputs:out
-            }
-'''
-DOME = '''    def DomeLight "white"
-    {
-        float inputs:intensity = 1
-    }
-'''
-SUN = '''    def DistantLight "white"
-    {
-        float inputs:angle = 0
-        float inputs:intensity = 1
-    }
-'''
+DOME = usda.prim("DomeLight", "dome", intensity=1)
+SUN = usda.prim("DistantLight", "sun", angle=0, intensity=1)
 
 
-def stage(folder, bsdf, light=DOME):
-    with open(scene("furnace"), encoding="utf-8") as file:
-        text = file.read()
-    assert DIFFUSE in text and DOME in text
+def metal(ior):
+    return {"surface": ("ND_surface", {"bsdf": "<metal>"}), "metal": ("ND_conductor_bsdf", {
+        "ior": (ior, ior, ior), "extinction": (2.3, 2.3, 2.3), "roughness": (0.8, 0.8)})}
+
+
+def coated(alpha):
+    return {"surface": ("ND_surface", {"bsdf": "<layers>"}), "layers": ("ND_layer_bsdf", {"top": "<coat>", "base": "<base>"}),
+            "coat": ("ND_dielectric_bsdf", {"roughness": (alpha, alpha)}),
+            "base": ("ND_oren_nayar_diffuse_bsdf", {"color": (1, 1, 1)})}
+
+
+def stage(folder, nodes, light=DOME):
+    """A sphere that fills most of the picture."""
     path = folder / "stage.usda"
-    path.write_text(text.replace(DIFFUSE, bsdf).replace(DOME, light))
+    path.write_text(usda.stage(usda.camera(lens=(50, 20, 20), clippingRange=(0.01, 10000), at=(0, 0, 5)), light,
+                               usda.prim("Sphere", "ball", radius=1, bind="white"), usda.material("white", nodes)))
     return path
 
 
@@ -73,11 +42,10 @@ def render(path, folder, method, samples=SAMPLES):
     return found.mean(), found.std() / np.sqrt(found.size)
 
 
-@pytest.mark.parametrize("bsdf, method", [(METAL % (0, 0, 0), "energyCompensation=randomWalk"),
-                                          (COATED % (0, 0), "layering=positionFree"),
-                                          (COATED % (0.3, 0.3), "layering=positionFree")])
-def test_white_under_a_white_dome_is_white(tmp_path, bsdf, method):
-    mean, error = render(stage(tmp_path, bsdf), tmp_path, method)
+@pytest.mark.parametrize("nodes, method", [
+    (metal(0), "energyCompensation=randomWalk"), (coated(0), "layering=positionFree"), (coated(0.3), "layering=positionFree")])
+def test_white_under_a_white_dome_is_white(tmp_path, nodes, method):
+    mean, error = render(stage(tmp_path, nodes), tmp_path, method)
     assert abs(mean - 1.0) < 4.0 * error + 2e-3
 
 
@@ -85,7 +53,7 @@ def test_light_samples_alone_find_the_mean_value(tmp_path):
     """A sun of no width is found by light samples only: the sphere's middle shows f, which `bsdf eval` prints as the mean of
     256 walks. Welch's test of 16 images, seeds 0 to 15, against 128 directions within 0.013 of the normal, each of which has
     walks of its own: significance 0.001, and a difference of 4 % would be found."""
-    path = stage(tmp_path, METAL % (1.1, 1.1, 1.1), SUN)
+    path = stage(tmp_path, metal(1.1), SUN)
     image = tmp_path / "image.exr"
     method = ("--method", "energyCompensation=randomWalk")
 

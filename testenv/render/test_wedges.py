@@ -1,14 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The wedge pictures of docs/gallery.md can be made: no stage of them fails or warns."""
-import os
-import sys
-
 import pytest
 
-from rendering import SCENES, pixels
-
-sys.path.append(os.path.join(SCENES, ".."))
-import wedges  # noqa: E402
+from rendering import pixels
+import wedges
 
 
 @pytest.mark.parametrize("name", wedges.WEDGES)

@@ -18,6 +18,7 @@ if __name__ == "__main__":
     checkout.enter()
 
 import graphLooks  # noqa: E402
+import mtlx  # noqa: E402
 import numpy as np  # noqa: E402
 import randomGraphs  # noqa: E402
 
@@ -27,13 +28,6 @@ COSINES = np.linspace(0.02, 1.0, 50)
 AZIMUTHS = np.linspace(0.0, np.pi, 17)
 CURVES = ((1, 1), (1, 0), (0, 1))  # at normal incidence and at grazing
 DISTRIBUTIONS = ("ggx", "beckmann")
-_LOBE = """<?xml version="1.0"?><materialx version="1.39">
-<generalized_schlick_bsdf name="lobe" type="BSDF"><input name="color0" type="color3" value="{0}, {0}, {0}"/>
-<input name="color90" type="color3" value="{1}, {1}, {1}"/>
-<input name="roughness" type="vector2" value="{2}, {3}"/><input name="distribution" type="string" value="{4}"/>
-</generalized_schlick_bsdf><surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="lobe"/></surface>
-<surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
-</materialx>"""
 
 
 def _directions():
@@ -53,7 +47,9 @@ def largest(patina, method):
         for distribution in DISTRIBUTIONS:
             for x in ROUGHNESSES:
                 for y in sorted({x, *ACROSS}):
-                    network = randomGraphs.load(patina, _LOBE.format(*curve, x, y, distribution))
+                    network = randomGraphs.load(patina, mtlx.document(mtlx.lobe("m", "generalized_schlick_bsdf", {
+                        "color0": (curve[0],) * 3, "color90": (curve[1],) * 3, "roughness": (x, y),
+                        "distribution": distribution})))
                     exact, guess = (patina.MaterialProbe(network, methods)
                                     for methods in ({}, {"directionalAlbedo": method}))
                     error = np.abs(guess.albedo(wo)[:, 0] - exact.albedo(wo)[:, 0])

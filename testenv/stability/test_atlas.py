@@ -6,11 +6,9 @@ import re
 import numpy as np
 import pytest
 
-pytest.importorskip("_patina")
-
-from patina.chart import stabilityCommand, svgLines, sweepsSky  # noqa: E402
-from patina.chart.sweeps import Sweep  # noqa: E402
-from patina.cli import main  # noqa: E402
+from patina.chart import stabilityCommand, svgLines, sweepsSky
+from patina.chart.sweeps import Sweep
+from patina.cli import main
 
 
 @pytest.mark.parametrize("family", stabilityCommand.FAMILIES)
@@ -61,7 +59,6 @@ def test_command(tmp_path, capsys):
 def test_the_rasterizer_counts_a_bright_texel_once():
     """Light samples find the texel, samples of the material see it beside them in a smaller version of the image: one of
     both."""
-    pytest.importorskip("pxr")
     if not sweepsSky.has_raster():
         pytest.skip("the rasterizer does not run here")
     truth = sweepsSky.irradiance(sweepsSky.one_texel())

@@ -5,15 +5,14 @@ import math
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-import graphChecks  # noqa: E402
-import graphLooks  # noqa: E402
-import graphShrink  # noqa: E402
-import graphText  # noqa: E402
-import guessedAlbedos  # noqa: E402
-import plantedDefects  # noqa: E402
-import randomGraphs  # noqa: E402
+import _patina
+import graphChecks
+import graphLooks
+import graphShrink
+import graphText
+import guessedAlbedos
+import plantedDefects
+import randomGraphs
 
 
 def tail(t, degrees):

@@ -9,13 +9,12 @@ import types
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-import graphChecks  # noqa: E402
-import graphText  # noqa: E402
-import kept  # noqa: E402
-import randomGraphs  # noqa: E402
-import keptFindings  # noqa: E402
+import _patina
+import graphChecks
+import graphText
+import kept
+import randomGraphs
+import keptFindings
 
 COUNT = 100
 WALKED = 60

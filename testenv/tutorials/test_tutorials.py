@@ -4,9 +4,7 @@ import os
 
 import pytest
 
-pytest.importorskip("_patina")
-
-import tutorialBlocks  # noqa: E402
+import tutorialBlocks
 
 
 def hydra():

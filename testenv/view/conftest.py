@@ -1,15 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page's tests run in a headless Chromium; without one, playwright, Node or npm's packages they are left out,
 and test_found.py says so."""
-import os
-import sys
-
 import pytest
 
-HERE = os.path.dirname(__file__)
-sys.path.insert(0, HERE)
-
-import browser  # noqa: E402
+import browser
 
 if browser.missing():
     collect_ignore_glob = ["test_[!f]*.py"]

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-from patina.view import layers, live  # noqa: E402
+import _patina
+from patina.view import layers, live
 
 SRGB = [0.5, 0.25, 0.75]
 LINEAR = [((v + 0.055) / 1.055) ** 2.4 for v in SRGB]  # IEC 61966-2-1

@@ -8,38 +8,19 @@ import re
 import numpy as np
 import pytest
 
+import mtlx
+
 EVIL = "PATINA_SCRIPT &lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;&quot;];alert(2);//*/ }"
-DOCUMENT = """<?xml version="1.0"?>
-<materialx version="1.39">
-  <oren_nayar_diffuse_bsdf name="{evil}" type="BSDF">
-    <input name="color" type="color3" value="0.1, 0.7, 0.2"/>
-  </oren_nayar_diffuse_bsdf>
-  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="{evil}"/></surface>
-  <surfacematerial name="{evil}" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="s"/>
-  </surfacematerial>
-</materialx>
-"""
-MANY = """<?xml version="1.0"?>
-<materialx version="1.39">
-{nodes}
-  <oren_nayar_diffuse_bsdf name="b" type="BSDF"><input name="color" type="color3" nodename="n0"/>
-  </oren_nayar_diffuse_bsdf>
-  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b"/></surface>
-  <surfacematerial name="many" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
-  </surfacematerial>
-</materialx>
-"""
-TEXTURED = """<?xml version="1.0"?>
-<materialx version="1.39">
-  <image name="picture" type="color3"><input name="file" type="filename" value="{file}"/></image>
-  <oren_nayar_diffuse_bsdf name="b" type="BSDF"><input name="color" type="color3" nodename="picture"/>
-  </oren_nayar_diffuse_bsdf>
-  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b"/></surface>
-  <surfacematerial name="textured" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
-  </surfacematerial>
-</materialx>
-"""
+
+
+def matte(name, color, nodes=None, node="b"):
+    """:returns: a document of a matte material"""
+    return mtlx.document(nodes or {}, mtlx.lobe(name, "oren_nayar_diffuse_bsdf", {"color": color}, node=node))
+
+
+def green(name):
+    """Its lobe has nearly that name, too."""
+    return matte(name + " 2", (0.1, 0.7, 0.2), node=name)
 
 
 def middle(picture):
@@ -57,7 +38,7 @@ def shown(chromium, page):
 
 def test_script_in_names_stays_text(make, chromium, tmp_path):
     file = tmp_path / "evil.mtlx"
-    file.write_text(DOCUMENT.format(evil=EVIL))
+    file.write_text(green(EVIL))
     controls = tmp_path / "controls.json"
     evil = "PATINA_SCRIPT PATINA_DATA </script><script>alert(3)</script><!--"
     controls.write_text(json.dumps({"title": evil, "presets": [{"name": evil, "values": {}}]}))
@@ -102,7 +83,7 @@ def policy_of(page):
 
 def test_the_page_runs_its_own_script_alone(make, chromium, tmp_path):
     """Should a name ever reach the page as markup, it runs nothing and sends nothing."""
-    (tmp_path / "evil.mtlx").write_text(DOCUMENT.format(evil=EVIL))
+    (tmp_path / "evil.mtlx").write_text(green(EVIL))
     page = make("policy.html", tmp_path / "evil.mtlx")
     rules, text = policy_of(page)
     script = re.search(r"<script>(.*?)</script>", text, re.DOTALL).group(1)
@@ -116,16 +97,12 @@ def test_the_page_runs_its_own_script_alone(make, chromium, tmp_path):
 
 def many(file, count, varies):
     """A tree of `count` sums of two inputs each; where it varies, nothing of it can be done beforehand."""
-    add = '  <add name="n{0}" type="color3"><input name="in1" type="color3" {1}/><input name="in2" type="color3" {2}/></add>'
-    nodes = ['  <constant name="c" type="color3"/>' if not varies else
-             '  <position name="p" type="vector3"/><convert name="c" type="color3">'
-             '<input name="in" type="vector3" nodename="p"/></convert>']
+    nodes = {"p": ("position vector3", {}), "c": ("convert color3", {"in": "<p>"})}
     for i in range(count):
-        parts = [f'nodename="n{k}"' if k < count else
-                 'nodename="c"' if varies and k % 2 else f'value="{0.001 + k * 1e-8:.8f}, 0.0005, 0.0005"'
+        parts = [f"<n{k}>" if k < count else "<c>" if varies and k % 2 else f"{0.001 + k * 1e-8:.8f}, 0.0005, 0.0005"
                  for k in (2 * i + 1, 2 * i + 2)]
-        nodes.append(add.format(i, *parts))
-    file.write_text(MANY.format(nodes="\n".join(nodes)))
+        nodes[f"n{i}"] = ("add color3", {"color3 in1": parts[0], "color3 in2": parts[1]})
+    file.write_text(matte("many", "<n0>", nodes))
 
 
 @pytest.mark.parametrize("count_of_inputs", [2400, 10000])
@@ -156,7 +133,7 @@ def test_a_huge_texture_is_made_smaller(make, chromium, tmp_path):
     wide[...] = (0.6, 0.05, 0.05)
     _patina.write_image(str(tmp_path / "wide.exr"), wide)
     file = tmp_path / "textured.mtlx"
-    file.write_text(TEXTURED.format(file="wide.exr"))
+    file.write_text(matte("textured", "<picture>", {"picture": ("image color3", {"filename file": "wide.exr"})}))
     page = make("textured.html", file, "--textureSize", 256)
     color = shown(chromium, page)
     assert color[0] > 3.0 * color[1]
@@ -180,7 +157,7 @@ def test_bad_controls_are_refused(tmp_path, capsys, text, reason):
     from patina.cli import main
 
     file, controls = tmp_path / "plain.mtlx", tmp_path / "controls.json"
-    file.write_text(DOCUMENT.format(evil="plain"))
+    file.write_text(green("plain"))
     controls.write_text(text)
     assert main.main(["view", str(file), "--controls", str(controls), "-o", str(tmp_path / "x.html")]) == 1
     error = capsys.readouterr().err

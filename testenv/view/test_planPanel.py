@@ -9,7 +9,7 @@ import pytest
 
 from accessibility import axe_script, violations
 from usda import material
-from test_hostile import DOCUMENT, EVIL
+from test_hostile import EVIL, green
 
 MATERIAL = "#usda 1.0\n" + material("metal", {
     "metal": ("ND_conductor_bsdf", {"roughness": (0.8, 0.8)}),
@@ -129,7 +129,7 @@ def test_methods_without_a_program_say_why(shown):
 
 
 def test_names_stay_text(make, chromium, tmp_path):
-    (tmp_path / "evil.mtlx").write_text(DOCUMENT.format(evil=EVIL))
+    (tmp_path / "evil.mtlx").write_text(green(EVIL))
     chromium.open(make("evilPlan.html", tmp_path / "evil.mtlx"), "?width=32")
     for panel in ("code", "plan"):
         chromium.evaluate(f"page.drawer.toggle(page.{panel})")

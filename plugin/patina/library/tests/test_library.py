@@ -6,11 +6,10 @@ import xml.etree.ElementTree
 import numpy as np
 import pytest
 
-_patina = pytest.importorskip("_patina")
-
-from patina.cli import main, materials  # noqa: E402
-from patina.cli.errors import CommandError  # noqa: E402
-from patina.library import catalog, page, pictures  # noqa: E402
+import _patina
+from patina.cli import main, materials
+from patina.cli.errors import CommandError
+from patina.library import catalog, page, pictures
 
 ENTRIES = catalog.entries()
 NAMES = [entry.name for entry in ENTRIES]

@@ -9,11 +9,8 @@ import sys
 import numpy as np
 import pytest
 
-pytest.importorskip("_patina")
-pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-
-from patina.regression import golden, plugin, welch  # noqa: E402
-from patina.regression.scenes import Folder, Scene, SceneError  # noqa: E402
+from patina.regression import golden, plugin, welch
+from patina.regression.scenes import Folder, Scene, SceneError
 
 STAGE = """#usda 1.0
 def Camera "camera"

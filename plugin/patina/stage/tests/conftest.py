@@ -7,6 +7,11 @@ import sys
 
 import numpy as np
 import pytest
+from pxr import Usd
+
+import _patina
+from patina import limits
+from patina.stage import StageOptions, read_stage
 
 # Ends as a command does: OpenUSD's own threads may outlive what they need.
 _APART = """import sys, _patina
@@ -24,10 +29,6 @@ class Reading:
     """A scene after one read."""
 
     def __init__(self, stage, **options):
-        import _patina
-
-        from patina.stage import StageOptions, read_stage
-
         self.scene = _patina.Scene()
         with self.scene.edit() as edit:
             self.info = read_stage(stage, edit, StageOptions(**options))
@@ -64,9 +65,6 @@ def floats(text):
 def read(tmp_path):
     """A function: read(text of a usda layer, **options) -> Reading without the headlight. In the text
     two spaces, or one and a brace, end a statement as a line's end does."""
-    Usd = pytest.importorskip("pxr.Usd")
-    pytest.importorskip("_patina")
-
     def run(text, **options):
         """:param text: of the layer, or the path of a file"""
         options.setdefault("headlight", False)
@@ -99,8 +97,6 @@ def pictures():
 def read_apart(tmp_path):
     """A function: read_apart(text of a usda layer, frame=, **environment) -> what a process of its own prints: dump and
     warnings. It fails where the process does."""
-    pytest.importorskip("_patina")
-
     def run(text, frame=0.0, **environment):
         (tmp_path / "stage.usda").write_text("#usda 1.0\n" + _statements(text))
         done = subprocess.run([sys.executable, "-c", _APART, str(tmp_path / "stage.usda"), str(frame)], capture_output=True,
@@ -115,9 +111,7 @@ def read_apart(tmp_path):
 @pytest.fixture
 def limit(monkeypatch):
     """A function: limit(name=value) sets limits of the process for one test."""
-    _patina = pytest.importorskip("_patina")
     held = {**_patina.limits()}
-    from patina import limits
 
     def run(**values):
         monkeypatch.setattr(limits, "value", {**held, **values}.__getitem__)

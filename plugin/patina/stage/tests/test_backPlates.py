@@ -3,10 +3,7 @@
 import numpy as np
 import pytest
 
-
-def floats(text):
-    """:returns: the numbers of a dump's line"""
-    return [float(x) for x in "".join(c if c not in "()[]," else " " for c in text).split()]
+import _patina
 
 CAMERA = """def Camera "%s" (prepend apiSchemas = ["BackPlateAPI:sky"]) {
     float focusDistance = %g
@@ -23,43 +20,41 @@ CAMERA = """def Camera "%s" (prepend apiSchemas = ["BackPlateAPI:sky"]) {
 
 @pytest.fixture
 def pictures(tmp_path):
-    module = pytest.importorskip("_patina")
-
     def write(name, channels):
-        module.write_image(str(tmp_path / name), np.full((2, 2, channels), 0.5, np.float32))
+        _patina.write_image(str(tmp_path / name), np.full((2, 2, channels), 0.5, np.float32))
 
     write("sky.png", 3)
     return write
 
 
-def corners(reading, path="/camera/sky"):
-    mesh = reading.prim(path)
-    return np.array(floats(mesh["points"])).reshape(-1, 3), mesh
+def corners(reading, numbers):
+    mesh = reading.prim("/camera/sky")
+    return np.array(numbers(mesh["points"])).reshape(-1, 3), mesh
 
 
-def test_a_plate_fills_the_frame_where_it_is_in_focus(read, pictures):
+def test_a_plate_fills_the_frame_where_it_is_in_focus(read, numbers, pictures):
     reading = read(CAMERA % ("camera", 30, ""))
-    points, mesh = corners(reading)
+    points, mesh = corners(reading, numbers)
     assert not reading.warnings
     # 30 units away the frame is 30 * 20 / 50 wide.
     assert np.allclose(np.ptp(points, axis=0), (12, 6, 0)) and np.allclose(points.mean(axis=0), 0)
-    assert np.allclose(floats(mesh["transform"])[12:15], (1, 2, 3 - 30)), mesh
+    assert np.allclose(numbers(mesh["transform"])[12:15], (1, 2, 3 - 30)), mesh
     assert reading.prim("/camera/sky/material")["kind"] == "Material"
 
 
-def test_tweaks_are_about_the_middle_of_the_plate(read, pictures):
+def test_tweaks_are_about_the_middle_of_the_plate(read, numbers, pictures):
     reading = read(CAMERA % ("camera", 30, """float2 backPlate:sky:scale:tweak = (0.5, 2)
         float3 backPlate:sky:rotateXYZ:tweak = (0, 90, 0)
         float3 backPlate:sky:translate:tweak = (0, 0, 10)"""))
-    points, mesh = corners(reading)
+    points, mesh = corners(reading, numbers)
     assert np.allclose(np.ptp(points, axis=0), (6, 12, 0))
-    matrix = np.array(floats(mesh["transform"])).reshape(4, 4)
+    matrix = np.array(numbers(mesh["transform"])).reshape(4, 4)
     assert np.allclose(matrix[3, :3], (1, 2, 3 - 20))
     assert np.allclose(matrix[0, :3], (0, 0, -1), atol=1e-6)  # x turned to -z
 
 
-def test_an_orthographic_plate_is_as_large_as_the_aperture(read, pictures):
-    points, _ = corners(read(CAMERA % ("camera", 30, 'token projection = "orthographic"')))
+def test_an_orthographic_plate_is_as_large_as_the_aperture(read, numbers, pictures):
+    points, _ = corners(read(CAMERA % ("camera", 30, 'token projection = "orthographic"')), numbers)
     assert np.allclose(np.ptp(points, axis=0), (2, 1, 0))  # tenths of a unit
 
 

@@ -7,6 +7,10 @@ import sys
 
 import numpy as np
 import pytest
+from pxr import Usd
+
+import _patina
+from patina.stage import read_materials
 
 DEFINED = """(prepend apiSchemas = ["ColorSpaceAPI", "ColorSpaceDefinitionAPI:mine"]) {
     uniform token colorSpace:name = "lin_ap1_scene"
@@ -79,10 +83,6 @@ def test_images_have_it_where_materialx_reads_colours(read, tmp_path):
     ("lin_ap1_scene", (0.520815, 0.502637, 0.211757)),
 ])
 def test_values_reach_the_surface_converted(tmp_path, space, expected):
-    Usd = pytest.importorskip("pxr.Usd")
-    _patina = pytest.importorskip("_patina")
-    from patina.stage import read_materials
-
     value = (0.5, 0.5, 0.25) if space == "lin_ap1_scene" else (0.8, 0.1, 0.05)
     for inherited in (False, True):
         here = "" if inherited else f'(colorSpace = "{space}")'
@@ -116,7 +116,6 @@ def test_colours_of_lights_are_converted_too(read, numbers):
 
 def test_values_know_the_spaces_of_the_users_configuration(tmp_path):
     """In a process of its own: the configuration is read once."""
-    pytest.importorskip("_patina")
     (tmp_path / "config.ocio").write_text("""ocio_profile_version: 2
 roles: {aces_interchange: AP0, scene_linear: AP0, default: AP0}
 file_rules: [!<Rule> {name: Default, colorspace: AP0}]

@@ -5,6 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from patina.stage import cameras, headlight
+
 
 LIGHTS = {  # -> what the scene has of it
     'DistantLight "distant" { float inputs:angle = 1.5  float inputs:intensity = 3 }': {"angle": "1.5", "intensity": "3"},
@@ -189,8 +191,6 @@ def test_long_values_are_not_told_in_full(read):
 def test_the_headlight_is_as_bright_near_as_far(near, far):
     """An irradiance of 0.75 pi: with the dome's quarter a matte surface shows its own albedo. Lines between knots lie above a
     square by (step - 1)^2 / 4 of it at most."""
-    pytest.importorskip("pxr")
-    from patina.stage import cameras, headlight
     lights = {}
     edit = SimpleNamespace(set_light=lambda path, **fields: lights.update({path: fields}))
     place = np.array([[0, 2, 0, 0], [2, 0, 0, 0], [0, 0, 2, 0], [1, 2, 3, 1]], float)  # turned, and twice as large

@@ -5,6 +5,8 @@ import zipfile
 
 import pytest
 
+import _patina
+
 
 def material(body, name="m"):
     return (f'def Material "{name}" {{ {body} }}\n'
@@ -289,7 +291,6 @@ def test_networks_are_of_138_unless_they_say_otherwise(read):
 
 
 def test_a_shader_has_its_output_whatever_that_is_called():
-    _patina = pytest.importorskip("_patina")
     network = _patina.Network("/m")
     network.add_node("/m/s", "UsdPreviewSurface")
     for output in ("out", ""):

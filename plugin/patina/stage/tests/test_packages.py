@@ -4,9 +4,7 @@ import zipfile
 
 import pytest
 
-pytest.importorskip("pxr.Usd")
-
-from patina.stage import assets, compat  # noqa: E402
+from patina.stage import assets, compat
 
 
 @pytest.fixture(params=["its own", "an older one"])

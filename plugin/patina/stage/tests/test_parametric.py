@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+
 PATCH = """int uVertexCount = 3  int vVertexCount = 2  int uOrder = 3  int vOrder = 2
     double[] uKnots = [0, 0, 0, 1, 1, 1]  double[] vKnots = [0, 0, 1, 1]
     point3f[] points = [(0,0,0), (1,1,0), (2,0,0), (0,0,1), (1,1,1), (2,0,1)] """

@@ -193,4 +193,20 @@ void denoise(Film& film, int threads, bool ofLight) {
         film.setDenoised(std::move(results[i]), aovs[i]);
 }
 
+std::vector<float> denoisedPixels(std::vector<float>& color, std::vector<float>& albedo,
+                                  std::vector<float>& normal, int width, int height,
+                                  bool cleanGuides, int threads) {
+    const std::shared_ptr<const Library> found = library();
+    if (!found->missing.empty()) throw std::runtime_error(found->missing);
+    for (float& value : albedo)
+        value = std::clamp(value, 0.0f, 1.0f);
+    std::vector<const char*> flags = {"hdr"};
+    if (cleanGuides) flags.push_back("cleanAux");
+    std::vector<float> result(color.size());
+    Device(*found, threads)
+        .filter({{"color", color}, {"output", result}, {"albedo", albedo}, {"normal", normal}},
+                flags, width, height);
+    return result;
+}
+
 } // namespace patina

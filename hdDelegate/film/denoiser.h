@@ -28,4 +28,11 @@ std::string denoiserMissing();
 /// @throws std::runtime_error with a one-line reason; the film is as before then
 void denoise(Film& film, int threads = 0, bool ofLight = false);
 
+/// The same of pixels, three floats each: of images that no film holds.
+/// @param cleanGuides whether albedo and normal are free of noise
+/// @throws std::runtime_error with a one-line reason
+std::vector<float> denoisedPixels(std::vector<float>& color, std::vector<float>& albedo,
+                                  std::vector<float>& normal, int width, int height,
+                                  bool cleanGuides, int threads = 0);
+
 } // namespace patina

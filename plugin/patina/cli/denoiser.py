@@ -6,18 +6,21 @@ import os
 from patina.cli.errors import CommandError
 
 GUIDES = ("denoisingAlbedo", "denoisingNormal")  # AOVs that lead it
+MOTION = ("motionForward", "motionBackward", "depth")  # AOVs by which frames of a sequence find each other
+SAMPLES_OF_CLEAN_GUIDES = 4.0  # as hdDelegate/film/denoiser.cpp has it
 NOISY = "color.noisy"  # what it started from, once a film is denoised
 
 
-def prepare(module):
+def prepare(module, asked="--denoise"):
     """Finds the library before anything slow.
 
+    :param asked: what asks for it
     :raises CommandError: where there is none"""
     if not os.environ.get("PATINA_OIDN_LIBRARY"):
         module.set_denoiser_library(of_wheel())
     missing = module.denoiser_missing()
     if missing:
-        raise CommandError(f"--denoise: {missing}; `pip install pyoidn` has it, or PATINA_OIDN_LIBRARY names the library")
+        raise CommandError(f"{asked}: {missing}; `pip install pyoidn` has it, or PATINA_OIDN_LIBRARY names the library")
 
 
 def run(module, film, threads=0, aovs=False):

@@ -11,12 +11,13 @@ from patina import __version__, inputs, limits
 from patina.cli import causes, colours, interrupts, standardStreams, usageHints
 from patina.cli.errors import FAILED, TEMPORARY, USAGE, CommandError, UsageError, is_temporary
 
-_BATCH = ("record", "merge", "farm")  # what schedulers run: a signal that ended one may pass
+_BATCH = ("record", "merge", "denoise", "farm")  # what schedulers run: a signal that ended one may pass
 
 # name -> module of patina.cli that has HELP, add_arguments(parser) and run(arguments)
 COMMANDS = {
     "record": "record",
     "merge": "merge",
+    "denoise": "denoise",
     "farm": "farm",
     "explain": "explain",
     "bsdf": "bsdf",
@@ -38,6 +39,7 @@ COMMANDS = {
 SUMMARIES = {
     "record": "render a stage to images",
     "merge": "put the parts of a cut frame together",
+    "denoise": "denoise the frames of a sequence, each with those around it",
     "farm": "render frames and parts of them on many machines",
     "explain": "show how a material is modelled, and which parts are left out",
     "check": "test energy, sampling, densities and finite numbers of materials",

@@ -12,8 +12,8 @@ asked for. So machines may share the frames, and one frame that is made again fi
 Neighbours are found by their names, one time code apart, also beyond --frames. Those that are not there are named and left out.
 The noisy colour stays as color.noisy, and a file that has one is denoised from it; all other channels stay as they are.
 """
-import functools
 import os
+import sys
 import time
 
 from patina import inputs, limits
@@ -35,7 +35,7 @@ def add_arguments(parser):
                         help=f"also take the colour of up to N frames before and N after, at most {MOST_AROUND} (default: 0)")
     parser.add_argument("--makeOutputPath", "--make-output-path", action="store_true",
                         help="make the folders of what is written, where they are not there")
-    parser.add_argument("--threads", type=_around_threads, default=0, metavar="N", help="threads (default: all cores)")
+    parser.add_argument("--threads", type=_threads, default=0, metavar="N", help="threads (default: all cores)")
     limits.add_flag(parser)
     parser.add_argument("--quiet", "-q", action="store_true", help="errors only")
 
@@ -53,15 +53,10 @@ def run(arguments):
     outputs.need_folders([image for _, image in shots], arguments.makeOutputPath)
     outputs.check_all([image for _, image in shots])
     denoiser.prepare(module, "denoise")
-    say = Progress("", arguments.quiet).say
-    absent = list(dict.fromkeys(path for frame, _ in shots for path in found.absent(frame)))
-    if absent:
-        say(f"not there, so left out: {', '.join(absent)}")
+    job = _Job(module, found, arguments)
+    job.say_absent(shots)
     for frame, image in shots:
-        started = time.perf_counter()
-        used = _denoise(module, found, frame, image, arguments, say)
-        say(f"{image}: {used:.2f} of {len(found.around_of(frame))} frames in the mean pixel, "
-            f"{time.perf_counter() - started:.1f} s" if arguments.around else f"{image}: {time.perf_counter() - started:.1f} s")
+        job.denoise(frame, image)
 
 
 def _plan(arguments, found):
@@ -86,41 +81,54 @@ def _plan(arguments, found):
     return shots
 
 
-def _denoise(module, found, frame, image, arguments, say):
-    """:returns: of how many frames the mean pixel is"""
-    own = found.read(frame)
-    spoiled = own.not_finite()
-    if spoiled:
-        say(f"{own.path}: {spoiled} pixels are not finite" + (
-            "; frames around it stand for them, else black" if arguments.around else "; they count as black"))
-    if (own.arrays["color"] < 0.0).any():
-        statistics.report([warning("", "denoise", "pixelsBelowZero")], Progress("").stream, json=False)
-    color, used = own.finite("color"), 1.0
-    if arguments.around:
-        around = [found.read(other) for other in found.around_of(frame)]
-        _warn_of_seeds(own, around, say)
-        color, shares = module.accumulate([other.arrays for other in around], around.index(own), arguments.threads)
-        used = float(shares.mean())
-    try:
-        clean = module.denoise_pixels(color, own.finite("denoisingAlbedo"), own.finite("denoisingNormal"),
-                                      own.samples() >= denoiser.SAMPLES_OF_CLEAN_GUIDES, arguments.threads)
-    except RuntimeError as error:
-        raise CommandError(f"denoise: {error}") from None
-    own.write(module, image, clean, {"patina:around": found.names_of(frame)} if arguments.around else {})
-    return used
+class _Job:
+    """One call of the command."""
 
+    def __init__(self, module, found, arguments):
+        self.module, self.found, self.arguments = module, found, arguments
+        self.say = Progress("", arguments.quiet).say
+        self.told_of_seeds = False
 
-@functools.lru_cache(maxsize=1)
-def _tell_of_seeds(say, text):
-    say(text)
+    def say_absent(self, shots):
+        absent = list(dict.fromkeys(path for frame, _ in shots for path in self.found.absent(frame)))
+        if absent:
+            self.say(f"not there, so left out: {', '.join(absent)}")
 
+    def denoise(self, frame, image):
+        started = time.perf_counter()
+        own = self.found.read(frame)
+        self._look(own)
+        color, frames_said, metadata = own.finite("color"), "", {}
+        if self.arguments.around:
+            around = [self.found.read(other) for other in self.found.around_of(frame)]
+            self._look_at_seeds(own, around)
+            color, shares = self.module.accumulate([other.arrays for other in around], around.index(own), self.arguments.threads)
+            frames_said = f"{shares.mean():.2f} of {len(around)} frames in the mean pixel, "
+            metadata["patina:around"] = self.found.names_of(frame)
+        try:
+            clean = self.module.denoise_pixels(
+                color, own.finite("denoisingAlbedo"), own.finite("denoisingNormal"),
+                own.samples() >= denoiser.SAMPLES_OF_CLEAN_GUIDES, self.arguments.threads)
+        except RuntimeError as error:
+            raise CommandError(f"denoise: {error}") from None
+        own.write(self.module, image, clean, metadata)
+        self.say(f"{image}: {frames_said}{time.perf_counter() - started:.1f} s")
 
-def _warn_of_seeds(own, around, say):
-    seed = own.metadata.get("patina:seed")
-    for other in around:
-        if other is not own and seed is not None and other.metadata.get("patina:seed") == seed:
-            _tell_of_seeds(say, f"{own.path} and {other.path} have the same seed, so what stands still has the same noise, and "
-                                "their mean has no less (`record --denoiseLater` gives each frame its own)")
+    def _look(self, own):
+        spoiled = own.not_finite()
+        if spoiled:
+            self.say(f"{own.path}: {spoiled} pixels are not finite" + (
+                "; frames around it stand for them, else black" if self.arguments.around else "; they count as black"))
+        if (own.arrays["color"] < 0.0).any():
+            statistics.report([warning("", "denoise", "pixelsBelowZero")], sys.stderr, json=False)
+
+    def _look_at_seeds(self, own, around):
+        seed = own.metadata.get("patina:seed")
+        same = [other for other in around if other is not own and other.metadata.get("patina:seed", object()) == seed]
+        if same and not self.told_of_seeds:
+            self.told_of_seeds = True
+            self.say(f"{own.path} and {same[0].path} have the same seed, so what stands still has the same noise, and their "
+                     "mean has no less (`record --denoiseLater` gives each frame its own)")
 
 
 def _around(text):
@@ -130,11 +138,11 @@ def _around(text):
     return value
 
 
-def _around_threads(text):
+def _threads(text):
     value = int(text)
     if value < 0:
         raise ValueError
     return value
 
 
-_around.__name__, _around_threads.__name__ = f"number of frames (0 to {MOST_AROUND})", "number (0 or more)"
+_around.__name__, _threads.__name__ = f"number of frames (0 to {MOST_AROUND})", "number (0 or more)"

@@ -84,7 +84,8 @@ void writeExr(const std::vector<ChannelSource>& channels, int sourceWidth,
     if (read != metadata.end())
         spec.attribute("chromaticities", eightFloats, std::get<std::string>(read->second));
     else
-        spec.attribute("chromaticities", eightFloats, options.renderingSpace->chromaticities.data());
+        spec.attribute("chromaticities", eightFloats,
+                       options.renderingSpace->chromaticities.data());
     spec.attribute("oiio:ColorSpace", "Linear");
 
     writeAtomically(path, spec, [&](OIIO::ImageOutput& output) {

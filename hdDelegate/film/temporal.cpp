@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/film/temporal.h"
+// Frames of a sequence, averaged along their motion.
+
+#include "hdDelegate/film/denoiser.h"
 #include "hdDelegate/parallel.h"
 
 #include <glm/glm.hpp>
@@ -13,7 +15,7 @@ namespace patina {
 
 namespace {
 
-// What one step of a chain may differ by and still be the same surface.
+// How much one step of a chain may differ by, and still see the same surface.
 constexpr float roundTrip = 0.5f, roundTripShare = 0.1f; // pixels, and of the way
 constexpr float depthShare = 0.1f, normalDifference = 0.4f, alphaDifference = 0.25f;
 constexpr float noDepth = 1e9f;                          // and beyond: no surface in view

@@ -2,7 +2,6 @@
 // Frames of a sequence, averaged and denoised: arrays of images, without a film.
 
 #include "hdDelegate/film/denoiser.h"
-#include "hdDelegate/film/temporal.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

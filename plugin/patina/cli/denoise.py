@@ -102,7 +102,8 @@ class _Job:
         if self.arguments.around:
             around = [self.found.read(other) for other in self.found.around_of(frame)]
             self._look_at_seeds(own, around)
-            color, shares = self.module.accumulate([other.arrays for other in around], around.index(own), self.arguments.threads)
+            color, shares = self.module.accumulate([other.arrays for other in around], around.index(own),
+                                                   self.arguments.threads)
             frames_said = f"{shares.mean():.2f} of {len(around)} frames in the mean pixel, "
             metadata["patina:around"] = self.found.names_of(frame)
         try:

@@ -79,8 +79,8 @@ def _add_denoise_flag(group):
                        help="as --denoise, and AOVs of light as well, each by itself with the same guides; they then add up to "
                             "the colour only nearly")
     group.add_argument("--denoiseLater", action="store_true",
-                       help="also write the AOVs that `patina denoise` reads, and take a seed of its own for each frame: --seed "
-                            "and a thousand times the time code (of IMAGE alone)")
+                       help="also write the AOVs that `patina denoise` reads, and take a seed of its own for each frame: "
+                            "--seed and a thousand times the time code (of IMAGE alone)")
 
 
 def add_levels_flag(group):

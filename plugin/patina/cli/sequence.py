@@ -71,23 +71,22 @@ class Sequence:
 
 
 class Image:
-    """A frame: its file's channels, and arrays of AOVs."""
+    """A frame: arrays of what a denoiser reads. The file's other channels are read once more when they are written."""
 
     def __init__(self, module, path, moves):
         """:param moves: whether other frames are to be taken along its motion"""
         image = module.read_image(path)
-        self.path, self.channels, self.metadata = path, list(image.channels), image.metadata
+        self.path, self.metadata = path, image.metadata
         self.window = (image.width, image.height, image.x, image.y, image.display_width, image.display_height)
         self._aspect = image.pixel_aspect_ratio
-        self._pixels = np.array(image.pixels)
         needed = (*denoiser.GUIDES, *(denoiser.MOTION if moves else ()))
-        self.arrays = {"color": self._found([denoiser.NOISY + "." + c for c in "RGB"]), "alpha": self._found(["A"])}
+        self.arrays = {"color": _found(image, [denoiser.NOISY + "." + c for c in "RGB"]), "alpha": _found(image, ["A"])}
         if self.arrays["color"] is None:
-            self.arrays["color"] = self._found(list("RGB"))
+            self.arrays["color"] = _found(image, list("RGB"))
         if self.arrays["alpha"] is None:
-            self.arrays["alpha"] = np.ones(self._pixels.shape[:2], np.float32)
+            self.arrays["alpha"] = np.ones((image.height, image.width), np.float32)
         for name in (*needed, "sampleCount"):
-            self.arrays[name] = self._found(_CHANNELS.get(name) or [
+            self.arrays[name] = _found(image, _CHANNELS.get(name) or [
                 f"{name}.{c}" for c in "XYZ"[:_COMPONENTS.get(name, 3)]])
         missing = [name for name in ("color", *needed) if self.arrays[name] is None]
         if missing:
@@ -95,13 +94,6 @@ class Image:
                                + " ".join(f"--aov {name}" for name in missing))
         if self.arrays["sampleCount"] is None:
             del self.arrays["sampleCount"]
-
-    def _found(self, names):
-        """:returns: the channels of these names as an array, of one channel without a third axis; None where one is missing"""
-        if not all(name in self.channels for name in names):
-            return None
-        found = self._pixels[..., [self.channels.index(name) for name in names]]
-        return np.ascontiguousarray(found[..., 0] if len(names) == 1 else found)
 
     def finite(self, name):
         return np.where(np.isfinite(self.arrays[name]), self.arrays[name], np.float32(0))
@@ -119,7 +111,8 @@ class Image:
 
     def write(self, module, path, color, metadata):
         """All channels with another colour; the noisy one is kept."""
-        pixels, channels = self._pixels.copy(), list(self.channels)
+        image = module.read_image(self.path)
+        pixels, channels = np.array(image.pixels), list(image.channels)
         pixels[..., [channels.index(c) for c in "RGB"]] = color
         noisy = [denoiser.NOISY + "." + c for c in "RGB"]
         if not set(noisy) <= set(channels):
@@ -131,6 +124,14 @@ class Image:
         kept = {name: value for name, value in self.metadata.items()
                 if name not in _OF_FILES and not name.startswith("oiio:")}
         module.write_image(path, pixels, channels, options, {**kept, "patina:denoised": 1, **metadata})
+
+
+def _found(image, names):
+    """:returns: the channels of these names as an array, of one channel without a third axis; None where one is missing"""
+    if not all(name in image.channels for name in names):
+        return None
+    found = image.pixels[..., [image.channels.index(name) for name in names]]
+    return np.ascontiguousarray(found[..., 0] if len(names) == 1 else found)
 
 
 def _size(window):

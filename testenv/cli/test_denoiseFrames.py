@@ -55,7 +55,7 @@ def failed(*arguments):
 
 def test_error_and_flicker_fall_beside_frames_alone(noisy, tmp_path):
     """A camera moves. Two references leave no noise of their own in the mean. It is tested one-sided, 1 %, over 32 blocks of
-    8 x 8 pixels and all frames: frames share their noise, and what the denoiser makes of a bright pixel reaches some pixels far."""
+    8 x 8 pixels and all frames, since frames share their noise, and the denoiser spreads a bright pixel over some pixels."""
     stage = os.path.join(os.path.dirname(noisy), "camera.usda")
     truths = np.array([sequences.pictures(sequences.recorded(stage, str(tmp_path), f"t{seed}", "--samples", "64", "--seed",
                                                              seed, *SIZE)) for seed in (77, 78)])

@@ -17,9 +17,9 @@ namespace {
 
 // How much one step of a chain may differ by, and still see the same surface.
 constexpr float roundTrip = 0.5f, roundTripShare = 0.1f; // pixels, and of the way
-constexpr float depthShare = 0.1f, normalDifference = 0.4f, alphaDifference = 0.25f;
+constexpr float depthShare = 0.1f, normalDifference = 0.2f, alphaDifference = 0.15f;
 constexpr float noDepth = 1e9f;                          // and beyond: no surface in view
-constexpr float albedoFloor = 0.05f, albedoRatio = 2.0f; // added to albedos; largest ratio of them
+constexpr float albedoFloor = 0.05f, albedoRatio = 1.5f; // added to albedos; largest ratio of them
 
 /// A window of pixels whose mean difference is tested, and how many standard errors of that mean
 /// are chance: full weight up to half below, none from half above. The smaller one has a lower
@@ -33,6 +33,11 @@ constexpr int halo = windows.back().radius;
 constexpr int fewestPairs = 4;   // that tell of a scatter
 constexpr float unseen = 0.002f; // of the level: a difference that counts as none
 constexpr int bandHeight = 32;
+
+/// Where few pixels of a window have a pair (hair, leaves), none has weight: a bright pixel among
+/// others that are means of many frames would pass for a light.
+constexpr int shareRadius = 3;
+constexpr float noShare = 0.75f, fullShare = 0.9f;
 
 struct View {
     const SequenceFrame& frame;
@@ -130,10 +135,11 @@ private:
     }
 };
 
-/// Sums over windows of a band of rows: differences, their squares, levels, and how many.
+/// Sums over windows of a band of rows: differences, their squares, levels, how many pairs there
+/// are and how many pixels could have one.
 class Band {
 public:
-    enum Plane { Difference = 0, Square = 3, Level = 6, Count = 9, planes = 10 };
+    enum Plane { Difference = 0, Square = 3, Level = 6, Count = 9, Known = 10, planes = 11 };
 
     Band(int width, int rows) : _width(width), _rows(rows) {
         for (auto* set : {&_values, &_across, &_sums})
@@ -164,6 +170,12 @@ public:
                 }
             }
         }
+    }
+
+    /// @returns the weight that the share of pixels with a pair leaves
+    float shared(int x, int row) const {
+        const float share = sum(Count, x, row) / std::max(1.0f, sum(Known, x, row));
+        return std::clamp((share - noShare) / (fullShare - noShare), 0.0f, 1.0f);
     }
 
     /// @returns the weight that a window's mean difference leaves, 1 where it has too few pairs
@@ -204,6 +216,7 @@ void addBand(const View& own, const View& other, const Chain& chain, int top, Su
         for (int x = 0; x < own.width; ++x) {
             const size_t p = own.index(x, y);
             const int32_t q = chain.texel[p];
+            band.value(Band::Known, x, y - first) = own.hasSurface(p) ? 1.0f : 0.0f;
             if (q < 0 || !own.hasColor(p) || !other.hasColor(size_t(q))) continue;
             const glm::vec3 mine = own.color(p);
             const glm::vec3 d = other.color(size_t(q)) * ratio(own, p, other, size_t(q)) - mine;
@@ -221,9 +234,7 @@ void addBand(const View& own, const View& other, const Chain& chain, int top, Su
             for (int x = 0; x < own.width; ++x) {
                 float& weight = weights[own.index(x, y - top)];
                 weight = std::min(weight, band.weight(x, y - first, window));
-                // The widest has every pair that the others have.
-                if (window.radius == halo && band.sum(Band::Count, x, y - first) < fewestPairs)
-                    weight = 0.0f;
+                if (window.radius == shareRadius) weight *= band.shared(x, y - first);
             }
     }
     for (int y = top; y < bottom; ++y)

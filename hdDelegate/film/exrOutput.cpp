@@ -79,8 +79,13 @@ void writeExr(const std::vector<ChannelSource>& channels, int sourceWidth,
     }
     spec.alpha_channel = spec.channelindex("A");
     spec.attribute("compression", options.compression);
-    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
-                   options.renderingSpace->chromaticities.data());
+    constexpr OIIO::TypeDesc eightFloats(OIIO::TypeDesc::FLOAT, 8);
+    const auto read = metadata.find("chromaticities"); // of the file that the pixels came from
+    if (read != metadata.end())
+        spec.attribute("chromaticities", eightFloats, std::get<std::string>(read->second));
+    else
+        spec.attribute("chromaticities", eightFloats,
+                       options.renderingSpace->chromaticities.data());
     spec.attribute("oiio:ColorSpace", "Linear");
 
     writeAtomically(path, spec, [&](OIIO::ImageOutput& output) {

@@ -468,6 +468,10 @@ class RasterProbe:
     @property
     def warnings(self) -> list[typing.Any]:
         ...
+def accumulate(frames: list[dict[str, numpy.typing.ArrayLike]], current: int, threads: int = 0) -> tuple[typing.Any, ...]:
+    """
+    The colour of a frame, averaged with that of the frames around it where they see the same surface in the same light, and of how many frames each pixel is the mean. A frame is a dict[str, typing.Any] of arrays: color, alpha, denoisingAlbedo, denoisingNormal, depth, motionForward, motionBackward and, where they differ, sampleCount; frames are one time code apart.
+    """
 def albedo_table() -> numpy.typing.NDArray[numpy.float32]:
     """
     The baked directional albedos, in the layout of shaders/lib/albedoTable.glsl.
@@ -519,6 +523,10 @@ def default_render_settings() -> dict[str, typing.Any]:
 def denoise(film: Film, threads: int = 0, aovs: bool = False) -> None:
     """
     Replaces the film's colour by what Open Image Denoise makes of it, led by the AOVs denoisingAlbedo and denoisingNormal where both are there; the noisy one is color.noisy then. With `aovs` likewise those of light. RuntimeError says in one line why not.
+    """
+def denoise_pixels(color: numpy.typing.ArrayLike, albedo: numpy.typing.ArrayLike, normal: numpy.typing.ArrayLike, samples: float, threads: int = 0) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    What Open Image Denoise makes of an image of height x width x 3, led by albedo and normals; samples of a pixel say how noisy these are. RuntimeError says in one line why not.
     """
 def denoised_error(film: Film, threads: int = 0) -> float:
     """

@@ -33,6 +33,7 @@ void bindNetwork(py::module_& m);
 void bindScene(py::module_& m);
 #ifdef PATINA_BIND_FILM
 void bindFilm(py::module_& m);
+void bindTemporal(py::module_& m);
 void bindLightPaths(py::module_& m);
 void bindPartial(py::module_& m);
 #endif
@@ -126,6 +127,7 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
     patina::bindScene(m);
 #ifdef PATINA_BIND_FILM
     patina::bindFilm(m);
+    patina::bindTemporal(m);
     patina::bindLightPaths(m);
     patina::bindPartial(m);
 #endif

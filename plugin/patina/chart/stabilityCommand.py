@@ -4,13 +4,13 @@ import os
 
 from patina import experiment
 from patina.chart import stabilityPage, sweepsClassic, sweepsDiffuse, sweepsEnergy, sweepsMicrofacets, sweepsFilm, sweepsFrames
-from patina.chart import sweepsFresnel, sweepsLayers, sweepsPlan, sweepsSky
+from patina.chart import sweepsFresnel, sweepsLayers, sweepsPlan, sweepsSequences, sweepsSky
 from patina.cli import outputs
 from patina.cli.errors import CommandError, UsageError
 
 FAMILIES = {"Fresnel": sweepsFresnel, "facets": sweepsMicrofacets, "energy": sweepsEnergy, "diffuse": sweepsDiffuse,
             "film": sweepsFilm, "layers": sweepsLayers, "classic": sweepsClassic, "frames": sweepsFrames, "sky": sweepsSky,
-            "plan": sweepsPlan}
+            "plan": sweepsPlan, "sequences": sweepsSequences}
 COLUMNS = ("sweep", "x", "method", "value", "truth", "error", "bound", "chosen")
 
 

@@ -7,18 +7,20 @@ from patina.cli.errors import CommandError
 
 GUIDES = ("denoisingAlbedo", "denoisingNormal")  # AOVs that lead it
 HALVES = ("denoisingHalfColor", "denoisingHalfAlbedo", "denoisingHalfNormal")  # and those that tell how far off it is
+MOTION = ("motionForward", "motionBackward", "depth")  # AOVs by which frames of a sequence find each other
 NOISY = "color.noisy"  # what it started from, once a film is denoised
 
 
-def prepare(module):
+def prepare(module, asked="--denoise"):
     """Finds the library before anything slow.
 
+    :param asked: what asks for it
     :raises CommandError: where there is none"""
     if not os.environ.get("PATINA_OIDN_LIBRARY"):
         module.set_denoiser_library(of_wheel())
     missing = module.denoiser_missing()
     if missing:
-        raise CommandError(f"--denoise: {missing}; `pip install pyoidn` has it, or PATINA_OIDN_LIBRARY names the library")
+        raise CommandError(f"{asked}: {missing}; `pip install pyoidn` has it, or PATINA_OIDN_LIBRARY names the library")
 
 
 def aovs(settings, backend):

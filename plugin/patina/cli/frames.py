@@ -29,7 +29,7 @@ def _number(text, spec, start, end):
     if value is None:
         value = float(name) if _NUMBER.fullmatch(name) else math.nan
     if not math.isfinite(value):
-        raise UsageError(f"patina record: --frames {spec}: '{text}' is no frame")
+        raise UsageError(f"patina: --frames {spec}: '{text}' is no frame")
     return value
 
 
@@ -44,12 +44,12 @@ def expand(spec, start, end):
         a, b = _number(first, spec, start, end), _number(last, spec, start, end)
         stride = _number(step, spec, start, end) if cross else 1.0
         if not stride or not math.isfinite(stride):
-            raise UsageError(f"patina record: --frames {spec}: a stride of {step} reaches no frame")
+            raise UsageError(f"patina: --frames {spec}: a stride of {step} reaches no frame")
         stride = math.copysign(stride, b - a)
         steps = (b - a) / stride  # infinite where the stride is tiny
         count = int(math.floor(steps + 1e-6)) + 1 if steps < MAX_FRAMES else MAX_FRAMES + 1
         if len(frames) + count > MAX_FRAMES:
-            raise UsageError(f"patina record: --frames {spec} means more than {MAX_FRAMES} frames")
+            raise UsageError(f"patina: --frames {spec} means more than {MAX_FRAMES} frames")
         frames += [a + i * stride for i in range(count)]
         decimals = max([decimals] + [_decimals(text) for text in (first, last if colon else "", step)])
     return frames, decimals
@@ -70,7 +70,7 @@ def image_name(pattern, frame, decimals):
     match = _places(pattern)[0]
     precision = len(match["decimals"] or "")
     if precision < decimals:
-        raise UsageError(f"patina record: the frames have {decimals} decimals, but {pattern} has room for {precision} "
+        raise UsageError(f"patina: the frames have {decimals} decimals, but {pattern} has room for {precision} "
                          "(write ###.##)")
     if match["zeros"] is not None:
         text = f"%{match['zeros']}d" % round(frame)

@@ -12,12 +12,13 @@ from patina.cli import causes, colours, interrupts, standardStreams, usageHints
 from patina.cli.errors import FAILED, TEMPORARY, USAGE, CommandError, UsageError, is_temporary
 
 _MODULES = {"test": "testRun"}  # commands whose module is called otherwise
-_BATCH = ("record", "merge", "farm")  # what schedulers run: a signal that ended one may pass
+_BATCH = ("record", "merge", "denoise", "farm")  # what schedulers run: a signal that ended one may pass
 
 # Name, which is that of a module of patina.cli with add_arguments(parser) and run(arguments), -> what it does.
 COMMANDS = {
     "record": "render a stage to images",
     "merge": "put the parts of a cut frame together",
+    "denoise": "denoise the frames of a sequence, each with those around it",
     "farm": "render frames and parts of them on many machines",
     "explain": "show how a material is modelled, and which parts are left out",
     "check": "test energy, sampling, densities and finite numbers of materials",

@@ -237,7 +237,8 @@ class _Job:
         camera = self.scene.camera(info.camera)
         size = shots.size_of(shot, camera, settings["pixelAspectRatio"])
         shots.place(settings, size, camera, functools.partial(self.statistics.warn, shot.prim))
-        settings.update(aovs=list(wanted), timeMaterials=bool(self.arguments.report), deep=shot.deep)
+        settings.update(aovs=list(wanted), timeMaterials=bool(self.arguments.report), deep=shot.deep,
+                        seed=recordFlags.seed_of(self.arguments, settings["seed"], shot.frame))
         return settings
 
     def _film(self, shot, settings, info):

@@ -79,6 +79,9 @@ def _add_denoise_flag(group):
     group.add_argument("--denoiseAovs", action="store_true",
                        help="as --denoise, and AOVs of light as well, each by itself with the same guides; they then add up to "
                             "the colour only nearly")
+    group.add_argument("--denoiseLater", action="store_true",
+                       help="also write the AOVs that `patina denoise` reads, and take a seed of its own for each frame: "
+                            "--seed and a thousand times the time code (of IMAGE alone)")
 
 
 def add_levels_flag(group):
@@ -201,10 +204,16 @@ def _check_display(arguments):
 
 def aovs_of(arguments):
     """:returns: names besides color and alpha"""
-    names = []
+    names = [*denoiser.GUIDES, *denoiser.MOTION, "sampleCount"] if arguments.denoiseLater else []
     for name in arguments.aov:
         names += ALL_AOVS if name == "all" else [name]
     return [name for name in dict.fromkeys(names) if name not in ("color", "alpha")]
+
+
+def seed_of(arguments, seed, frame):
+    """:param frame: its time code, or None for the default time
+    :returns: the seed of a frame's render"""
+    return (seed + round(1000 * (frame or 0.0))) % 2**32 if arguments.denoiseLater else seed
 
 
 def image_options_of(arguments):

@@ -108,6 +108,8 @@ def check_usage(arguments):
     for flag in ("resume", "keepCheckpoint") if arguments.deep else ():
         if getattr(arguments, flag):
             raise UsageError(f"patina record: --deep with --{flag}: a checkpoint has no depths")
+    if arguments.denoiseLater and (arguments.settings or arguments.renderPassPrimPath):
+        raise UsageError("patina record: --denoiseLater is of IMAGE alone; a product's orderedVars name such AOVs")
     if arguments.settings and arguments.renderPassPrimPath:
         raise UsageError("patina record: --renderPassPrimPath names its own settings; --settings cannot be beside it")
     if not arguments.image and not arguments.settings and not arguments.renderPassPrimPath:

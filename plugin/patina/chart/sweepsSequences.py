@@ -2,8 +2,8 @@
 """Frames of a sequence, averaged: light that changes from frame to frame must not be."""
 import numpy as np
 
-from patina.chart.sweeps import Sweep, always
-from patina.cli import compiled
+from patina.chart.sweeps import Sweep
+from patina.cli.compiled import _patina
 
 SIZE = 48
 NOISE = 0.7  # standard deviation of a pixel over its level
@@ -25,11 +25,11 @@ def sweeps(count):
     tested, plain = [], []
     for change in x:
         frames = [_frame(1.0 if seed == 2 else 1.0 + change, seed) for seed in range(5)]
-        tested.append(float(compiled.load().accumulate(frames, 2)[0].mean()))
+        tested.append(float(_patina.accumulate(frames, 2)[0].mean()))
         plain.append(float(np.mean([frame["color"].mean() for frame in frames])))
     # Four of five frames have at most that difference; and three standard errors of the picture's mean.
     bound = 0.8 * REACH + 3.0 * NOISE / SIZE
     return [Sweep("light that changes for a frame", "sequences",
                   "A mean of frames takes light from frames in which it is another.", "change of the light around", x,
-                  "mean of the picture", {"tested mean": tested, "mean of all frames": plain}, [1.0] * len(x),
-                  always("tested mean", x), bound, "mean of all frames", log_x=True, shows=5)]
+                  "mean of the picture", {"tested mean": tested, "mean of all frames": plain}, truth=1.0, chosen="tested mean",
+                  bound=bound, failing="mean of all frames", log_x=True, shows=5)]

@@ -72,13 +72,26 @@ if(TARGET patinaReadField) # beside the library that starts it, of whatever leve
     install(TARGETS patinaReadField RUNTIME DESTINATION ${libraryFolder}/patina)
 endif()
 
+# Adds what a file includes, and what that includes.
+function(_patina_included file found)
+    file(STRINGS ${file} lines REGEX "^ *# *include \"")
+    foreach(line ${lines})
+        string(REGEX REPLACE "^[^\"]*\"([^\"]+)\".*" "\\1" name "${line}")
+        if(NOT name IN_LIST ${found})
+            list(APPEND ${found} ${name})
+            _patina_included(${CMAKE_SOURCE_DIR}/${name} ${found})
+        endif()
+    endforeach()
+    set(${found} ${${found}} PARENT_SCOPE)
+endfunction()
+
 if(NOT SKBUILD)
-    install(DIRECTORY base hdDelegate materialNetwork shaders DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina
-        FILES_MATCHING PATTERN "*.h" PATTERN "*.def" PATTERN "*.inc" PATTERN "*.glsl"
-        PATTERN hydra EXCLUDE PATTERN tests EXCLUDE PATTERN bake EXCLUDE PATTERN measure EXCLUDE)
     install(FILES cmake/package/patina.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina)
-    install(FILES ${CMAKE_BINARY_DIR}/shaders/everyLobe.glsl ${CMAKE_BINARY_DIR}/shaders/everyShape.glsl
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina/shaders)
+    _patina_included(${CMAKE_SOURCE_DIR}/cmake/package/patina.h headers)
+    foreach(header ${headers})
+        get_filename_component(folder ${header} DIRECTORY)
+        install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina/${folder})
+    endforeach()
     set(configFolder ${CMAKE_INSTALL_LIBDIR}/cmake/Patina)
     include(CMakePackageConfigHelpers)
     configure_package_config_file(cmake/package/patinaConfig.cmake.in ${CMAKE_BINARY_DIR}/package/PatinaConfig.cmake

@@ -13,7 +13,6 @@ Neighbours are found by their names, one time code apart, also beyond --frames. 
 The noisy colour stays as color.noisy, and a file that has one is denoised from it; all other channels stay as they are.
 """
 import os
-import sys
 import time
 
 from patina import inputs, limits
@@ -121,7 +120,7 @@ class _Job:
             self.say(f"{own.path}: {spoiled} pixels are not finite" + (
                 "; frames around it stand for them, else black" if self.arguments.around else "; they count as black"))
         if (own.arrays["color"] < 0.0).any():
-            statistics.report([warning("", "denoise", "pixelsBelowZero")], sys.stderr, json=False)
+            statistics.report([warning("", "denoise", "pixelsBelowZero")], json=False)
 
     def _look_at_seeds(self, own, around):
         seed = own.metadata.get("patina:seed")

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace patina {
@@ -63,13 +64,18 @@ bool TileSchedule::isDone() const {
     }
     if (relativeError(sums) <= _tolerance) return true;
     // Filters take their time: they run where tiles are looked at, and at no end of a span beside.
-    return _hasHalves && isErrorStep(samples) && lookDenoised() <= _tolerance;
+    const double denoised = _hasHalves && isErrorStep(samples) ? lookDenoised() : -1.0;
+    return denoised >= 0.0 && denoised <= _tolerance;
 }
 
 double TileSchedule::lookDenoised() const {
     const double taken = samplesTaken();
-    if (_hasHalves && taken != std::exchange(_denoisedAt, taken))
+    if (!_hasHalves || taken == std::exchange(_denoisedAt, taken)) return _denoised;
+    try {
         _denoised = denoisedError(_film, _threads);
+    } catch (const std::runtime_error&) { // whoever denoises the image says why it fails
+        _denoised = -1.0;
+    }
     return _denoised;
 }
 

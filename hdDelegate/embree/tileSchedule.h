@@ -41,14 +41,13 @@ public:
     /// How far the image is. While samples are looked at for their error, what is needed follows
     /// from it: noise falls with the root of the number of samples.
     struct Outlook {
-        double taken = 0.0;  ///< samples, mean over the pixels
-        double needed = 0.0; ///< likewise, of those that are left
-        double error = -1.0; ///< relative error by noise so far; below 0: not looked at
+        double taken = 0.0;     ///< samples, mean over the pixels
+        double needed = 0.0;    ///< likewise, of those that are left
+        double error = -1.0;    ///< relative error by noise so far; below 0: not looked at
         double denoised = -1.0; ///< likewise of the denoised colour
     };
     Outlook outlook() const;
-    /// Looks at the error of the denoised colour, where there are halves.
-    /// @throws std::runtime_error as denoise()
+    /// Looks at the error of the denoised colour. @returns below 0 where it is not known
     double lookDenoised() const;
 
     /// Samples that all pixels of a tile have.

@@ -57,10 +57,9 @@ void bindPartial(py::module_& m) {
     py::class_<PartialErrors>(m, "PartialErrors",
                               "What the tiles of parts told of their error while they were merged.")
         .def(py::init<>())
-        .def(
-            "samples_of_whole", &PartialErrors::samplesOfWhole, py::arg("tolerance"),
-            py::arg("min_samples"),
-            "The count at which the image rendered at once was done; 0: no tile went on after it.")
+        .def("samples_of_whole", &PartialErrors::samplesOfWhole, py::arg("tolerance"),
+             py::arg("min_samples"),
+             "The count at which the image rendered at once was done; 0: no tile went on after it.")
         .def("steps_of_whole", &PartialErrors::stepsOfWhole, py::arg("min_samples"),
              "Counts before the last one at which that image had its denoised error looked at.");
     m.def(

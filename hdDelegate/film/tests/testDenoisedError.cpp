@@ -74,8 +74,8 @@ TEST(DenoisedError, FilmsWithoutHalvesTellNothing) {
     EXPECT_LT(denoisedError(*noisy(smooth, 1, 1)), 0.0) << "one sample has no second half";
 }
 
-/// By its margin of two standard errors, a film with another seed is above the bound once in 44 runs
-/// at most.
+/// By its margin of two standard errors, a film with another seed is above the bound once in 44
+/// runs at most.
 TEST(DenoisedError, BoundsWhatTheFilterLeavesAndWhatItBlurs) {
     if (!denoiserMissing().empty()) GTEST_SKIP() << denoiserMissing();
     for (const Picture truth : {smooth, fine})

@@ -93,6 +93,7 @@ def text():
     made = re.sub(ARRAY, "numpy.typing.ArrayLike", made).replace("import numpy\n", "import numpy\nimport numpy.typing\n", 1)
     made = made.replace("def __exit__(self, *args) -> None", "def __exit__(self, *args: typing.Any) -> None")
     made = made.replace("def __enter__(self) -> typing.Any", "def __enter__(self) -> SceneEdit")
+    made = made.replace("errors: PartialErrors = None", "errors: PartialErrors | None = None")
     made = re.sub(r"\bdict(?=[\s,)\]:=])", "dict[str, typing.Any]", made)
     made = re.sub(r"-> (list|tuple):", r"-> \1[typing.Any, ...]:", made).replace("list[typing.Any, ...]", "list[typing.Any]")
     return NOTE + _with_keywords(made)

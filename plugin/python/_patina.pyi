@@ -616,7 +616,7 @@ def measure_methods(point: str = '', timed: bool = True) -> list[typing.Any]:
     """
     Measures the methods of a choice point, or of all, here and now, on one thread.
     """
-def merge_partial(film: Film, file: str, tolerance: float = 0.0, min_samples: int = 0, samples: int = 0, errors: PartialErrors = None) -> str:
+def merge_partial(film: Film, file: str, tolerance: float = 0.0, min_samples: int = 0, samples: int = 0, errors: PartialErrors | None = None) -> str:
     """
     Adds a part behind the samples that a film has, and returns its report. Of the same tiles the parts come in the order of their samples.
     """

@@ -9,6 +9,8 @@ import pytest
 
 from test_signals import _folder  # noqa: F401
 
+HERE = os.path.dirname(os.path.abspath(__file__))
+
 
 def run(program):
     return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
@@ -35,7 +37,7 @@ sys.exit(main.main(["explain", "m.mtlx"]))
 # A render that is ended by SIGTERM.
 RENDER = f"""
 import os, signal, sys
-sys.path.append({os.path.dirname(os.path.abspath(__file__))!r})
+sys.path += {[HERE, os.path.dirname(HERE)]!r}
 from test_signals import LONG, _patina, _Signals, interrupts, main, record, send
 times = 1
 make, write = _patina.make_renderer, record._Job._write

@@ -183,7 +183,7 @@ TileSchedule::Outlook TileSchedule::outlook() const {
     }
     for (const Part& part : parts)
         found.needed += part.pixels * (samplesAt(part, end) - part.samples) / pixels;
-    if (_denoised > 0.0) {
+    if (_denoised >= 0.0) {
         found.denoised = _denoised;
         const double enough = _denoisedAt * std::pow(_denoised / _tolerance, 2.0);
         found.needed = std::clamp(enough - found.taken, 0.0, found.needed);

@@ -98,7 +98,7 @@ template <class Visit> void LightTree::visitRay(const vec3& origin, const vec3& 
     stack[size++] = 0;
     while (size > 0) {
         const Node& node = _nodes[size_t(stack[--size])];
-        if (size == 0 && !deep.empty()) {
+        if (size == 0 && !deep.empty()) { // one of those that found no room
             stack[size++] = deep.back();
             deep.pop_back();
         }

@@ -322,22 +322,23 @@ void EmbreeGroup::updateNodes(RTCDevice device, const Nodes& nodes) {
 }
 
 void EmbreeGroup::update(RTCDevice device, const Surfaces& surfaces, const Nodes& nodes,
-                         bool interactive, const std::atomic<bool>& stop) {
+                         Structure structure, const std::atomic<bool>& stop) {
     changed = false;
-    if (scene && (_broken || _interactive != interactive)) clear();
+    if (scene && (_broken || _structure != structure)) clear();
     _broken = true;
     rtcGetDeviceError(device); // what is not of this update
-    _interactive = interactive;
+    _structure = structure;
     _firstFree = 0;
     if (!scene) {
         changed = true;
         scene = rtcNewScene(device);
-        rtcSetSceneFlags(scene, interactive
-                                    ? RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC)
-                                    : RTC_SCENE_FLAG_ROBUST);
+        const bool editable = structure == Structure::Editable;
+        const RTCSceneFlags flag = editable                          ? RTC_SCENE_FLAG_DYNAMIC
+                                   : structure == Structure::Compact ? RTC_SCENE_FLAG_COMPACT
+                                                                     : RTC_SCENE_FLAG_NONE;
+        rtcSetSceneFlags(scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | flag));
         // At low quality Embree keeps a hierarchy per geometry and rebuilds those that changed.
-        rtcSetSceneBuildQuality(scene,
-                                interactive ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+        rtcSetSceneBuildQuality(scene, editable ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
         rtcSetSceneProgressMonitorFunction(scene, goesOn, const_cast<std::atomic<bool>*>(&stop));
     }
     updateSurfaces(device, surfaces);

@@ -59,6 +59,10 @@ struct EmbreeGroup {
     /// Coordinates of rays up to which those of no instance in it are too large, see isTraceable().
     float rayLimit = largestTraced;
 
+    /// What Embree builds: for speed of rays; a hierarchy per member, of which only those that
+    /// change are built again; or one that refers to the members' vertices, for memory.
+    enum class Structure { Fast, Editable, Compact };
+
     using Surfaces = std::vector<std::shared_ptr<Surface>>;
     using Nodes = std::vector<std::shared_ptr<InstancerNode>>;
 
@@ -67,11 +71,10 @@ struct EmbreeGroup {
 
     /// Brings the Embree scene to these members. Members that it has stay; without any change
     /// nothing is committed. The nodes' targets must have been updated.
-    /// @param interactive commits quickly, at the cost of speed of rays
     /// @param stop cancels the commit; the next update then starts anew
-    void update(RTCDevice device, const Surfaces& surfaces, const Nodes& nodes, bool interactive,
+    void update(RTCDevice device, const Surfaces& surfaces, const Nodes& nodes, Structure structure,
                 const std::atomic<bool>& stop);
-    /// The same after an update with the same `interactive`, where no surfaces but these differ.
+    /// The same after an update with the same structure, where no surfaces but these differ.
     /// @param nodes null: none of them differs
     void replace(RTCDevice device, const Surfaces& surfaces, const Nodes* nodes,
                  const std::atomic<bool>& stop);
@@ -104,7 +107,7 @@ private:
     std::map<std::string, SurfaceMember> _surfaces; ///< by path; only what has geometry
     std::map<std::string, NodeMember> _nodes;       ///< by path; only what has instances
     size_t _firstFree = 0;                          ///< no id below is free
-    bool _interactive = false;
+    Structure _structure = Structure::Fast;
     bool _broken = false; ///< an update was stopped or ran out of memory: the next starts anew
 };
 

@@ -114,7 +114,11 @@ EmbreeGroup* GroupTree::group(const Build& build, const std::string& name, int d
         const auto members =
             found == build.surfaces.end() ? EmbreeGroup::Surfaces() : found->second;
         _counts.looked += members.size();
-        made->update(build.device, members, nodes, build.view.settings.interactive,
+        const RenderSettings& settings = build.view.settings;
+        made->update(build.device, members, nodes,
+                     settings.compactGeometry ? EmbreeGroup::Structure::Compact
+                     : settings.interactive   ? EmbreeGroup::Structure::Editable
+                                              : EmbreeGroup::Structure::Fast,
                      build.view.stop);
     }
     noteChange(*made);

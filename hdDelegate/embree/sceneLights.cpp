@@ -71,7 +71,8 @@ LightInfo SceneLights::describe(const std::shared_ptr<const Light>& light, const
 
 SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, const Camera& camera,
                          const RenderSettings& settings, LightImages& images,
-                         Diagnostics& diagnostics) {
+                         Diagnostics& diagnostics)
+    : _glowing(scene.places().placements()) {
     LightSetInput input;
     input.origin = scene.origin();
     const vec2 shutter = shutterOf(camera, settings);
@@ -138,10 +139,32 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
     std::sort(surfaces.begin(), surfaces.end(),
               [](const Surface* a, const Surface* b) { return a->prim->path < b->prim->path; });
     surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
-    _placements = scene.places().placements();
     for (const Surface* surface : surfaces)
         addSurface(*surface, scene, input, diagnostics);
     _set = std::make_unique<LightSet>(std::move(input), images, diagnostics);
+}
+
+void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene, LightSetInput& input,
+                             Diagnostics& diagnostics) {
+    const auto meshLight = _meshLights.find(&surface);
+    const bool isMeshLight = meshLight != _meshLights.end();
+    // Glow lights what the rays that see it come from. Those that do find it by chance.
+    if (!isMeshLight && (surface.prim->visibility.mask() & RayIndirect) != RayIndirect) return;
+    int glowing = 0;
+    for (unsigned t = 0; t < surface.topology().triangles.size(); ++t)
+        glowing += isMeshLight || surface.material(t).program->hasEmission();
+    if (haveRoom(scene.places().count(surface.prim->group) * double(glowing), input)) {
+        _glowing.add(
+            surface, scene.places().places(surface.prim->group),
+            isMeshLight ? meshLight->second.info : _glowInfo, isMeshLight,
+            [this](const SurfacePoint& point) { return emission(point); }, input);
+    } else if (isMeshLight) {
+        warnOfMany(meshLight->second.light->path, diagnostics);
+        _meshLights.erase(meshLight);
+    } else { // paths that meet it see it glow
+        diagnostics.warn(surface.prim->path, "",
+                         messages::glowingTooMany(limitText(Limit::lights)));
+    }
 }
 
 int SceneLights::worthwhileSamples() const {
@@ -151,11 +174,8 @@ int SceneLights::worthwhileSamples() const {
 }
 
 int SceneLights::triangleLight(const Hit& hit) const {
-    const auto found = _emitting.find(hit.surface);
-    if (found == _emitting.end()) return -1;
-    const int slot = found->second.slots[hit.primitive];
-    if (slot < 0) return -1;
-    return _set->lightCount() + _set->glowing(placeOf(found->second, hit)).first + slot;
+    const auto [place, triangle] = _glowing.find(hit);
+    return place < 0 ? -1 : _set->lightCount() + _set->glowing(place).first + triangle;
 }
 
 vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
@@ -170,8 +190,7 @@ vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
     const bool front = glm::dot(s.geometricNormal, s.viewDirection) > 0.0f;
     vec3 light = front ? mesh.radiance : vec3(0.0f);
     if (lit && !mesh.filters.empty()) {
-        const EmittingSurface& emitting = _emitting.at(point.hit->surface);
-        const size_t place = size_t(placeOf(emitting, *point.hit) - emitting.firstPlace);
+        const size_t place = size_t(_glowing.placeFromFirst(*point.hit));
         light *= mesh.filters[place].factor(*lit, -s.viewDirection, glm::length(s.position - *lit),
                                             point.hit->time);
     }
@@ -182,10 +201,8 @@ vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
 
 vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from, float time) const {
     const int place = _set->placeOf(sample.triangle);
-    const Source& source = _sources[size_t(place)];
-    const int slot = sample.triangle - _set->glowing(place).first;
-    Hit hit = hitOn(source.surface, source.emitting->primitives[size_t(slot)],
-                    _places[size_t(place)], sample.barycentrics);
+    Hit hit =
+        _glowing.hit(place, sample.triangle - _set->glowing(place).first, sample.barycentrics);
     hit.distance = sample.distance;
     hit.time = time;
     SurfacePoint point;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/embree/embreeScene.h"
-#include "hdDelegate/lights/lightSet.h"
-
-#include <map>
+#include "hdDelegate/embree/glowingSurfaces.h"
 
 namespace patina {
 
@@ -34,7 +31,7 @@ public:
 
     const LightSet& set() const { return *_set; }
     const LightInfo& info(int light) const {
-        return _infos[light < _set->lightCount() ? light : sourceOf(light).info];
+        return _infos[light < _set->lightCount() ? light : _glowing.infoOf(placeOf(light))];
     }
     /// Some light treats diffuse and other lobes differently.
     bool splitsLobes() const { return _splitsLobes; }
@@ -49,7 +46,7 @@ public:
     int triangleLight(const Hit& hit) const;
     /// The surface of a light that is a triangle; null for others.
     const Surface* triangleSurface(int light) const {
-        return light < _set->lightCount() ? nullptr : sourceOf(light).surface;
+        return light < _set->lightCount() ? nullptr : _glowing.surface(placeOf(light));
     }
     /// Radiance of a sample towards a point, but for image().
     vec3 radiance(const LightSample& sample, const vec3& from, float time) const {
@@ -81,19 +78,6 @@ private:
         Glow glow = Glow::TintsLight;
         std::vector<LightFilters> filters; ///< per place of the surface; none: nothing is filtered
     };
-    /// A surface wherever it is placed.
-    struct EmittingSurface {
-        std::vector<int> slots;           ///< per primitive: which of those that glow it is, or -1
-        std::vector<unsigned> primitives; ///< per slot
-        int firstPlace = 0;               ///< in LightSetInput::glowing; the others follow
-        std::vector<int> places;          ///< these, in the order of the instances around them
-    };
-    /// Of a place in LightSetInput::glowing.
-    struct Source {
-        const Surface* surface;
-        const EmittingSurface* emitting;
-        int info; ///< in _infos
-    };
 
     vec3 triangleRadiance(const LightSample& sample, const vec3& from, float time) const;
     /// Whether so many more lights are within Limit::lights.
@@ -103,27 +87,11 @@ private:
                        const RenderSettings& settings);
     void addSurface(const Surface& surface, const EmbreeScene& scene, LightSetInput& input,
                     Diagnostics& diagnostics);
-    /// In LightSetInput::glowing.
-    int placeOf(const EmittingSurface& emitting, const Hit& hit) const;
-    const Source& sourceOf(int light) const {
-        return _sources[size_t(_set->placeOf(light - _set->lightCount()))];
-    }
-    /// The largest luminance of a triangle at a few points.
-    float brightestOf(const Surface& surface, unsigned primitive, const GroupPlace& where,
-                      bool mirrored) const;
-    LightTriangles trianglesOf(const Surface& surface, const EmittingSurface& found,
-                               const std::vector<float>& luminances, const mat4& place,
-                               bool bothSides) const;
-    float factorOf(const Surface& surface, const EmittingSurface& found,
-                   const std::vector<float>& luminances, const GroupPlace& where,
-                   bool mirrored) const;
+    int placeOf(int light) const { return _set->placeOf(light - _set->lightCount()); }
 
     std::unique_ptr<LightSet> _set;
     std::vector<LightInfo> _infos;
-    std::vector<Source> _sources;
-    std::vector<GroupPlace> _places;
-    std::shared_ptr<const Placements> _placements; ///< keeps the values that _places points to
-    std::map<const Surface*, EmittingSurface> _emitting;
+    GlowingSurfaces _glowing;
     std::map<const Surface*, MeshLight> _meshLights;
     int _glowInfo = 0;
     bool _splitsLobes = false, _hasOwnShadows = false, _hidesMaterials = false;

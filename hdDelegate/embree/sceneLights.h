@@ -33,6 +33,10 @@ public:
     const LightInfo& info(int light) const {
         return _infos[light < _set->lightCount() ? light : _glowing.infoOf(placeOf(light))];
     }
+    /// Requests the memory of what info() gives.
+    void request(int light) const {
+        if (light >= 0 && light < _set->lightCount()) __builtin_prefetch(&_infos[size_t(light)]);
+    }
     /// Some light treats diffuse and other lobes differently.
     bool splitsLobes() const { return _splitsLobes; }
     /// Some light has LightInfo::ownShadows.

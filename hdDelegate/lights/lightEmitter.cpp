@@ -11,7 +11,7 @@ namespace patina {
 
 const LightEmitter::Pose& LightEmitter::poseAt(float time, Pose& scratch) const {
     if (!_moves) return _pose;
-    scratch = makePose(_group * transformAt(_light.transform, time, _origin));
+    scratch = makePose(_group * transformAt(_light->transform, time, _origin));
     return scratch;
 }
 

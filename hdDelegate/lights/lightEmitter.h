@@ -47,10 +47,18 @@ public:
     /// A light that gives no light, for whatever reason, becomes Kind::None. Reasons that look
     /// like mistakes are warned about.
     /// @param origin of the space that the light's own transform is wanted in, see seenFrom()
+    /// @param light kept
     /// @param files of this light, read here unless another of its places has read them
-    LightEmitter(const Light& light, const mat4& groupToWorld, const dvec3& origin,
+    LightEmitter(std::shared_ptr<const Light> light, const mat4& groupToWorld, const dvec3& origin,
                  float shutterOpen, float shutterClose, LightFiles& files, LightImages& images,
                  Diagnostics& diagnostics);
+
+    /// Requests the memory that sample() reads of a light that is not at infinity.
+    void request() const {
+        const char* end = reinterpret_cast<const char*>(&_portals);
+        for (auto at = reinterpret_cast<const char*>(this); at < end; at += 64)
+            __builtin_prefetch(at);
+    }
 
     Kind kind() const { return _resolved.kind; }
     bool atInfinity() const {
@@ -115,20 +123,22 @@ private:
     vec3 texture(const AreaShape& shape, const vec3& position) const;
     vec3 shaped(const Pose& pose, const vec3& direction) const;
 
+    // What every sample reads stands together: there may be more lights than caches hold.
     ResolvedLight _resolved; ///< at the shutter's opening
     bool _moves = false;
-    Light _light;
+    Pose _pose; ///< at the shutter's opening
+    std::shared_ptr<const ImageRGB> _texture;
+    LightFilters _filters;
+    // What some lights need, or the build alone.
+    DomePortals _portals;
+    std::shared_ptr<const EnvironmentMap> _environment;
+    std::shared_ptr<const IesProfile> _profile;
+    float _irradiance = 0.0f;
+    float _meanTexture = 1.0f;
+    std::shared_ptr<const Light> _light;
     mat4 _group{1.0f};
     dvec3 _origin{0.0};
     std::vector<float> _times; ///< at which the motion has corners, in the shutter
-    Pose _pose;                ///< at the shutter's opening
-    float _irradiance = 0.0f;
-    float _meanTexture = 1.0f;
-    std::shared_ptr<const ImageRGB> _texture;
-    std::shared_ptr<const EnvironmentMap> _environment;
-    std::shared_ptr<const IesProfile> _profile;
-    LightFilters _filters;
-    DomePortals _portals;
 };
 
 } // namespace patina

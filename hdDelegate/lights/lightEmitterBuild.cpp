@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace patina {
 
@@ -29,10 +30,11 @@ void readFiles(const Light& light, LightFiles& files, LightImages& images,
 
 } // namespace
 
-LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const dvec3& origin,
-                           float shutterOpen, float shutterClose, LightFiles& files,
-                           LightImages& images, Diagnostics& diagnostics)
-    : _light(light), _group(groupToWorld), _origin(origin) {
+LightEmitter::LightEmitter(std::shared_ptr<const Light> kept, const mat4& groupToWorld,
+                           const dvec3& origin, float shutterOpen, float shutterClose,
+                           LightFiles& files, LightImages& images, Diagnostics& diagnostics)
+    : _light(std::move(kept)), _group(groupToWorld), _origin(origin) {
+    const Light& light = *_light;
     if (!light.visible || light.type == LightType::Mesh) return;
     _times = {shutterOpen};
     if (light.transform.moves() && shutterClose > shutterOpen) {
@@ -71,7 +73,7 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
     _pose = makePose(toWorldAt(shutterOpen));
     for (size_t i = 1; i < _times.size(); ++i)
         if (_resolved.kind == Kind::Area && !makePose(toWorldAt(_times[i])).shape.valid) {
-            diagnostics.warn(light.path, lightSizeInput(_light), messages::lightWithoutSize);
+            diagnostics.warn(light.path, lightSizeInput(light), messages::lightWithoutSize);
             _resolved.kind = Kind::None;
         }
     if (_resolved.kind == Kind::Dome) addPortals(shutterOpen, diagnostics);
@@ -80,11 +82,11 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
 }
 
 bool LightEmitter::setUpDome(LightImages& images) {
-    if (!_light.hasImage()) {
+    if (!_light->hasImage()) {
         _irradiance = pi * _resolved.power();
         return true;
     }
-    _environment = images.environment(_light);
+    _environment = images.environment(*_light);
     _irradiance = pi * luminance(glm::abs(_resolved.radiance) * _environment->mean());
     return !_environment->black();
 }
@@ -92,7 +94,7 @@ bool LightEmitter::setUpDome(LightImages& images) {
 /// Where they are when the shutter opens: they guide samples alone.
 void LightEmitter::addPortals(float time, Diagnostics& diagnostics) {
     const mat3 toDome = glm::transpose(_pose.domeToWorld);
-    for (const LightPortal& portal : _light.portals) {
+    for (const LightPortal& portal : _light->portals) {
         DomePortal made(_group * transformAt(portal.transform, time, _origin), portal.width,
                         portal.height, [&](const vec3& direction) {
                             return _environment
@@ -102,12 +104,12 @@ void LightEmitter::addPortals(float time, Diagnostics& diagnostics) {
         if (made.valid())
             _portals.add(std::move(made));
         else
-            diagnostics.warn(_light.path, "portals", messages::portalLeftOut(portal.path));
+            diagnostics.warn(_light->path, "portals", messages::portalLeftOut(portal.path));
     }
 }
 
 LightEmitter::Pose LightEmitter::makePose(const mat4& toWorld) const {
-    return lightPose(_light, _resolved.kind, toWorld, _profile);
+    return lightPose(*_light, _resolved.kind, toWorld, _profile);
 }
 
 LightTreeLeaf LightEmitter::leaf(int id) const {
@@ -116,10 +118,10 @@ LightTreeLeaf LightEmitter::leaf(int id) const {
     leaf.low = vec3(INFINITY);
     leaf.high = vec3(-INFINITY);
     leaf.hittable = _resolved.kind == Kind::Area;
-    const bool round = _resolved.kind != Kind::Area || !lightRow(_light.type).flat;
+    const bool round = _resolved.kind != Kind::Area || !lightRow(_light->type).flat;
     DirectionCone cone;
     for (size_t i = 0; i < _times.size(); ++i) {
-        const Pose pose = makePose(_group * transformAt(_light.transform, _times[i], _origin));
+        const Pose pose = makePose(_group * transformAt(_light->transform, _times[i], _origin));
         if (_resolved.kind == Kind::Area) {
             growBounds(pose.shape, leaf.low, leaf.high);
         } else {

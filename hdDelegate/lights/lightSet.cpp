@@ -22,7 +22,7 @@ LightSet::LightSet(LightSetInput input, LightImages& images, Diagnostics& diagno
         ofFiles = instance.light.get();
         const dvec3 origin = instance.light->group.empty() ? _input.origin : dvec3(0.0);
         _emitters[i] =
-            LightEmitter(*instance.light, instance.groupToWorld, origin, _input.shutterOpen,
+            LightEmitter(instance.light, instance.groupToWorld, origin, _input.shutterOpen,
                          _input.shutterClose, files, images, diagnostics);
         const LightEmitter& emitter = _emitters[i];
         if (emitter.kind() == LightEmitter::Kind::None) continue;
@@ -205,7 +205,8 @@ LightDraw LightSet::begin(const vec3& point, const vec3& normal, bool twoSided, 
         chosen -= selection;
         if (choice.tree > 0.0f) light = -1;
     }
-    if (light < 0) {
+    const bool inTree = light < 0;
+    if (inTree) {
         const float p = share(choice, choice.tree);
         float below;
         light = chooseInTree(point, normal, twoSided, std::min(chosen / p, 0x1.fffffep-1f), below);
@@ -214,10 +215,11 @@ LightDraw LightSet::begin(const vec3& point, const vec3& normal, bool twoSided, 
     }
     draw.light = light;
     draw.selection = selection;
-    if (light < _lightCount)
+    draw.emitter.u = vec2(u);
+    if (inTree && light < _lightCount)
+        _emitters[light].request();
+    else if (!inTree)
         draw.emitter = _emitters[light].begin(point, normal, twoSided, vec2(u), time);
-    else
-        draw.emitter.u = vec2(u);
     return draw;
 }
 

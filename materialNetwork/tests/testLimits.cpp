@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/limits.h"
-
-#include "materialNetwork/graph/expand.h"
-#include "materialNetwork/mtlx/document.h"
-
-#include <gtest/gtest.h>
+#include "materialNetwork/tests/materialFixture.h"
 
 namespace patina {
 namespace {
@@ -19,8 +15,7 @@ TEST_F(Limits, AreSetTogetherOrNotAtAll) {
     EXPECT_EQ(setLimits({{"nodes", 7}}), "");
     EXPECT_EQ(limitOf(Limit::nodes), 7u);
     EXPECT_EQ(limitText(Limit::nodes), "7 (--limit nodes)");
-    EXPECT_NE(setLimits({{"nodes", 9}, {"nothing", 1}}).find("no limit 'nothing'"),
-              std::string::npos);
+    EXPECT_TRUE(has(setLimits({{"nodes", 9}, {"nothing", 1}}), "no limit 'nothing'"));
     EXPECT_EQ(setLimits({{"nesting", 1}}), "the limit nesting is from 8 to 1000");
     EXPECT_EQ(limitOf(Limit::nodes), 7u);
     EXPECT_EQ(setLimits({}), "");
@@ -29,13 +24,10 @@ TEST_F(Limits, AreSetTogetherOrNotAtAll) {
 
 TEST_F(Limits, TextsThatAreTooLongAreLeftOutAndNamed) {
     setLimits({{"textLength", 8}});
-    Network network;
-    network.path = "/m";
-    network.nodes.push_back({"/m/image", "ND_image_color3", {}, {}});
-    auto& inputs = network.nodes[0].inputs;
-    inputs["file"] = Value::makeFilename("123456789");
-    inputs["uaddressmode"] = Value::makeString("12345678");
-    network.terminals["surface"] = {"/m/image", ""};
+    const Network network =
+        makeNetwork({makeNode("image", "ND_image_color3",
+                              {{"file", file("123456789")}, {"uaddressmode", "12345678"}})},
+                    "image");
     const Network found = expand(network, diagnostics);
     ASSERT_EQ(found.nodes.size(), 1u);
     EXPECT_EQ(found.nodes[0].inputs.count("file"), 0u);

@@ -5,9 +5,12 @@
 #include "materialNetwork/graph/expand.h"
 #include "materialNetwork/material.h"
 #include "materialNetwork/graph/simplify.h"
+#include "shaders/tests/estimate.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -159,6 +162,12 @@ inline NetworkNode mixNode(const std::string& name, const std::string& fg, const
     return makeNode(name, id, {{"mix", amount}}, {{"fg", fg}, {"bg", bg}});
 }
 
+/// A node that reads two others, or one of them twice.
+inline NetworkNode binaryNode(const std::string& name, const std::string& id, const Link& in1,
+                              const Link& in2) {
+    return makeNode(name, id, {}, {{"in1", in1}, {"in2", in2}});
+}
+
 inline NetworkNode diffuseNode(const std::string& name, const Value& color) {
     return makeNode(name, "ND_oren_nayar_diffuse_bsdf", {{"color", color}});
 }
@@ -250,12 +259,17 @@ struct Compiled {
     glm::vec3 albedo(const glm::vec3& wo = {0, 0, 1}) const { return lobes(wo).albedo(); }
 };
 
-/// Of a network about which there is nothing to say.
+/// The same of a network about which there is nothing to say.
+struct CleanCompiled : Compiled {
+    explicit CleanCompiled(const Network& network, const MethodChoices& methods = {})
+        : Compiled(network, methods) {
+        EXPECT_TRUE(nothingTold(diagnostics));
+    }
+};
+
 inline glm::vec3 albedoOf(const Network& network, const glm::vec3& wo = {0, 0, 1},
                           const MethodChoices& methods = {}) {
-    const Compiled c(network, methods);
-    EXPECT_TRUE(nothingTold(c));
-    return c.albedo(wo);
+    return CleanCompiled(network, methods).albedo(wo);
 }
 
 inline void expectVector(const glm::vec3& a, const glm::vec3& b, float tolerance = 1e-5f) {
@@ -272,29 +286,11 @@ inline glm::vec3 direction(float theta, float phi = 0.0f) {
     return {std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t)};
 }
 
-/// A small generator whose numbers are the same everywhere.
-class Random {
-public:
-    explicit Random(uint32_t seed) : _state(seed * 747796405u + 2891336453u) {}
-    float next() {
-        _state = _state * 747796405u + 2891336453u;
-        uint32_t x = ((_state >> ((_state >> 28u) + 4u)) ^ _state) * 277803737u;
-        x = (x >> 22u) ^ x;
-        return float(x >> 8) * 0x1p-24f;
-    }
-    glm::vec3 next3() {
-        const float a = next(), b = next(), c = next();
-        return {a, b, c};
-    }
-    /// Uniform on the sphere.
-    glm::vec3 direction() {
-        const float z = 1.0f - 2.0f * next(), phi = 6.2831853f * next();
-        const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
-        return {r * std::cos(phi), r * std::sin(phi), z};
-    }
-
-private:
-    uint32_t _state;
+/// Its numbers by name.
+struct Random : test::Random {
+    using test::Random::Random;
+    float next() { return (*this)(); }
+    glm::vec3 next3() { return cube(); }
 };
 
 } // namespace patina

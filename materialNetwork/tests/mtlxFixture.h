@@ -63,17 +63,12 @@ protected:
     Diagnostics diagnostics;
 };
 
-inline std::vector<Network> readBody(const std::string& body, Diagnostics& diagnostics,
-                                     const std::string& attributes = version139) {
-    const Documents documents;
-    documents.write("main.mtlx", body, attributes);
-    return documents.read("main.mtlx", diagnostics);
-}
-
 /// The only material of a document about which there is nothing to say.
 inline Network readOne(const std::string& body, const std::string& attributes = version139) {
+    const Documents documents;
+    documents.write("main.mtlx", body, attributes);
     Diagnostics diagnostics;
-    const auto networks = readBody(body, diagnostics, attributes);
+    const auto networks = documents.read("main.mtlx", diagnostics);
     EXPECT_TRUE(nothingTold(diagnostics));
     EXPECT_EQ(networks.size(), 1u);
     return networks.empty() ? Network() : networks[0];
@@ -93,6 +88,11 @@ inline std::string constantOf(const std::string& name, const std::string& type,
                               const std::string& value) {
     return "<constant name='" + name + "' type='" + type + "'>" + inputOf("value", type, value) +
            "</constant>";
+}
+
+/// Node "p", a color3 of another type's node.
+inline std::string convertOf(const std::string& type, const std::string& node) {
+    return "<convert name='p' type='color3'>" + inputFrom("in", type, node) + "</convert>";
 }
 
 /// A definition ND_ID, and its graph NG_ID, whose output is node "c".

@@ -3,27 +3,9 @@
 
 #include "materialNetwork/tests/materialFixture.h"
 
-#include <cmath>
-
 namespace patina {
 
-/// Mean of random numbers, and how far it may be off.
-struct Mean {
-    double sum = 0.0, squares = 0.0;
-    int count = 0;
-
-    void add(double x) {
-        sum += x;
-        squares += x * x;
-        ++count;
-    }
-    double mean() const { return sum / count; }
-    /// Variance of the mean.
-    double variance() const {
-        const double m = mean();
-        return std::max(squares / count - m * m, 0.0) / count;
-    }
-};
+using test::Mean;
 
 /// @returns how many standard errors two means lie apart
 inline double deviations(const Mean& a, const Mean& b) {

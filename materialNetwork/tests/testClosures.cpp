@@ -3,10 +3,7 @@
 // is sampled by the density that it states.
 #include "materialNetwork/tests/statistics.h"
 
-#include <algorithm>
-#include <cmath>
-
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -58,8 +55,7 @@ const std::vector<Case> cases = {
 TEST(Closures, AreModelledAndKeepEnergy) {
     for (const Case& c : cases) {
         SCOPED_TRACE(c.id);
-        const Compiled compiled(lobeNetwork(c.id, c.inputs));
-        EXPECT_TRUE(nothingTold(compiled));
+        const CleanCompiled compiled(lobeNetwork(c.id, c.inputs));
         for (const float theta : {0.0f, 40.0f, 75.0f, 89.0f, 89.9f}) {
             const Bsdf bsdf = compiled.lobes(direction(theta, 20.0f));
             ASSERT_EQ(bsdf.lobeCount(), 1) << theta;
@@ -107,11 +103,10 @@ TEST(Closures, OldThinFilmCoatsWhatIsBelow) {
     const Compiled now(lobeNetwork(
         "ND_conductor_bsdf",
         {{"roughness", rough}, {"thinfilm_thickness", 420.0f}, {"thinfilm_ior", 1.7f}}));
-    const Compiled old(
+    const CleanCompiled old(
         layered({makeNode("top", "ND_thin_film_bsdf", {{"thickness", 420.0f}, {"ior", 1.7f}}),
                  makeNode("metal", "ND_conductor_bsdf", {{"roughness", rough}}),
                  mixNode("base", "metal", "metal", 0.25f)}));
-    EXPECT_TRUE(nothingTold(old));
     const Bsdf a = now.lobes(direction(50.0f)), b = old.lobes(direction(50.0f));
     const glm::vec3 wi = direction(45.0f, 180.0f);
     expectVector(a.albedo(), b.albedo(), 1e-6f);
@@ -123,9 +118,8 @@ TEST(Closures, OldThinFilmCoatsWhatIsBelow) {
 
 TEST(Closures, DistributionChoosesTheFacets) {
     const auto value = [&](const char* distribution) {
-        const Compiled c(lobeNetwork("ND_conductor_bsdf",
-                                     {{"roughness", pair(0.3f)}, {"distribution", distribution}}));
-        EXPECT_TRUE(nothingTold(c));
+        const CleanCompiled c(lobeNetwork(
+            "ND_conductor_bsdf", {{"roughness", pair(0.3f)}, {"distribution", distribution}}));
         return c.lobes(direction(30.0f)).eval(direction(60.0f)).specular.x;
     };
     // Far from the mirror direction Beckmann's tail is the thinner one.
@@ -156,8 +150,7 @@ TEST(Closures, HairHelpersFeedTheLobe) {
 
 TEST(Closures, EdfsDependOnTheDirection) {
     const auto emitted = [](std::vector<NetworkNode> nodes, float theta) {
-        const Compiled c(edfNetwork(std::move(nodes)));
-        EXPECT_TRUE(nothingTold(c));
+        const CleanCompiled c(edfNetwork(std::move(nodes)));
         return c->emission(seenFrom(direction(theta)), direction(theta));
     };
     const auto cone = [&](float inner, float outer, float theta) {
@@ -213,8 +206,7 @@ TEST(Closures, MeasuredEdfFollowsItsProfile) {
                 EXPECT_NEAR(program->emission(seenFrom(w), w).y, expected, 1e-4f) << theta << phi;
         }
     Compiled without(network({{"color", grey(3.0f)}}));
-    EXPECT_EQ(warnings(without),
-              "/m/edf [file] names no IES file; it emits the same everywhere\n");
+    EXPECT_EQ(warnings(without), "/m/edf [file] names no IES file; it emits the same everywhere\n");
     EXPECT_EQ(without->emission(ShadingPoint(), direction(50.0f)).x, 3.0f);
 }
 
@@ -254,8 +246,5 @@ TEST(Closures, OldNamesAreTheSameLobes) {
 
 TEST(Closures, UnknownChoicesAreReported) {
     Compiled c(lobeNetwork("ND_sheen_bsdf", {{"mode", "velvet"}}));
-    EXPECT_EQ(warnings(c),
-              "/m/bsdf [mode] 'velvet' is not known; conty_kulla is used\n");
+    EXPECT_EQ(warnings(c), "/m/bsdf [mode] 'velvet' is not known; conty_kulla is used\n");
 }
-
-} // namespace patina

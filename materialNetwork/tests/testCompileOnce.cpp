@@ -5,7 +5,7 @@
 #include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/tests/materialFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -71,5 +71,3 @@ TEST(CompileOnce, WhatABoundMethodDoesNotReadIsLeftOut) {
     EXPECT_GT(diffuse->ir().surfaceCode.size(), 0u) << "the colour is read";
     EXPECT_EQ(diffuse.albedo(), walk.albedo());
 }
-
-} // namespace patina

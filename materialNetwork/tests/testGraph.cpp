@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -80,8 +80,8 @@ TEST(Graph, ManyLobesAreCutWithAWarning) {
         const std::string lobe = numbered("lobe", i);
         nodes.push_back(makeNode(lobe, "ND_oren_nayar_diffuse_bsdf",
                                  {{"color", grey(0.01f)}, {"roughness", 0.01f * float(i)}}));
-        nodes.push_back(makeNode(i + 1 == n ? "bsdf" : numbered("sum", i), "ND_add_bsdf", {},
-                                 {{"in1", i ? numbered("sum", i - 1) : "lobe0"}, {"in2", lobe}}));
+        nodes.push_back(binaryNode(i + 1 == n ? "bsdf" : numbered("sum", i), "ND_add_bsdf",
+                                   i ? numbered("sum", i - 1) : "lobe0", lobe));
     }
     const Compiled c(bsdfNetwork(nodes));
     EXPECT_TRUE(told(c, "more than 32 lobes"));
@@ -96,8 +96,7 @@ TEST(Graph, SharedClosuresCostNoMoreThanTheirNumber) {
         const std::string half = numbered("h", i);
         nodes.push_back(
             makeNode(half, "ND_multiply_bsdfF", {{"in2", 0.5f}}, {{"in1", numbered("s", i - 1)}}));
-        nodes.push_back(
-            makeNode(numbered("s", i), "ND_add_bsdf", {}, {{"in1", half}, {"in2", half}}));
+        nodes.push_back(binaryNode(numbered("s", i), "ND_add_bsdf", half, half));
     }
     nodes.push_back(layerNode("bsdf", numbered("s", n), numbered("s", n)));
     const Network network = bsdfNetwork(nodes);
@@ -139,5 +138,3 @@ TEST(NodeTable, HasNoDoublesAndCompleteRows) {
     }
     EXPECT_GT(ids.size(), 250u);
 }
-
-} // namespace patina

@@ -5,9 +5,7 @@
 
 #include "base/limits.h"
 
-#include <cmath>
-
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -19,7 +17,7 @@ std::vector<NetworkNode> withDoubled(std::vector<NetworkNode> nodes, const std::
     nodes.push_back(first);
     for (int i = 1; i <= levels; ++i) {
         const std::string before = numbered(name, i - 1);
-        nodes.push_back(makeNode(numbered(name, i), id, {}, {{"in1", before}, {"in2", before}}));
+        nodes.push_back(binaryNode(numbered(name, i), id, before, before));
     }
     return nodes;
 }
@@ -27,6 +25,12 @@ std::vector<NetworkNode> withDoubled(std::vector<NetworkNode> nodes, const std::
 void expectFinite(const Compiled& c) {
     const glm::vec3 albedo = c.albedo({0.6f, 0.0f, 0.8f});
     EXPECT_TRUE(std::isfinite(albedo.x + albedo.y + albedo.z));
+}
+
+void expectTold(const Network& network, const std::string& part) {
+    const Compiled c(network);
+    EXPECT_TRUE(told(c, part));
+    expectFinite(c);
 }
 
 } // namespace
@@ -56,15 +60,12 @@ TEST(HostileNetworks, MixedShadersThatAreSharedAreMixedOnce) {
                  {"displacement", "ND_displacement_float", "ND_mix_displacementshader"},
                  {"volume", "ND_volume", "ND_mix_volumeshader"}};
     for (const auto& kind : kinds) {
-        Network network;
-        network.path = "/m";
-        network.nodes = {makeNode("a0", kind.first), makeNode("b0", kind.first)};
+        Network network = makeNetwork({makeNode("a0", kind.first), makeNode("b0", kind.first)});
         for (int i = 1; i <= levels; ++i)
             for (const auto& [name, share] : {std::pair("a", 0.3f), std::pair("b", 0.4f)})
-                network.nodes.push_back(
-                    makeNode(numbered(name, i), kind.mix, {{"mix", share}},
-                             {{"fg", numbered("a", i - 1)}, {"bg", numbered("b", i - 1)}}));
-        network.terminals[kind.terminal] = {"/m/" + numbered("a", levels), ""};
+                network.nodes.push_back(mixNode(numbered(name, i), numbered("a", i - 1),
+                                                numbered("b", i - 1), share, kind.mix));
+        network.terminals = {{kind.terminal, {"/m/" + numbered("a", levels), ""}}};
         expectFinite(Compiled(network));
     }
 }
@@ -79,20 +80,17 @@ TEST(HostileNetworks, WhatAnIorReadsIsAskedOnce) {
 }
 
 TEST(HostileNetworks, SlopesOfSlopesEnd) {
-    std::vector<NetworkNode> nodes = {
-        makeNode("uv", "ND_texcoord_vector2"),
-        makeNode("h0", "ND_dotproduct_vector2", {}, {{"in1", "uv"}, {"in2", "uv"}})};
+    std::vector<NetworkNode> nodes = {makeNode("uv", "ND_texcoord_vector2"),
+                                      binaryNode("h0", "ND_dotproduct_vector2", "uv", "uv")};
     for (int i = 1; i <= levels; ++i) {
         nodes.push_back(makeNode(numbered("n", i), "ND_heighttonormal_vector3", {},
                                  {{"in", numbered("h", i - 1)}}));
-        nodes.push_back(makeNode(numbered("h", i), "ND_dotproduct_vector3", {},
-                                 {{"in1", numbered("n", i)}, {"in2", numbered("n", i)}}));
+        nodes.push_back(binaryNode(numbered("h", i), "ND_dotproduct_vector3", numbered("n", i),
+                                   numbered("n", i)));
     }
     nodes.push_back(
         makeNode("bsdf", "ND_oren_nayar_diffuse_bsdf", {}, {{"roughness", numbered("h", levels)}}));
-    Compiled c(bsdfNetwork(nodes));
-    EXPECT_TRUE(told(c, "too much would have to be evaluated")) << warnings(c);
-    expectFinite(c);
+    expectTold(bsdfNetwork(nodes), "too much would have to be evaluated");
 }
 
 TEST(HostileNetworks, ChainsAreNotMadeLongPieceByPiece) {
@@ -100,22 +98,15 @@ TEST(HostileNetworks, ChainsAreNotMadeLongPieceByPiece) {
     std::vector<NetworkNode> nodes = {makeNode("n0", "ND_oren_nayar_diffuse_bsdf"),
                                       makeNode("top", "ND_dielectric_bsdf")};
     for (int i = 1; i <= length; ++i)
-        nodes.push_back(makeNode(numbered("n", i), "ND_add_bsdf", {},
-                                 {{"in1", numbered("n", i - 1)}, {"in2", "n0"}}));
+        nodes.push_back(binaryNode(numbered("n", i), "ND_add_bsdf", numbered("n", i - 1), "n0"));
     // Rungs, of which the lowest is followed first, make a long chain known from below.
-    nodes.push_back(makeNode("r1", "ND_add_bsdf", {},
-                             {{"in1", numbered("n", step)}, {"in2", numbered("n", 2 * step)}}));
+    nodes.push_back(binaryNode("r1", "ND_add_bsdf", numbered("n", step), numbered("n", 2 * step)));
     for (int k = 2; k * step + step <= length; ++k)
-        nodes.push_back(
-            makeNode(numbered("r", k), "ND_add_bsdf", {},
-                     {{"in1", numbered("r", k - 1)}, {"in2", numbered("n", (k + 1) * step)}}));
+        nodes.push_back(binaryNode(numbered("r", k), "ND_add_bsdf", numbered("r", k - 1),
+                                   numbered("n", (k + 1) * step)));
     nodes.push_back(layerNode("layer", "top", numbered("n", length)));
-    nodes.push_back(makeNode("bsdf", "ND_add_bsdf", {},
-                             {{"in1", numbered("r", length / step - 1)}, {"in2", "layer"}}));
-    Compiled c(bsdfNetwork(nodes));
-    EXPECT_TRUE(told(c, "more nodes follow each other than 1000 (--limit chain)"))
-        << c.diagnostics.count();
-    expectFinite(c);
+    nodes.push_back(binaryNode("bsdf", "ND_add_bsdf", numbered("r", length / step - 1), "layer"));
+    expectTold(bsdfNetwork(nodes), "more nodes follow each other than 1000 (--limit chain)");
 }
 
 TEST(HostileNetworks, ConstantMatricesCountAsTheirRows) {
@@ -135,17 +126,14 @@ TEST(HostileNetworks, ConstantMatricesCountAsTheirRows) {
         std::vector<std::string> half;
         for (size_t i = 0; i + 1 < sums.size(); i += 2) {
             half.push_back(numbered("s", number++));
-            nodes.push_back(makeNode(half.back(), "ND_add_vector4", {},
-                                     {{"in1", sums[i]}, {"in2", sums[i + 1]}}));
+            nodes.push_back(binaryNode(half.back(), "ND_add_vector4", sums[i], sums[i + 1]));
         }
         if (sums.size() % 2) half.push_back(sums.back());
         sums = half;
     }
     nodes.push_back(makeNode("e", "ND_extract_vector4", {}, {{"in", sums[0]}}));
     nodes.push_back(makeNode("bsdf", "ND_oren_nayar_diffuse_bsdf", {}, {{"roughness", "e"}}));
-    Compiled c(bsdfNetwork(nodes));
-    EXPECT_TRUE(told(c, "the material is too large")) << warnings(c);
-    expectFinite(c);
+    expectTold(bsdfNetwork(nodes), "the material is too large");
 }
 
 TEST(HostileNetworks, ConstantLayersThatAreWalkedHaveAllRegisters) {
@@ -156,11 +144,11 @@ TEST(HostileNetworks, ConstantLayersThatAreWalkedHaveAllRegisters) {
     EXPECT_TRUE(std::isfinite(eval.pdf) && eval.pdf > 0.0f);
 }
 
-struct HostileDocuments : MtlxTest {
-    ~HostileDocuments() override { setLimits({}); }
+struct Limits : MtlxTest {
+    ~Limits() override { setLimits({}); }
 };
 
-TEST_F(HostileDocuments, MaterialsTogetherHaveNoMoreNodesThanFiveTimesTheLimit) {
+TEST_F(Limits, MaterialsTogetherHaveNoMoreNodesThanFiveTimesTheLimit) {
     setLimits({{"nodes", 10}});
     std::string body =
         "<add name='n0' type='float'/><surface_unlit name='s' type='surfaceshader'>" +
@@ -180,7 +168,7 @@ TEST_F(HostileDocuments, MaterialsTogetherHaveNoMoreNodesThanFiveTimesTheLimit) 
     EXPECT_TRUE(reported("more nodes than five times 10"));
 }
 
-TEST_F(HostileDocuments, TextsThatNodesShareAreCopiedNoOftenerThanALimitAllows) {
+TEST_F(Limits, TextsThatNodesShareAreCopiedNoOftenerThanALimitAllows) {
     setLimits({{"documentBytes", 30000}});
     std::string body = "<nodegraph name='g'>" + inputOf("f", "string", std::string(1000, 'x'));
     for (int i = 0; i < 100; ++i)
@@ -192,4 +180,30 @@ TEST_F(HostileDocuments, TextsThatNodesShareAreCopiedNoOftenerThanALimitAllows) 
     EXPECT_EQ(diagnostics.count(), 1);
 }
 
-} // namespace patina
+TEST_F(Limits, AreSetTogetherOrNotAtAll) {
+    const uint64_t nodes = limitOf(Limit::nodes);
+    EXPECT_EQ(setLimits({{"nodes", 7}}), "");
+    EXPECT_EQ(limitOf(Limit::nodes), 7u);
+    EXPECT_EQ(limitText(Limit::nodes), "7 (--limit nodes)");
+    EXPECT_TRUE(has(setLimits({{"nodes", 9}, {"nothing", 1}}), "no limit 'nothing'"));
+    EXPECT_EQ(setLimits({{"nesting", 1}}), "the limit nesting is from 8 to 1000");
+    EXPECT_EQ(limitOf(Limit::nodes), 7u);
+    EXPECT_EQ(setLimits({}), "");
+    EXPECT_EQ(limitOf(Limit::nodes), nodes);
+}
+
+TEST_F(Limits, TextsThatAreTooLongAreLeftOutAndNamed) {
+    setLimits({{"textLength", 8}});
+    const Network network =
+        makeNetwork({makeNode("image", "ND_image_color3",
+                              {{"file", file("123456789")}, {"uaddressmode", "12345678"}})},
+                    "image");
+    const Network found = expand(network, diagnostics);
+    ASSERT_EQ(found.nodes.size(), 1u);
+    EXPECT_EQ(found.nodes[0].inputs.count("file"), 0u);
+    EXPECT_EQ(found.nodes[0].inputs.count("uaddressmode"), 1u);
+    ASSERT_EQ(diagnostics.count(), 1);
+    const Diagnostic told = diagnostics.all()[0];
+    EXPECT_EQ(told.prim + " " + told.input + ": " + told.message,
+              "/m/image file: the text is longer than 8 (--limit textLength); the default is used");
+}

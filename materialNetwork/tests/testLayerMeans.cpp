@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -115,5 +115,3 @@ TEST(LayerMeans, MetalAndClearcoatOfUsdPreviewSurface) {
                                               {"ior", ior}}));
     EXPECT_NEAR(coat({0.0f, 0.0f, 1.0f}), ofIor, 1e-3f);
 }
-
-} // namespace patina

@@ -3,7 +3,7 @@
 #include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/tests/layerFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -129,5 +129,3 @@ TEST(LayerWalk, ValuesAreFiniteAndDensitiesPositive) {
           layered({coat("top", 1.0f, 0.2f), coat("base", 2.4f, 0.5f, "RT")})})
         expectSound(*walked(network, bothWalk), random, 500);
 }
-
-} // namespace patina

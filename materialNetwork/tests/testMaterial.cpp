@@ -2,7 +2,7 @@
 // Programs: what they ask for, what they say about themselves, patterns, textures, overrides.
 #include "materialNetwork/tests/patternFixture.h"
 
-namespace patina {
+using namespace patina;
 
 TEST(Material, FlagsOfADefaultPreviewSurface) {
     const Compiled c(previewNetwork());
@@ -95,15 +95,6 @@ TEST(Material, ConstantOpacityIsGlass) {
     EXPECT_NEAR(-s.wi.x, 0.70710678f / 1.5f, 1e-5f);
 }
 
-TEST(Material, AbsorptionInsideGlass) {
-    const Compiled c(bsdfNetwork(
-        {makeNode("glass", "ND_dielectric_bsdf", {{"scatter_mode", "RT"}}),
-         makeNode("inside", "ND_absorption_vdf", {{"absorption", vector(1, 2, 3)}}),
-         makeNode("bsdf", "ND_layer_vdf", {}, {{"top", "glass"}, {"base", "inside"}})}));
-    ASSERT_TRUE(c->hasInterior());
-    expectVector(c->interior(ShadingPoint()).absorption, 1, 2, 3);
-}
-
 TEST(Material, TexturesAreReadWithScaleBiasAndChannels) {
     const auto shown = [](const char* name, const char* output, Inputs inputs = {}) {
         inputs["file"] = file(name);
@@ -173,13 +164,6 @@ TEST(Material, ObjectSpaceUndoesTheTransform) {
     expectVector(emitted(showing({n}, "n", "vector3"), point), 1.0f, 0.0f, 0.0f);
 }
 
-TEST(Material, UnlitEmits) {
-    const Compiled c(modelNetwork(
-        "ND_surface_unlit", {{"emission", 2.0f}, {"emission_color", color(0.1f, 0.2f, 0.3f)}}));
-    ASSERT_TRUE(c->hasEmission());
-    expectVector(c->emission(ShadingPoint(), {0, 0, 1}), 0.2f, 0.4f, 0.6f);
-}
-
 TEST(Overrides, ReplaceValuesAndConnections) {
     const Network network =
         previewNetwork({}, {{"diffuseColor", "c"}}, {makeNode("c", "ND_constant_color3")});
@@ -197,5 +181,3 @@ TEST(Overrides, ReplaceValuesAndConnections) {
     applyOverrides(network, {{"sparkle", number(1.0f)}}, diagnostics);
     EXPECT_EQ(diagnostics.count(), 1);
 }
-
-} // namespace patina

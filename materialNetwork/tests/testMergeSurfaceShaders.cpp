@@ -2,7 +2,7 @@
 // Mixes of whole shaders, back shaders, unlit surfaces: one program that acts as its parts do.
 #include "materialNetwork/tests/mtlxFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -56,7 +56,7 @@ TEST(MergeSurfaceShaders, MixesCountByTheirPresence) {
 }
 
 TEST(MergeSurfaceShaders, MixesOfModelsNestAndVaryOverTheSurface) {
-    const Compiled c(modelNetwork(
+    const CleanCompiled c(modelNetwork(
         "ND_mix_surfaceshader", {}, {{"fg", "inner"}, {"bg", "lamp"}, {"mix", "u.outx"}},
         {makeNode("paint", "ND_standard_surface_surfaceshader",
                   {{"base_color", color(1, 0, 0)}, {"specular", 0.0f}}),
@@ -64,7 +64,6 @@ TEST(MergeSurfaceShaders, MixesOfModelsNestAndVaryOverTheSurface) {
          mixNode("inner", "paint", "lamp", 0.5f, "ND_mix_surfaceshader"),
          makeNode("uv", "ND_texcoord_vector2"),
          makeNode("u", "ND_separate2_vector2", {}, {{"in", "uv"}})}));
-    EXPECT_TRUE(nothingTold(c));
     for (const float u : {0.0f, 0.5f, 1.0f}) {
         const PointWith point(*c.program, {{"st", glm::vec4(u)}, {"UV0", glm::vec4(u)}});
         expectVector(c.lobes(point).albedo(), 0.5f * u, 0.0f, 0.0f, 1e-4f);
@@ -100,19 +99,20 @@ TEST(MergeSurfaceShaders, BackShadersShowFromBehind) {
 }
 
 TEST(MergeSurfaceShaders, UnlitSurfacesPassLight) {
-    const Compiled c(
+    const CleanCompiled c(
         modelNetwork("ND_surface_unlit", {{"emission", 2.0f},
+                                          {"emission_color", color(0.1f, 0.2f, 0.3f)},
                                           {"transmission", 0.5f},
                                           {"transmission_color", color(1.0f, 0.5f, 0.0f)},
                                           {"opacity", 0.8f}}));
-    EXPECT_TRUE(nothingTold(c));
     glm::vec3 passes(0.0f);
     float presence = 0.0f;
     const float opacity = c->opacity(ShadingPoint(), &passes, &presence);
     EXPECT_EQ(presence, 0.8f);
     // mix(1, transmission * colour, opacity)
     expectVector(passes * (1.0f - opacity), 0.6f, 0.4f, 0.2f);
-    expectVector(emission(c) * presence, 1.6f, 1.6f, 1.6f);
+    EXPECT_TRUE(c->hasEmission());
+    expectVector(emission(c) * presence, 0.16f, 0.32f, 0.48f);
     expectVector(c.albedo(), 0.0f, 0.0f, 0.0f);
 }
 
@@ -151,8 +151,7 @@ TEST(MergeSurfaceShaders, DisplacementsAreMixed) {
                   {{"displacement", vector(1, 2, 3)}, {"scale", 2.0f}}),
          mixNode("mixed", "up", "aside", 0.25f, "ND_mix_displacementshader")});
     network.terminals["displacement"] = {"/m/mixed", ""};
-    const Compiled c(network);
-    EXPECT_TRUE(nothingTold(c));
+    const CleanCompiled c(network);
     expectVector(c->displacement(ShadingPoint()), 1.5f, 3.0f, 4.75f);
 }
 
@@ -165,8 +164,7 @@ TEST(MergeSurfaceShaders, VolumesAreMixed) {
                      makeNode("b", "ND_volume", {}, {{"vdf", "clear"}}),
                      mixNode("mixed", "a", "b", 0.25f, "ND_mix_volumeshader")});
     network.terminals = {{"volume", {"/m/mixed", ""}}};
-    const Compiled c(network);
-    EXPECT_TRUE(nothingTold(c));
+    const CleanCompiled c(network);
     const Medium medium = c->interior(ShadingPoint());
     expectVector(medium.absorption, 1.0f, 0.5f, 1.0f);
     expectVector(medium.scattering(), 2.0f, 2.0f, 2.0f);
@@ -189,13 +187,14 @@ TEST(MergeSurfaceShaders, MediaOfMixedSurfacesAreMixed) {
     for (const auto& [name, absorption] : {std::pair(std::string("a"), 4.0f), {"b", 1.0f}})
         for (const NetworkNode& node :
              {makeNode(name + "T", "ND_dielectric_bsdf", {{"scatter_mode", "RT"}}),
-              makeNode(name + "V", "ND_absorption_vdf", {{"absorption", vector(absorption, 0, 0)}}),
+              makeNode(name + "V", "ND_absorption_vdf",
+                       {{"absorption", vector(absorption, 2 * absorption, 0)}}),
               makeNode(name + "B", "ND_layer_vdf", {}, {{"top", name + "T"}, {"base", name + "V"}}),
               surfaceOf(name, name + "B")})
             nodes.push_back(node);
-    const Compiled c(makeNetwork(nodes));
-    EXPECT_TRUE(nothingTold(c));
-    EXPECT_NEAR(c->interior(ShadingPoint()).absorption.x, 1.75f, 1e-5f);
+    const CleanCompiled c(makeNetwork(nodes));
+    ASSERT_TRUE(c->hasInterior());
+    expectVector(c->interior(ShadingPoint()).absorption, 1.75f, 3.5f, 0.0f);
 }
 
 // Everything that the models have at once, front and back, fits.
@@ -206,11 +205,10 @@ TEST(MergeSurfaceShaders, LargeModelsFit) {
             inputs[input] = 0.3f;
         return makeNode(name, "ND_standard_surface_surfaceshader", inputs);
     };
-    const Compiled c(modelNetwork(
+    const CleanCompiled c(modelNetwork(
         "ND_surfacematerial", {}, {{"surfaceshader", "front"}, {"backsurfaceshader", "c"}},
         {everything("a", 0.3f), everything("b", 0.4f), everything("c", 0.5f),
          mixNode("front", "a", "b", 0.5f, "ND_mix_surfaceshader")}));
-    EXPECT_TRUE(nothingTold(c));
     EXPECT_GT(c.lobes(direction(40.0f)).lobeCount(), 5);
     EXPECT_LE(c.albedo().y, 1.01f);
 }
@@ -236,7 +234,7 @@ TEST(MergeSurfaceShaders, OverridesReachTheFront) {
 }
 
 TEST(MergeSurfaceShaders, DocumentsHaveThem) {
-    const Compiled c(readOne(R"(
+    const CleanCompiled c(readOne(R"(
   <surface_unlit name="red" type="surfaceshader">
     <input name="emission_color" type="color3" value="1, 0, 0" /></surface_unlit>
   <surface_unlit name="green" type="surfaceshader">
@@ -253,10 +251,7 @@ TEST(MergeSurfaceShaders, DocumentsHaveThem) {
     <input name="displacementshader" type="displacementshader" nodename="bump" />
   </surfacematerial>
   )"));
-    EXPECT_TRUE(nothingTold(c));
     expectVector(emission(c), 0.25f, 0.75f, 0.0f);
     expectVector(emission(c, back), 0.0f, 1.0f, 0.0f);
     expectVector(c->displacement(ShadingPoint()), 0.0f, 0.0f, 0.5f);
 }
-
-} // namespace patina

@@ -3,7 +3,7 @@
 #include "materialNetwork/tests/statistics.h"
 #include "shaders/measure/microsurfaceWalk.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -124,5 +124,3 @@ TEST(Microsurface, ValuesFollowFromSeeds) {
 TEST(Microsurface, SmoothLobesKeepTheirFormulas) {
     EXPECT_FALSE(lobesAt(*walked(metal(0.2f, 3.4f, 0.0f, 0.0f))).stochastic());
 }
-
-} // namespace patina

@@ -4,10 +4,7 @@
 
 #include "materialNetwork/nodes/models.h"
 
-#include <algorithm>
-#include <cmath>
-
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -247,5 +244,3 @@ TEST(Models, ThinFilmColoursTheHighlight) {
         EXPECT_GT(std::max({a.x, a.y, a.z}) - std::min({a.x, a.y, a.z}), 5e-3f) << id;
     }
 }
-
-} // namespace patina

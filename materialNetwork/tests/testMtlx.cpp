@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-namespace patina {
+using namespace patina;
 
 using Mtlx = MtlxTest;
 
@@ -128,5 +128,3 @@ TEST_F(Mtlx, ExampleDocumentsCompile) {
     }
     EXPECT_GT(count, 0);
 }
-
-} // namespace patina

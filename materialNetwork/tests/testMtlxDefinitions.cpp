@@ -2,9 +2,11 @@
 // What a document defines itself: nodes, versions of them, tokens, geometric properties, units.
 #include "materialNetwork/tests/mtlxFixture.h"
 
-namespace patina {
+using namespace patina;
 
-TEST(MtlxDefinitions, InheritInputsAndOutputs) {
+using DocumentDefinitions = MtlxTest;
+
+TEST_F(DocumentDefinitions, InheritInputsAndOutputs) {
     const std::string defs = R"(
       <nodedef name="ND_parent" node="parent">
         <input name="a" type="color3" value="0.5, 0, 0" />
@@ -22,17 +24,15 @@ TEST(MtlxDefinitions, InheritInputsAndOutputs) {
                  0, 0.75f, 1);
 }
 
-TEST(MtlxDefinitions, CirclesOfInheritanceEnd) {
-    Diagnostics diagnostics;
-    readBody(R"(<nodedef name="A" node="a" inherit="B"><output name="out" type="float" /></nodedef>
+TEST_F(DocumentDefinitions, CirclesOfInheritanceEnd) {
+    read(R"(<nodedef name="A" node="a" inherit="B"><output name="out" type="float" /></nodedef>
       <nodedef name="B" node="b" inherit="A" /><nodegraph name="G" nodedef="A" />
       <nodedef name="C" node="c" inherit="nobody"><output name="out" type="float" /></nodedef>
-      <nodegraph name="H" nodedef="C" />)",
-             diagnostics);
+      <nodegraph name="H" nodedef="C" />)");
     EXPECT_EQ(diagnostics.count(), 2) << warnings(diagnostics);
 }
 
-TEST(MtlxDefinitions, Versions) {
+TEST_F(DocumentDefinitions, Versions) {
     const auto version = [](const std::string& number, const std::string& color,
                             const std::string& more = "") {
         return definition("c" + number, "shade", "", constantOf("c", "color3", color), "color3",
@@ -44,12 +44,11 @@ TEST(MtlxDefinitions, Versions) {
     expectVector(lightOf(all + R"(<shade name="p" type="color3" />)"), 0, 1, 0);
     expectVector(lightOf(all + R"(<shade name="p" type="color3" version="1.0" />)"), 1, 0, 0);
     expectVector(lightOf(all + R"(<shade name="p" type="color3" version="3.0" />)"), 0, 0, 1);
-    Diagnostics diagnostics;
-    readBody(all + R"(<shade name="p" type="color3" version="4.0" />)", diagnostics);
+    read(all + R"(<shade name="p" type="color3" version="4.0" />)");
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
 }
 
-TEST(MtlxDefinitions, GeometricPropertiesOfGraphsAndDocuments) {
+TEST_F(DocumentDefinitions, GeometricPropertiesOfGraphsAndDocuments) {
     ShadingPoint point;
     point.objectPosition = {0.1f, 0.2f, 0.3f};
     const std::string graph = R"(<nodegraph name="g">
@@ -75,12 +74,11 @@ TEST(MtlxDefinitions, GeometricPropertiesOfGraphsAndDocuments) {
     expectVector(defaultsTo("geomprop='position' space='object'", "vector3"), point.objectPosition);
     expectVector(defaultsTo("geomprop='texcoord' index='1'", "vector3"), 0.5f, 0.125f, 0);
     expectVector(defaultsTo("", "float"), glm::vec3(0.7f));
-    Diagnostics diagnostics;
-    readBody(R"(<geompropdef name="mine" type="float" geomprop="smell" />)", diagnostics);
+    read(R"(<geompropdef name="mine" type="float" geomprop="smell" />)");
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
 }
 
-TEST(MtlxDefinitions, TokensInFileNames) {
+TEST_F(DocumentDefinitions, TokensInFileNames) {
     const auto filesOf = [](const std::string& body) {
         const Compiled c(readOne(body + "<surface_unlit name='s' type='surfaceshader'>" +
                                  inputFrom("emission_color", "color3", "p") + "</surface_unlit>"));
@@ -120,9 +118,8 @@ TEST(MtlxDefinitions, TokensInFileNames) {
         "elm.png ");
 }
 
-TEST(MtlxDefinitions, Units) {
-    const auto measured = [](const std::string& attributes, double metersPerUnit) {
-        const Documents documents;
+TEST_F(DocumentDefinitions, Units) {
+    const auto measured = [&](const std::string& attributes, double metersPerUnit) {
         documents.write("a.mtlx",
                         R"(
           <unitdef name="U" unittype="distance"><unit name="span" scale="0.2" /></unitdef>
@@ -130,7 +127,6 @@ TEST(MtlxDefinitions, Units) {
                             attributes +
                             " /></constant><surface_unlit name='s' type='surfaceshader'>" +
                             inputFrom("emission", "float", "p") + "</surface_unlit>");
-        Diagnostics diagnostics;
         return emitted(documents.read("a.mtlx", diagnostics, metersPerUnit).at(0)).x;
     };
     const char* const inches = R"(value="10" unit="inch" unittype="distance")";
@@ -141,9 +137,8 @@ TEST(MtlxDefinitions, Units) {
     EXPECT_FLOAT_EQ(measured(R"(value="10")", 0.01), 10.0f);
 }
 
-TEST(MtlxDefinitions, UnitsOfInputsThatHaveTheirOwn) {
-    Diagnostics diagnostics;
-    const auto networks = readBody(R"(
+TEST_F(DocumentDefinitions, UnitsOfInputsThatHaveTheirOwn) {
+    const auto networks = read(R"(
       <conductor_bsdf name="c" type="BSDF">
         <input name="thinfilm_thickness" type="float" value="0.4" unit="micron" unittype="distance" />
       </conductor_bsdf>
@@ -159,13 +154,10 @@ TEST(MtlxDefinitions, UnitsOfInputsThatHaveTheirOwn) {
       <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="c" />
         <input name="opacity" type="float" nodename="d" /></surface>
       <constant name="odd" type="float"><input name="value" type="float" value="2" unit="stone"
-          unittype="mass" /></constant>)",
-                                   diagnostics);
+          unittype="mass" /></constant>)");
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics); // of the stone
     ASSERT_EQ(networks.size(), 1u);
     EXPECT_FLOAT_EQ(networks[0].find("/c")->inputs.at("thinfilm_thickness").numbers[0], 400.0f);
     EXPECT_FLOAT_EQ(networks[0].find("/half/r")->inputs.at("amount").numbers[0], 28.64789f);
     EXPECT_FLOAT_EQ(networks[0].find("/one/r")->inputs.at("amount").numbers[0], 57.29578f);
 }
-
-} // namespace patina

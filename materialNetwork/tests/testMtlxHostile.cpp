@@ -7,7 +7,7 @@
 
 #include <sys/stat.h>
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -219,5 +219,3 @@ TEST_F(MtlxHostile, DefinitionsNestedTooDeeplyAreToldOnce) {
     const Compiled c(networks[0]);
     EXPECT_EQ(diagnostics.count() + c.diagnostics.count(), 1) << warnings(c);
 }
-
-} // namespace patina

@@ -2,7 +2,7 @@
 // Namespaces of MaterialX documents.
 #include "materialNetwork/tests/mtlxFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -145,5 +145,3 @@ TEST_F(MtlxNamespaces, AnIncludedDocumentIsUpgraded) {
     EXPECT_TRUE(nothingTold(Compiled(networks[0])));
     EXPECT_TRUE(has(dumpNetwork(networks[0]), "/lib:k_in"));
 }
-
-} // namespace patina

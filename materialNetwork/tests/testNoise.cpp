@@ -3,7 +3,7 @@
 // (libraries/stdlib/genglsl), which define these nodes.
 #include "materialNetwork/tests/patternFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -155,5 +155,3 @@ TEST(Noise, FarAndBrokenPlacesGiveNumbers) {
     // Octaves without end come to one.
     EXPECT_EQ(folded("ND_fractal3d_float", {{"position", at3}, {"octaves", {2e9f}}}).size(), 1u);
 }
-
-} // namespace patina

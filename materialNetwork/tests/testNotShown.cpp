@@ -2,7 +2,7 @@
 // Each request of a material that is not served has a warning that names prim and input.
 #include "materialNetwork/tests/mtlxFixture.h"
 
-namespace patina {
+using namespace patina;
 
 using NotShown = MtlxTest;
 
@@ -46,5 +46,3 @@ TEST_F(NotShown, AFallbackIsExplainedAsOne) {
     EXPECT_EQ(clean.count(), 0);
     EXPECT_FALSE(planMaterialMethods(previewNetwork(), textures, clean, {}, 0.0).fallback);
 }
-
-} // namespace patina

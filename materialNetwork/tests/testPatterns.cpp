@@ -2,7 +2,7 @@
 // Colour, shape and matrix nodes against closed forms.
 #include "materialNetwork/tests/patternFixture.h"
 
-namespace patina {
+using namespace patina;
 
 TEST(Patterns, ColorAdjustments) {
     expectFolded("ND_contrast_float", {{"in", {0.8f}}, {"amount", {2}}, {"pivot", {0.5f}}}, {1.1f});
@@ -187,5 +187,3 @@ TEST(Patterns, ChoicesAndWaves) {
         }
     }
 }
-
-} // namespace patina

@@ -4,7 +4,7 @@
 #include "materialNetwork/planner/planner.h"
 #include "materialNetwork/tests/materialFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -192,5 +192,3 @@ TEST(MethodTable, RowsAreWhole) {
         EXPECT_LE(largest, row.largest * 1.005f + 1e-3f) << name;
     }
 }
-
-} // namespace patina

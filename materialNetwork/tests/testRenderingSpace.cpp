@@ -4,7 +4,7 @@
 
 #include "materialNetwork/network/renderingColors.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -108,5 +108,3 @@ TEST(RenderingSpace, AColourOfAnUnknownSpaceStaysAndIsTold) {
     EXPECT_EQ(colorAt(same, "d", "color"), orange);
     EXPECT_EQ(same.nodes[0].inputs.at("color").colorSpace, "nobody knows");
 }
-
-} // namespace patina

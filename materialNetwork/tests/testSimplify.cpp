@@ -3,31 +3,24 @@
 // are constants, which fold, or primvars of the same value, which do not.
 #include "materialNetwork/tests/patternFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
-const std::pair<const char*, std::vector<const char*>> floatNodes[] = {
-    {"add", {"in1", "in2"}},
-    {"subtract", {"in1", "in2"}},
-    {"multiply", {"in1", "in2"}},
-    {"divide", {"in1", "in2"}},
-    {"min", {"in1", "in2"}},
-    {"max", {"in1", "in2"}},
-    {"power", {"in1", "in2"}},
-    {"mix", {"fg", "bg", "mix"}},
-    {"clamp", {"in", "low", "high"}},
-    {"ifgreater", {"value1", "value2", "in1", "in2"}},
-    {"ifgreatereq", {"value1", "value2", "in1", "in2"}},
-    {"ifequal", {"value1", "value2", "in1", "in2"}},
-    {"switch", {"in1", "in2", "in3", "which"}},
-    {"invert", {"in", "amount"}},
-    {"absval", {"in"}},
-    {"sqrt", {"in"}},
-    {"smoothstep", {"in", "low", "high"}},
-    {"modulo", {"in1", "in2"}},
-    {"dot", {"in"}},
+/// Inputs, and the nodes that have them.
+const std::vector<std::pair<std::vector<const char*>, std::vector<const char*>>> floatNodes = {
+    {{"in1", "in2"}, {"add", "subtract", "multiply", "divide", "min", "max", "power", "modulo"}},
+    {{"fg", "bg", "mix"}, {"mix"}},
+    {{"in", "low", "high"}, {"clamp", "smoothstep"}},
+    {{"value1", "value2", "in1", "in2"}, {"ifgreater", "ifgreatereq", "ifequal"}},
+    {{"in1", "in2", "in3", "which"}, {"switch"}},
+    {{"in", "amount"}, {"invert"}},
+    {{"in"}, {"absval", "sqrt", "dot"}},
 };
+
+template <class T> const T& oneOf(Random& random, const std::vector<T>& of) {
+    return of[size_t(random.next() * float(of.size()))];
+}
 
 /// Numbers at which rewriting rules apply are frequent.
 float leaf(Random& random) {
@@ -54,8 +47,8 @@ void randomNetworks(uint32_t seed, bool mixed, Network& constant, Network& varyi
         }
     }
     for (int i = leaves; i < leaves + nodes; ++i) {
-        const auto& [category, inputs] =
-            floatNodes[size_t(random.next() * float(std::size(floatNodes)))];
+        const auto& [inputs, categories] = oneOf(random, floatNodes);
+        const char* category = oneOf(random, categories);
         Connections connections;
         for (const char* input : inputs)
             connections[input] = numbered("n", int(random.next() * float(i)));
@@ -105,5 +98,3 @@ TEST(Simplify, DeadBranchesAreCut) {
     EXPECT_FALSE(has(dumpGraph(graph), "unused.png"));
     EXPECT_EQ(cuts.size(), 2u);
 }
-
-} // namespace patina

@@ -3,7 +3,7 @@
 #include "materialNetwork/glsl/glslMaterial.h"
 #include "materialNetwork/tests/materialFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -21,12 +21,7 @@ std::vector<NetworkNode> textureNodes() {
             makeNode("st", "UsdPrimvarReader_float2", {{"varname", "st"}})};
 }
 
-struct Case {
-    const char* name;
-    Network network;
-};
-
-std::vector<Case> opaqueCases() {
+std::vector<std::pair<const char*, Network>> opaqueCases() {
     return {
         {"plastic", previewNetwork({{"diffuseColor", color(0.6f, 0.1f, 0.05f)}})},
         {"white", previewNetwork({{"diffuseColor", grey(1.0f)}})},
@@ -45,10 +40,10 @@ std::vector<Case> opaqueCases() {
 
 TEST(StandIn, LooksMoreLikeTheMaterialThanDisplayColorDoes) {
     const glm::vec3 grey = Compiled(makeDisplayColorNetwork()).albedo();
-    for (const Case& c : opaqueCases()) {
-        SCOPED_TRACE(c.name);
-        const Compiled standIn = standInOf(c.network);
-        const glm::vec3 wanted = Compiled(c.network).albedo(), shown = standIn.albedo();
+    for (const auto& [name, network] : opaqueCases()) {
+        SCOPED_TRACE(name);
+        const Compiled standIn = standInOf(network);
+        const glm::vec3 wanted = Compiled(network).albedo(), shown = standIn.albedo();
         EXPECT_LT(distance(shown, wanted), 0.25f * distance(grey, wanted))
             << shown.x << " " << shown.y << " " << shown.z << " in place of " << wanted.x << " "
             << wanted.y << " " << wanted.z;
@@ -94,10 +89,10 @@ TEST(StandIn, HasOneTextForAll) {
         const GlslMaterial glsl = makeGlslMaterial(standInOf(network)->ir());
         return glsl.text + (glsl.presence ? "// present" : "");
     };
-    const std::string first = textOf(opaqueCases().front().network);
+    const std::string first = textOf(opaqueCases().front().second);
     EXPECT_FALSE(first.empty());
-    for (const Case& c : opaqueCases())
-        EXPECT_EQ(textOf(c.network), first) << c.name;
+    for (const auto& [name, network] : opaqueCases())
+        EXPECT_EQ(textOf(network), first) << name;
     const Network glass = lobeNetwork("ND_dielectric_bsdf", {{"scatter_mode", "RT"}});
     const Network gauze = previewNetwork({{"opacity", 0.3f}, {"opacityMode", "presence"}});
     const Network cutOut =
@@ -107,5 +102,3 @@ TEST(StandIn, HasOneTextForAll) {
     EXPECT_EQ(textOf(cutOut), textOf(glass));
     EXPECT_NEAR(standInOf(cutOut)->opacity(ShadingPoint()), 0.5f, 1e-3f) << "two of four columns";
 }
-
-} // namespace patina

@@ -2,7 +2,7 @@
 // Nodes that read the surface or images: spaces, slopes, placed images.
 #include "materialNetwork/tests/patternFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -185,5 +185,3 @@ TEST(SurfacePatterns, HexTilesWithoutSpreadAreTheImage) {
     expectVector(shown("ND_hextiledimage_color3", inputs, {0.37f, 0.61f}), 0.74f, 1.83f, 0.5f,
                  1e-4f);
 }
-
-} // namespace patina

@@ -3,7 +3,7 @@
 
 #include "materialNetwork/tests/patternFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -29,7 +29,7 @@ NetworkNode image(const std::string& name, const std::string& set) {
 /// The sum of two normals, so that both are asked for.
 Network sumOf(std::vector<NetworkNode> a, const std::vector<NetworkNode>& b) {
     a.insert(a.end(), b.begin(), b.end());
-    a.push_back(makeNode("sum", "ND_add_vector3", {}, {{"in1", "a"}, {"in2", "b"}}));
+    a.push_back(binaryNode("sum", "ND_add_vector3", "a", "b"));
     return showing(std::move(a), "sum", "vector3");
 }
 
@@ -85,10 +85,10 @@ TEST(TangentSets, TransformsOfCoordinatesTurnNoFrame) {
 
 TEST(TangentSets, TangentsByIndexAreThoseOfThatSet) {
     const Inputs second = {{"space", "world"}, {"index", 2.0f}};
-    const Network network = showing(
-        {makeNode("t", "ND_tangent_vector3", second), makeNode("b", "ND_bitangent_vector3", second),
-         makeNode("s", "ND_subtract_vector3", {}, {{"in1", "t"}, {"in2", "b"}})},
-        "s", "vector3");
+    const Network network = showing({makeNode("t", "ND_tangent_vector3", second),
+                                     makeNode("b", "ND_bitangent_vector3", second),
+                                     binaryNode("s", "ND_subtract_vector3", "t", "b")},
+                                    "s", "vector3");
     expectVector(emitted(network, {}, {{tangentPrimvar("st2"), {0, 1, 0, 1}}}), 1, 1, 0);
 }
 
@@ -128,5 +128,3 @@ TEST(TangentSets, DisplacementFollowsItsOwnMap) {
     EXPECT_EQ(c->tangentSet(), "st");
     EXPECT_EQ(c->displacementSet(), "st1");
 }
-
-} // namespace patina

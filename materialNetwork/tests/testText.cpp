@@ -4,7 +4,7 @@
 #include "materialNetwork/network/translate.h"
 #include "materialNetwork/tests/reviewed.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -108,7 +108,7 @@ TEST(Text, Closures) {
             {makeNode("uv", "ND_texcoord_vector2"),
              makeNode("noise", "ND_noise2d_float", {{"amplitude", 0.5f}}, {{"texcoord", "uv"}}),
              makeNode("wear", "ND_geompropvalue_float", {{"geomprop", "wear"}}),
-             makeNode("height", "ND_multiply_float", {}, {{"in1", "noise"}, {"in2", "wear"}}),
+             binaryNode("height", "ND_multiply_float", "noise", "wear"),
              makeNode("bumps", "ND_bump_vector3", {{"scale", 2.0f}}, {{"height", "height"}}),
              makeNode("bsdf", "ND_oren_nayar_diffuse_bsdf", {}, {{"normal", "bumps"}})}));
 }
@@ -136,5 +136,3 @@ TEST(Text, EveryProblemIsNamed) {
                         makeNode("strange", "ND_no_such_node"),
                         makeNode("loop", "ND_add_float", {{"in2", 1.4f}}, {{"in1", "loop"}})}));
 }
-
-} // namespace patina

@@ -3,10 +3,7 @@
 // another way, nor by a normal that is turned.
 #include "materialNetwork/tests/statistics.h"
 
-#include <algorithm>
-#include <cmath>
-
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -179,5 +176,3 @@ TEST(TiltedFurnace, MirrorsReflectAboveTheirSurfaceWhateverTheirNormal) {
         EXPECT_NE(drawn(c.lobes(point), random).event, 0) << i;
     }
 }
-
-} // namespace patina

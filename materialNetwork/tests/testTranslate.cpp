@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -170,5 +170,3 @@ TEST(Translate, WhatCannotBeTranslatedIsReported) {
     EXPECT_TRUE(translateMaterial(Network(), "gltf_pbr", diagnostics).empty());
     EXPECT_EQ(diagnostics.count(), 3) << warnings(diagnostics);
 }
-
-} // namespace patina

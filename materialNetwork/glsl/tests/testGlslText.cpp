@@ -5,7 +5,7 @@
 #include "materialNetwork/tests/reviewed.h"
 #include "shaders/shaderText.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -65,8 +65,7 @@ protected:
         const Network network = name == "coatedPlastic"   ? coatedPlastic()
                                 : name == "texturedBumps" ? texturedBumps("wood")
                                                           : flakesUnderGlass();
-        const Compiled c(network);
-        EXPECT_TRUE(nothingTold(c));
+        const CleanCompiled c(network);
         const GlslMaterial glsl = makeGlslMaterial(c->ir());
         EXPECT_TRUE(glsl.leftOut.empty());
         return glsl;
@@ -121,9 +120,7 @@ TEST(GlslTextTextures, ShareUnitsWhereThereAreTooMany) {
         const std::string image = numbered("image", i),
                           before = numbered(i > 1 ? "sum" : "image", i - 1);
         nodes.push_back(makeNode(image, "ND_image_color3", {{"file", file(image + ".png")}}));
-        if (i > 0)
-            nodes.push_back(makeNode(numbered("sum", i), "ND_add_color3", {},
-                                     {{"in1", before}, {"in2", image}}));
+        if (i > 0) nodes.push_back(binaryNode(numbered("sum", i), "ND_add_color3", before, image));
     }
     nodes.push_back(
         makeNode("bsdf", "ND_burley_diffuse_bsdf", {}, {{"color", numbered("sum", count - 1)}}));
@@ -139,5 +136,3 @@ TEST(GlslTextTextures, ShareUnitsWhereThereAreTooMany) {
     EXPECT_EQ(glsl.leftOut[0].id, MessageId::texturesShareSize);
     EXPECT_FALSE(has(glsl.text, "sampler16"));
 }
-
-} // namespace patina

@@ -29,7 +29,8 @@ public:
     }
     void write(const std::string& name, const std::string& body,
                const std::string& attributes = version139) const {
-        writeText(name, "<materialx " + attributes + ">" + body + "</materialx>");
+        writeText(name,
+                  "<?xml version='1.0'?>\n<materialx " + attributes + ">" + body + "</materialx>");
     }
     std::vector<Network> read(const std::string& name, Diagnostics& diagnostics,
                               double metersPerUnit = 1.0) const {

@@ -6,6 +6,8 @@
 #include "shaders/lights.h"
 #include "shaders/tests/estimate.h"
 
+#include <vector>
+
 using namespace patina;
 using namespace patina::shLights;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/tests/lobeCase.h"
 
-#include <cmath>
 #include <cstdio>
 
 #include <gtest/gtest.h>

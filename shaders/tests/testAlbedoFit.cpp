@@ -2,9 +2,6 @@
 // The methods for directional albedos against quadrature, over the 32 x 32 cell centres of (cosine,
 // root of alpha): RMSE times 65535, single scattering. Everything here is deterministic.
 
-#include <cmath>
-#include <functional>
-
 #include <gtest/gtest.h>
 
 #include "shaders/bake/albedoQuadrature.h"

@@ -2,7 +2,6 @@
 // Directional albedos against quadrature, furnaces against 1, and the tables' error as measured
 // here.
 
-#include <cmath>
 #include <cstdio>
 
 #include <gtest/gtest.h>

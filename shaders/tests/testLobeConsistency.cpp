@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // eval, sample and albedo of every lobe say the same thing, in float and in double.
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "shaders/tests/lobeCase.h"

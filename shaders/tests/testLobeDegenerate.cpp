@@ -2,7 +2,6 @@
 // Extremes of every input: nothing is ever NaN, infinite or negative, mirrors are exact, the switch
 // to a mirror is not seen, and the identities between lobes hold.
 
-#include <cmath>
 #include <limits>
 #include <tuple>
 

@@ -2,8 +2,6 @@
 // The choice points' effects on a lobe: samplers draw from what they state, the second lobe of
 // Kulla and Conty is reciprocal and keeps a white furnace, and no method leaves what is physical.
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "shaders/tests/chiSquared.h"

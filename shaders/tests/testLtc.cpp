@@ -2,7 +2,6 @@
 // Linearly transformed cosines against brute force: shares of polygons are exact for the cosine,
 // and within a stated bound of what facets reflect. Everything here is deterministic.
 
-#include <cmath>
 #include <random>
 
 #include <glm/glm.hpp>

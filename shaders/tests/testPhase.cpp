@@ -2,7 +2,6 @@
 // The phase function: normalised, sampled by its own density, with the mean cosine that it
 // promises.
 
-#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>

@@ -2,7 +2,6 @@
 // Thin film against the exact spectral Airy formula, integrated over the channels' sensitivities,
 // and the identities that hold whatever the fit.
 
-#include <cmath>
 #include <complex>
 #include <cstdio>
 

@@ -4,8 +4,6 @@
 #include "hdDelegate/lights/domePortals.h"
 #include "hdDelegate/lights/tests/lightTools.h"
 
-#include <gtest/gtest.h>
-
 using namespace patina;
 
 namespace {

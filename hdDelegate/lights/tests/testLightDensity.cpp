@@ -5,8 +5,6 @@
 #include "hdDelegate/lights/tests/lightTools.h"
 #include "shaders/tests/pearson.h"
 
-#include <gtest/gtest.h>
-
 using namespace patina;
 
 namespace {

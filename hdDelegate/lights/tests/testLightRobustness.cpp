@@ -3,8 +3,6 @@
 
 #include "hdDelegate/lights/tests/lightTools.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 
 using namespace patina;

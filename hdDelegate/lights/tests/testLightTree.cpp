@@ -3,8 +3,6 @@
 
 #include "hdDelegate/lights/tests/lightTools.h"
 
-#include <gtest/gtest.h>
-
 using namespace patina;
 
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -90,5 +90,3 @@ TEST(ExrClaims, DamagedHeadersEnd) {
         (void)claimsMore(sound.substr(0, size));
     EXPECT_FALSE(claimsMore(sound.substr(0, 8) + std::string(1000, 'n')));
 }
-
-} // namespace patina

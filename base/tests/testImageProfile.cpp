@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -87,5 +87,3 @@ TEST(ImageProfile, FormatsWithoutProfilesHoldNone) {
     EXPECT_FALSE(may("\x76\x2f\x31\x01\x02"));
     EXPECT_FALSE(may("#?RADIANCE"));
 }
-
-} // namespace patina

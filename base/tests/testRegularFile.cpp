@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -79,5 +79,3 @@ TEST_F(RegularFile, ZerosAreNoImage) {
 }
 
 } // namespace
-
-} // namespace patina

@@ -8,10 +8,11 @@
 
 namespace patina {
 
+using Numbers = std::vector<float>;
+
 /// Numbers of one output of a pattern node that reads nothing but its inputs.
-inline std::vector<float> folded(const std::string& id,
-                                 const std::map<std::string, std::vector<float>>& inputs,
-                                 size_t output = 0) {
+inline Numbers folded(const std::string& id, const std::map<std::string, Numbers>& inputs,
+                      size_t output = 0) {
     GraphNode node;
     node.def = NodeTable::get().find(id);
     EXPECT_NE(node.def, nullptr) << id;
@@ -27,38 +28,42 @@ inline std::vector<float> folded(const std::string& id,
     }
     std::vector<Value> outputs;
     EXPECT_TRUE(foldPattern(node, outputs)) << id;
-    return outputs.size() > output ? outputs[output].numbers : std::vector<float>();
+    return outputs.size() > output ? outputs[output].numbers : Numbers();
 }
 
-inline void expectNumbers(const std::vector<float>& actual, const std::vector<float>& expected,
-                          float tolerance = 2e-6f) {
+inline void expectNumbers(const Numbers& actual, const Numbers& expected, float tolerance = 2e-6f) {
     ASSERT_EQ(actual.size(), expected.size());
     for (size_t i = 0; i < actual.size(); ++i)
         EXPECT_NEAR(actual[i], expected[i], tolerance * std::max(1.0f, std::abs(expected[i])))
             << "component " << i;
 }
 
+/// A pattern node gives these numbers.
+inline void expectFolded(const std::string& id, const std::map<std::string, Numbers>& inputs,
+                         const Numbers& expected, float tolerance = 2e-6f) {
+    SCOPED_TRACE(id);
+    expectNumbers(folded(id, inputs), expected, tolerance);
+}
+
 /// A surface whose emission is the value of node "x".
 inline Network emitting(std::vector<NetworkNode> nodes, const std::string& output = "") {
     nodes.push_back(makeNode("edf", "ND_uniform_edf", {}, {{"color", {"x", output}}}));
-    nodes.push_back(makeNode("surface", "ND_surface", {}, {{"edf", {"edf", ""}}}));
-    return makeNetwork(std::move(nodes));
+    return edfNetwork(std::move(nodes));
 }
 
 /// The emission of such a surface at a point, with primvars by name.
-inline glm::vec3 emitted(const Network& network, ShadingPoint point = {},
+inline glm::vec3 emitted(const Network& network, const ShadingPoint& point = {},
                          std::map<std::string, glm::vec4> primvars = {}) {
-    Compiled c(network);
-    EXPECT_EQ(c.diagnostics.count(), 0) << warnings(c.diagnostics);
-    const FakePrimvars reader(*c.program, std::move(primvars));
-    point.primvars = &reader;
-    return c.program->emission(point, glm::vec3(0, 0, 1));
+    const CleanCompiled c(network);
+    return c->emission(PointWith(*c.program, std::move(primvars), point), {0, 0, 1});
 }
 
-inline void expectVector(const glm::vec3& a, float x, float y, float z, float tolerance = 1e-5f) {
-    EXPECT_NEAR(a.x, x, tolerance);
-    EXPECT_NEAR(a.y, y, tolerance);
-    EXPECT_NEAR(a.z, z, tolerance);
+/// Of a surface whose emission is the value of node `last`, a float or a vector.
+inline Network showing(std::vector<NetworkNode> nodes, const std::string& last,
+                       const char* type = "float") {
+    nodes.push_back(
+        makeNode("x", std::string("ND_convert_") + type + "_color3", {}, {{"in", last}}));
+    return emitting(std::move(nodes));
 }
 
 } // namespace patina

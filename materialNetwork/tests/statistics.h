@@ -3,27 +3,9 @@
 
 #include "materialNetwork/tests/materialFixture.h"
 
-#include <cmath>
-
 namespace patina {
 
-/// Mean of random numbers, and how far it may be off.
-struct Mean {
-    double sum = 0.0, squares = 0.0;
-    int count = 0;
-
-    void add(double x) {
-        sum += x;
-        squares += x * x;
-        ++count;
-    }
-    double mean() const { return sum / count; }
-    /// Variance of the mean.
-    double variance() const {
-        const double m = mean();
-        return std::max(squares / count - m * m, 0.0) / count;
-    }
-};
+using test::Mean;
 
 /// @returns how many standard errors two means lie apart
 inline double deviations(const Mean& a, const Mean& b) {
@@ -72,11 +54,9 @@ inline std::shared_ptr<const MaterialProgram> compiled(const Network& network,
 /// Calls visit with the lobes that a view sees, once per seed.
 template <class Visit> void forSeeds(const MaterialProgram& program, const glm::vec3& wo,
                                      int samples, const Visit& visit) {
-    ShadingPoint point;
-    point.viewDirection = wo;
+    const ShadingPoint point = seenFrom(wo);
     for (int i = 0; i < samples; ++i) {
-        Bsdf bsdf;
-        program.evaluate(point, bsdf);
+        Bsdf bsdf = lobesAt(program, point);
         bsdf.seed(uint32_t(i));
         visit(bsdf);
     }
@@ -98,12 +78,32 @@ inline Mean sampledAlbedo(const MaterialProgram& program, const glm::vec3& wo, i
     return mean;
 }
 
-/// Values in one random direction are finite, and the density is positive where they are.
-inline void expectSoundValue(const Bsdf& bsdf, Random& random) {
-    const BsdfEval e = bsdf.eval(random.direction());
-    const float value = e.diffuse.x + e.specular.x;
-    ASSERT_TRUE(std::isfinite(value) && std::isfinite(e.pdf) && value >= 0.0f);
-    EXPECT_TRUE(value == 0.0f || e.pdf > 0.0f) << value << " " << e.pdf;
+/// Of samples that are no mirror's, density and weight are those of eval().
+/// @returns whether there was one
+inline bool expectSampleIsOfEval(const Bsdf& bsdf, Random& random, float tolerance) {
+    const BsdfSample s = drawn(bsdf, random);
+    if (s.event == 0 || (s.event & sh::LOBE_DELTA) != 0) return false;
+    const BsdfEval e = bsdf.eval(s.wi);
+    EXPECT_NEAR(s.pdf / e.pdf, 1.0f, tolerance);
+    for (int k = 0; k < 3; ++k)
+        EXPECT_NEAR(s.weight[k], (e.diffuse + e.specular)[k] / e.pdf,
+                    tolerance * (1.0f + s.weight[k]));
+    return true;
+}
+
+/// From random views, values in a random direction are finite, with a density that is positive
+/// where they are, and so are samples.
+inline void expectSound(const MaterialProgram& program, Random& random, int views) {
+    for (int i = 0; i < views; ++i) {
+        Bsdf bsdf = lobesAt(program, seenFrom(random.direction()));
+        bsdf.seed(uint32_t(i));
+        const BsdfEval e = bsdf.eval(random.direction());
+        const float value = e.diffuse.x + e.specular.x;
+        ASSERT_TRUE(std::isfinite(value) && std::isfinite(e.pdf) && value >= 0.0f);
+        EXPECT_TRUE(value == 0.0f || e.pdf > 0.0f) << value << " " << e.pdf;
+        const BsdfSample s = drawn(bsdf, random);
+        ASSERT_TRUE(std::isfinite(s.weight.x) && std::isfinite(s.pdf));
+    }
 }
 
 /// Weights of samples of a material, binned by direction, without mirrors.

@@ -5,36 +5,26 @@
 #include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/tests/materialFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
-struct Counts {
-    long expansions, irs, programs;
-};
-
-Counts now() {
-    const CompileCounts& c = compileCounts();
-    return {c.expansions, c.irs, c.programs};
-}
-
 NetworkNode image(const char* path, const char* id) {
-    return makeNode(path, id, {{"file", Value::makeFilename(std::string(path) + ".png")}});
+    return makeNode(path, id, {{"file", file(std::string(path) + ".png")}});
 }
 
 /// A shading model with textures, whose roughness varies over them.
 Network textured() {
-    return makeNetwork(
-        {image("color", "ND_image_color3"), image("rough", "ND_image_float"),
-         makeNode("surface", "ND_standard_surface_surfaceshader", {},
-                  {{"base_color", {"color", "out"}}, {"specular_roughness", {"rough", "out"}}})});
+    return modelNetwork("ND_standard_surface_surfaceshader", {},
+                        {{"base_color", "color.out"}, {"specular_roughness", "rough.out"}},
+                        {image("color", "ND_image_color3"), image("rough", "ND_image_float")});
 }
 
 /// Its radius is a texture, which a diffuse surface has no use for.
 Network skin() {
     return bsdfNetwork({image("color", "ND_image_color3"), image("radius", "ND_image_color3"),
                         makeNode("bsdf", "ND_subsurface_bsdf", {},
-                                 {{"color", {"color", "out"}}, {"radius", {"radius", "out"}}})});
+                                 {{"color", "color.out"}, {"radius", "radius.out"}})});
 }
 
 } // namespace
@@ -50,15 +40,14 @@ TEST(CompileOnce, WhateverIsPlanned) {
                  {0.3, {}, 2},
                  {0.01, {{"layering", "positionFree"}, {"thinWalled", "solid"}}, 2}};
     for (const auto& c : cases) {
-        FakeTextures textures;
-        Diagnostics diagnostics;
-        const Counts before = now();
-        compileMaterial(textured(), textures, diagnostics, c.forced, c.tolerance);
-        const Counts after = now();
-        EXPECT_EQ(after.expansions - before.expansions, 1) << c.tolerance;
-        EXPECT_EQ(after.irs - before.irs, 1) << c.tolerance;
-        EXPECT_EQ(after.programs - before.programs, c.programs) << c.tolerance;
-        EXPECT_EQ(textures.requests.size(), 2u) << c.tolerance;
+        SCOPED_TRACE(c.tolerance);
+        const CompileCounts& counts = compileCounts();
+        const long expansions = counts.expansions, irs = counts.irs, programs = counts.programs;
+        const Compiled compiled(textured(), c.forced, c.tolerance);
+        EXPECT_EQ(counts.expansions - expansions, 1);
+        EXPECT_EQ(counts.irs - irs, 1);
+        EXPECT_EQ(counts.programs - programs, c.programs);
+        EXPECT_EQ(compiled.textures.requests.size(), 2u);
     }
 }
 
@@ -67,30 +56,18 @@ TEST(CompileOnce, ProblemsAreReportedOnce) {
     Network network = textured();
     network.nodes.back().inputs["noSuchInput"] = Value::makeFloat(1.0f);
     const auto reported = [&](double tolerance) {
-        FakeTextures textures;
-        Diagnostics diagnostics;
-        compileMaterial(network, textures, diagnostics, {}, tolerance);
-        return warnings(diagnostics);
+        return warnings(Compiled(network, {}, tolerance));
     };
     EXPECT_NE(reported(-1.0), "");
     EXPECT_EQ(reported(0.01), reported(-1.0));
 }
 
 TEST(CompileOnce, WhatABoundMethodDoesNotReadIsLeftOut) {
-    const auto surface = [](const char* method, size_t opened) {
-        FakeTextures textures;
-        Diagnostics diagnostics;
-        const auto program =
-            compileMaterial(skin(), textures, diagnostics, {{"subsurface", method}});
-        EXPECT_EQ(textures.requests.size(), opened) << method;
-        Bsdf bsdf;
-        program->evaluate(ShadingPoint(), bsdf);
-        return std::make_pair(program->ir().surfaceCode.size(), bsdf.albedo());
-    };
-    const auto walk = surface("randomWalk", 2), diffuse = surface("diffuse", 1);
-    EXPECT_LT(diffuse.first, walk.first);
-    EXPECT_GT(diffuse.first, 0u) << "the colour is read";
-    EXPECT_EQ(diffuse.second, walk.second);
+    const Compiled walk(skin(), {{"subsurface", "randomWalk"}}),
+        diffuse(skin(), {{"subsurface", "diffuse"}});
+    EXPECT_EQ(walk.textures.requests.size(), 2u);
+    EXPECT_EQ(diffuse.textures.requests.size(), 1u);
+    EXPECT_LT(diffuse->ir().surfaceCode.size(), walk->ir().surfaceCode.size());
+    EXPECT_GT(diffuse->ir().surfaceCode.size(), 0u) << "the colour is read";
+    EXPECT_EQ(diffuse.albedo(), walk.albedo());
 }
-
-} // namespace patina

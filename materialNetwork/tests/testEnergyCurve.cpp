@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -122,5 +122,3 @@ TEST(EnergyCurve, LeavesOtherLobesAlone) {
     EXPECT_TRUE(setup(0.7f, glm::vec2(0.3f)));
     EXPECT_FALSE(setup(1.5f, glm::vec2(0.3f)));
 }
-
-} // namespace patina

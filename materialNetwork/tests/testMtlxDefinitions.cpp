@@ -2,33 +2,11 @@
 // What a document defines itself: nodes, versions of them, tokens, geometric properties, units.
 #include "materialNetwork/tests/mtlxFixture.h"
 
-namespace patina {
+using namespace patina;
 
-namespace {
+using DocumentDefinitions = MtlxTest;
 
-const std::string version139 = "1.39";
-
-glm::vec3 light(const std::string& body, ShadingPoint point = {},
-                std::map<std::string, glm::vec4> primvars = {}) {
-    return lightOf(body, point, std::move(primvars), version139);
-}
-
-/// A definition whose colour is a constant.
-std::string constantNode(const std::string& attributes, const std::string& color) {
-    static int count = 0;
-    const std::string name = "ND_c" + std::to_string(++count);
-    return "<nodedef name=\"" + name + "\" node=\"shade\" " + attributes +
-           "><output name=\"out\" type=\"color3\" /></nodedef><nodegraph name=\"G" + name +
-           "\" nodedef=\"" + name +
-           "\"><constant name=\"c\" type=\"color3\"><input name=\"value\" type=\"color3\" "
-           "value=\"" +
-           color +
-           "\" /></constant><output name=\"out\" type=\"color3\" nodename=\"c\" /></nodegraph>";
-}
-
-} // namespace
-
-TEST(MtlxDefinitions, InheritInputsAndOutputs) {
+TEST_F(DocumentDefinitions, InheritInputsAndOutputs) {
     const std::string defs = R"(
       <nodedef name="ND_parent" node="parent">
         <input name="a" type="color3" value="0.5, 0, 0" />
@@ -40,35 +18,37 @@ TEST(MtlxDefinitions, InheritInputsAndOutputs) {
         <add name="sum" type="color3"><input name="in1" type="color3" interfacename="a" />
           <input name="in2" type="color3" interfacename="b" /></add>
         <output name="out" type="color3" nodename="sum" /></nodegraph>)";
-    expectVector(light(defs + R"(<child name="p" type="color3" />)"), 0.5f, 0.75f, 0);
-    expectVector(light(defs + R"(<child name="p" type="color3">
+    expectVector(lightOf(defs + R"(<child name="p" type="color3" />)"), 0.5f, 0.75f, 0);
+    expectVector(lightOf(defs + R"(<child name="p" type="color3">
         <input name="a" type="color3" value="0, 0, 1" /></child>)"),
                  0, 0.75f, 1);
 }
 
-TEST(MtlxDefinitions, CirclesOfInheritanceEnd) {
-    Diagnostics diagnostics;
-    readBody(R"(<nodedef name="A" node="a" inherit="B"><output name="out" type="float" /></nodedef>
+TEST_F(DocumentDefinitions, CirclesOfInheritanceEnd) {
+    read(R"(<nodedef name="A" node="a" inherit="B"><output name="out" type="float" /></nodedef>
       <nodedef name="B" node="b" inherit="A" /><nodegraph name="G" nodedef="A" />
       <nodedef name="C" node="c" inherit="nobody"><output name="out" type="float" /></nodedef>
-      <nodegraph name="H" nodedef="C" />)",
-             diagnostics, version139);
+      <nodegraph name="H" nodedef="C" />)");
     EXPECT_EQ(diagnostics.count(), 2) << warnings(diagnostics);
 }
 
-TEST(MtlxDefinitions, Versions) {
-    const std::string two = constantNode("version=\"1.0\"", "1, 0, 0") +
-                            constantNode("version=\"2.0\" isdefaultversion=\"true\"", "0, 1, 0") +
-                            constantNode("version=\"3.0\"", "0, 0, 1");
-    expectVector(light(two + R"(<shade name="p" type="color3" />)"), 0, 1, 0);
-    expectVector(light(two + R"(<shade name="p" type="color3" version="1.0" />)"), 1, 0, 0);
-    expectVector(light(two + R"(<shade name="p" type="color3" version="3.0" />)"), 0, 0, 1);
-    Diagnostics diagnostics;
-    readBody(two + R"(<shade name="p" type="color3" version="4.0" />)", diagnostics, version139);
+TEST_F(DocumentDefinitions, Versions) {
+    const auto version = [](const std::string& number, const std::string& color,
+                            const std::string& more = "") {
+        return definition("c" + number, "shade", "", constantOf("c", "color3", color), "color3",
+                          "version='" + number + ".0'" + more);
+    };
+    const std::string all = version("1", "1, 0, 0") +
+                            version("2", "0, 1, 0", " isdefaultversion='true'") +
+                            version("3", "0, 0, 1");
+    expectVector(lightOf(all + R"(<shade name="p" type="color3" />)"), 0, 1, 0);
+    expectVector(lightOf(all + R"(<shade name="p" type="color3" version="1.0" />)"), 1, 0, 0);
+    expectVector(lightOf(all + R"(<shade name="p" type="color3" version="3.0" />)"), 0, 0, 1);
+    read(all + R"(<shade name="p" type="color3" version="4.0" />)");
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
 }
 
-TEST(MtlxDefinitions, GeometricPropertiesOfGraphsAndDocuments) {
+TEST_F(DocumentDefinitions, GeometricPropertiesOfGraphsAndDocuments) {
     ShadingPoint point;
     point.objectPosition = {0.1f, 0.2f, 0.3f};
     const std::string graph = R"(<nodegraph name="g">
@@ -79,98 +59,74 @@ TEST(MtlxDefinitions, GeometricPropertiesOfGraphsAndDocuments) {
           <input name="in2" type="float" nodename="s2" output="outy" /></combine3>
         <output name="o" type="color3" nodename="c" /></nodegraph>
       <dot name="p" type="color3"><input name="in" type="color3" nodegraph="g" output="only" /></dot>)";
-    expectVector(light(graph, point, {{"st", {0.25f, 0.75f, 0, 0}}}), 0.25f, 0.75f, 0);
+    expectVector(lightOf(graph, point, {{"st", {0.25f, 0.75f, 0, 0}}}), 0.25f, 0.75f, 0);
 
-    const auto defaultsTo = [&](const std::string& def, const std::string& type) {
-        return light(def + "<nodedef name=\"ND_w\" node=\"where\"><input name=\"x\" type=\"" +
-                         type +
-                         "\" defaultgeomprop=\"mine\" /><output name=\"out\" type=\"color3\" />"
-                         "</nodedef><nodegraph name=\"G\" nodedef=\"ND_w\"><convert name=\"c\" "
-                         "type=\"color3\"><input name=\"in\" type=\"" +
-                         type +
-                         "\" interfacename=\"x\" /></convert><output name=\"out\" type=\"color3\" "
-                         "nodename=\"c\" /></nodegraph><where name=\"p\" type=\"color3\" />",
-                     point, {{"st1", {0.5f, 0.125f, 0, 0}}, {"mine", {0.7f, 0.7f, 0.7f, 0}}});
+    const auto defaultsTo = [&](const std::string& property, const std::string& type) {
+        return lightOf(
+            "<geompropdef name='mine' type='" + type + "' " + property + "/>" +
+                definition("w", "where",
+                           "<input name='x' type='" + type + "' defaultgeomprop='mine'/>",
+                           "<convert name='c' type='color3'><input name='in' type='" + type +
+                               "' interfacename='x'/></convert>") +
+                "<where name='p' type='color3'/>",
+            point, {{"st1", {0.5f, 0.125f, 0, 0}}, {"mine", {0.7f, 0.7f, 0.7f, 0}}});
     };
-    expectVector(defaultsTo(R"(<geompropdef name="mine" type="vector3" geomprop="position"
-        space="object" />)",
-                            "vector3"),
-                 0.1f, 0.2f, 0.3f);
-    expectVector(defaultsTo(R"(<geompropdef name="mine" type="vector3" geomprop="texcoord"
-        index="1" />)",
-                            "vector3"),
-                 0.5f, 0.125f, 0);
-    expectVector(defaultsTo(R"(<geompropdef name="mine" type="float" />)", "float"), 0.7f, 0.7f,
-                 0.7f);
-    Diagnostics diagnostics;
-    readBody(R"(<geompropdef name="mine" type="float" geomprop="smell" />)", diagnostics,
-             version139);
+    expectVector(defaultsTo("geomprop='position' space='object'", "vector3"), point.objectPosition);
+    expectVector(defaultsTo("geomprop='texcoord' index='1'", "vector3"), 0.5f, 0.125f, 0);
+    expectVector(defaultsTo("", "float"), glm::vec3(0.7f));
+    read(R"(<geompropdef name="mine" type="float" geomprop="smell" />)");
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
 }
 
-TEST(MtlxDefinitions, TokensInFileNames) {
+TEST_F(DocumentDefinitions, TokensInFileNames) {
     const auto filesOf = [](const std::string& body) {
-        Diagnostics diagnostics;
-        const auto networks = readBody(body + R"(
-          <surface_unlit name="s" type="surfaceshader">
-            <input name="emission_color" type="color3" nodename="p" /></surface_unlit>)",
-                                       diagnostics, version139);
-        EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
-        Compiled c(networks.at(0));
-        std::vector<std::string> names;
+        const Compiled c(readOne(body + "<surface_unlit name='s' type='surfaceshader'>" +
+                                 inputFrom("emission_color", "color3", "p") + "</surface_unlit>"));
+        std::string names;
         for (const TextureRequest& request : c.textures.requests)
-            names.push_back(std::filesystem::path(request.file).filename().string());
+            names += std::filesystem::path(request.file).filename().string() + " ";
         return names;
     };
-    using Names = std::vector<std::string>;
-    // Of the document and of the node itself; what nobody knows stays.
-    EXPECT_EQ(filesOf(R"(<token name="kind" type="string" value="wood" />
-      <image name="p" type="color3"><token name="n" type="integer" value="7" />
-        <input name="file" type="filename" value="[kind]_[n]_[x].png" /></image>)"),
-              Names{"wood_7_[x].png"});
-    // Of a definition, which its instance may replace, through two levels.
-    const std::string defs = R"(
-      <nodedef name="ND_inner" node="inner"><token name="i" type="string" value="none" />
-        <output name="out" type="color3" /></nodedef>
-      <nodegraph name="GI" nodedef="ND_inner"><image name="m" type="color3">
-          <input name="file" type="filename" value="[i].<UDIM>.png" /></image>
-        <output name="out" type="color3" nodename="m" /></nodegraph>
-      <nodedef name="ND_outer" node="outer"><token name="o" type="string" value="oak" />
-        <output name="out" type="color3" /></nodedef>
-      <nodegraph name="GO" nodedef="ND_outer"><inner name="k" type="color3">
-          <token name="i" type="string" value="big_[o]" /></inner>
-        <output name="out" type="color3" nodename="k" /></nodegraph>)";
-    const auto escaped = [](std::string text) {
-        text.replace(text.find("<UDIM>"), 6, "&lt;UDIM&gt;");
-        return text;
+    const auto image = [](const std::string& name, const std::string& file,
+                          const std::string& token = "") {
+        return "<image name='" + name + "' type='color3'>" + token +
+               inputOf("file", "filename", file) + "</image>";
     };
-    EXPECT_EQ(filesOf(escaped(defs) + R"(<inner name="p" type="color3" />)"),
-              Names{"none.<UDIM>.png"});
-    EXPECT_EQ(filesOf(escaped(defs) + R"(<outer name="p" type="color3" />)"),
-              Names{"big_oak.<UDIM>.png"});
-    EXPECT_EQ(filesOf(escaped(defs) + R"(<outer name="p" type="color3">
-        <token name="o" type="string" value="ash" /></outer>)"),
-              Names{"big_ash.<UDIM>.png"});
+    const auto token = [](const std::string& name, const std::string& value) {
+        return "<token name='" + name + "' type='string' value='" + value + "'/>";
+    };
+    // Of the document and of the node itself; what nobody knows stays.
+    EXPECT_EQ(filesOf(token("kind", "wood") + image("p", "[kind]_[n]_[x].png",
+                                                    "<token name='n' type='integer' value='7'/>")),
+              "wood_7_[x].png ");
+    // Of a definition, which its instance may replace, through two levels.
+    const std::string defs =
+        definition("inner", "inner", token("i", "none"), image("c", "[i].&lt;UDIM&gt;.png")) +
+        definition("outer", "outer", token("o", "oak"),
+                   "<inner name='c' type='color3'>" + token("i", "big_[o]") + "</inner>");
+    EXPECT_EQ(filesOf(defs + "<inner name='p' type='color3'/>"), "none.<UDIM>.png ");
+    EXPECT_EQ(filesOf(defs + "<outer name='p' type='color3'/>"), "big_oak.<UDIM>.png ");
+    EXPECT_EQ(filesOf(defs + "<outer name='p' type='color3'>" + token("o", "ash") + "</outer>"),
+              "big_ash.<UDIM>.png ");
     // An heir has the tokens of what it inherits from.
-    const std::string heir = R"(<nodedef name="ND_heir" node="heir" inherit="ND_inner" />
-      <nodegraph name="GH" nodedef="ND_heir"><image name="m" type="color3">
-          <input name="file" type="filename" value="[i].png" /></image>
-        <output name="out" type="color3" nodename="m" /></nodegraph>)";
-    EXPECT_EQ(filesOf(escaped(defs) + heir + R"(<heir name="p" type="color3">
-        <token name="i" type="string" value="elm" /></heir>)"),
-              Names{"elm.png"});
+    const std::string heir = "<nodedef name='ND_heir' node='heir' inherit='ND_inner'/>"
+                             "<nodegraph name='GH' nodedef='ND_heir'>" +
+                             image("m", "[i].png") +
+                             "<output name='out' type='color3' nodename='m'/></nodegraph>";
+    EXPECT_EQ(
+        filesOf(defs + heir + "<heir name='p' type='color3'>" + token("i", "elm") + "</heir>"),
+        "elm.png ");
 }
 
-TEST(MtlxDefinitions, Units) {
-    const auto measured = [](const std::string& attributes, double metersPerUnit) {
-        const Documents documents("patinaUnits");
-        documents.write("a.mtlx", R"(<materialx version="1.39">
+TEST_F(DocumentDefinitions, Units) {
+    const auto measured = [&](const std::string& attributes, double metersPerUnit) {
+        documents.write("a.mtlx",
+                        R"(
           <unitdef name="U" unittype="distance"><unit name="span" scale="0.2" /></unitdef>
           <constant name="p" type="float"><input name="value" type="float" )" +
-                                      attributes + R"( /></constant>
-          <surface_unlit name="s" type="surfaceshader">
-            <input name="emission" type="float" nodename="p" /></surface_unlit></materialx>)");
-        Diagnostics diagnostics;
+                            attributes +
+                            " /></constant><surface_unlit name='s' type='surfaceshader'>" +
+                            inputFrom("emission", "float", "p") + "</surface_unlit>");
         return emitted(documents.read("a.mtlx", diagnostics, metersPerUnit).at(0)).x;
     };
     const char* const inches = R"(value="10" unit="inch" unittype="distance")";
@@ -181,9 +137,8 @@ TEST(MtlxDefinitions, Units) {
     EXPECT_FLOAT_EQ(measured(R"(value="10")", 0.01), 10.0f);
 }
 
-TEST(MtlxDefinitions, UnitsOfInputsThatHaveTheirOwn) {
-    Diagnostics diagnostics;
-    const auto networks = readBody(R"(
+TEST_F(DocumentDefinitions, UnitsOfInputsThatHaveTheirOwn) {
+    const auto networks = read(R"(
       <conductor_bsdf name="c" type="BSDF">
         <input name="thinfilm_thickness" type="float" value="0.4" unit="micron" unittype="distance" />
       </conductor_bsdf>
@@ -199,13 +154,10 @@ TEST(MtlxDefinitions, UnitsOfInputsThatHaveTheirOwn) {
       <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="c" />
         <input name="opacity" type="float" nodename="d" /></surface>
       <constant name="odd" type="float"><input name="value" type="float" value="2" unit="stone"
-          unittype="mass" /></constant>)",
-                                   diagnostics, version139);
+          unittype="mass" /></constant>)");
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics); // of the stone
     ASSERT_EQ(networks.size(), 1u);
     EXPECT_FLOAT_EQ(networks[0].find("/c")->inputs.at("thinfilm_thickness").numbers[0], 400.0f);
     EXPECT_FLOAT_EQ(networks[0].find("/half/r")->inputs.at("amount").numbers[0], 28.64789f);
     EXPECT_FLOAT_EQ(networks[0].find("/one/r")->inputs.at("amount").numbers[0], 57.29578f);
 }
-
-} // namespace patina

@@ -3,22 +3,29 @@
 // (libraries/stdlib/genglsl), which define these nodes.
 #include "materialNetwork/tests/patternFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
-const std::vector<float> at2 = {1.3f, -2.7f};
-const std::vector<float> at3 = {1.3f, -2.7f, 4.9f};
+const Numbers at2 = {1.3f, -2.7f};
+const Numbers at3 = {1.3f, -2.7f, 4.9f};
 
-std::vector<float> amplitude(size_t n) {
-    const std::vector<float> all = {2, 3, 4, 5};
+Numbers amplitude(size_t n) {
+    const Numbers all = {2, 3, 4, 5};
     return {all.begin(), all.begin() + long(n)};
 }
 
 struct Case {
     const char* id;
-    std::vector<float> expected;
+    Numbers expected;
 };
+
+/// Of nodes of the plane and of space at those places.
+void expectAt(const Case& c, std::map<std::string, Numbers> inputs, float tolerance = 2e-6f) {
+    const bool plane = std::string(c.id).find("2d") != std::string::npos;
+    inputs[plane ? "texcoord" : "position"] = plane ? at2 : at3;
+    expectFolded(c.id, inputs, c.expected, tolerance);
+}
 
 } // namespace
 
@@ -35,19 +42,13 @@ TEST(Noise, PerlinHasTheValuesOfMaterialX) {
         {"ND_noise3d_vector4", {-0.1314467f, 0.06536388f, -0.179431f, -1.358656f}},
         {"ND_noise3d_color4", {-0.1314467f, 0.06536388f, -0.179431f, -1.358656f}},
     };
-    for (const Case& c : cases) {
-        SCOPED_TRACE(c.id);
-        const bool plane = std::string(c.id).find("2d") != std::string::npos;
-        expectNumbers(folded(c.id, {{"amplitude", amplitude(c.expected.size())},
-                                    {"pivot", {0.5f}},
-                                    {plane ? "texcoord" : "position", plane ? at2 : at3}}),
-                      c.expected);
-    }
+    for (const Case& c : cases)
+        expectAt(c, {{"amplitude", amplitude(c.expected.size())}, {"pivot", {0.5f}}});
 }
 
 TEST(Noise, OneAmplitudeForAllChannels) {
-    const std::vector<float> one = folded("ND_noise3d_vector3", {{"position", at3}});
-    const std::vector<float> twice =
+    const Numbers one = folded("ND_noise3d_vector3", {{"position", at3}});
+    const Numbers twice =
         folded("ND_noise3d_vector3FA", {{"position", at3}, {"amplitude", {2.0f}}});
     expectNumbers(twice, {2 * one[0], 2 * one[1], 2 * one[2]});
 }
@@ -63,21 +64,18 @@ TEST(Noise, FractalHasTheValuesOfMaterialX) {
         {"ND_fractal3d_vector3", {-0.8872405f, -0.06849562f, -1.335973f}},
         {"ND_fractal3d_vector4", {-0.8872405f, -0.06849562f, -1.335973f, 1.94152f}},
     };
-    for (const Case& c : cases) {
-        SCOPED_TRACE(c.id);
-        const bool plane = std::string(c.id).find("2d") != std::string::npos;
-        expectNumbers(folded(c.id, {{"amplitude", amplitude(c.expected.size())},
-                                    {"octaves", {4}},
-                                    {"lacunarity", {2.1f}},
-                                    {"diminish", {0.6f}},
-                                    {plane ? "texcoord" : "position", plane ? at2 : at3}}),
-                      c.expected, 4e-6f);
-    }
+    for (const Case& c : cases)
+        expectAt(c,
+                 {{"amplitude", amplitude(c.expected.size())},
+                  {"octaves", {4}},
+                  {"lacunarity", {2.1f}},
+                  {"diminish", {0.6f}}},
+                 4e-6f);
 }
 
 TEST(Noise, CellsAndWorleyHaveTheValuesOfMaterialX) {
-    expectNumbers(folded("ND_cellnoise2d_float", {{"texcoord", at2}}), {0.2095094f});
-    expectNumbers(folded("ND_cellnoise3d_float", {{"position", at3}}), {0.8639234f});
+    expectFolded("ND_cellnoise2d_float", {{"texcoord", at2}}, {0.2095094f});
+    expectFolded("ND_cellnoise3d_float", {{"position", at3}}, {0.8639234f});
     const Case distances[] = {
         {"ND_worleynoise2d_float", {0.2324809f}},
         {"ND_worleynoise2d_vector2", {0.2324809f, 0.6152412f}},
@@ -95,18 +93,12 @@ TEST(Noise, CellsAndWorleyHaveTheValuesOfMaterialX) {
         {"ND_worleynoise3d_vector3", {0.3567886f, 0.01981363f, 0.08191834f}},
     };
     for (const float style : {0.0f, 1.0f})
-        for (const Case& c : style == 0.0f ? distances : solid) {
-            SCOPED_TRACE(c.id);
-            const bool plane = std::string(c.id).find("2d") != std::string::npos;
-            expectNumbers(folded(c.id, {{"jitter", {0.7f}},
-                                        {"style", {style}},
-                                        {plane ? "texcoord" : "position", plane ? at2 : at3}}),
-                          c.expected);
-        }
+        for (const Case& c : style == 0.0f ? distances : solid)
+            expectAt(c, {{"jitter", {0.7f}}, {"style", {style}}});
 }
 
 TEST(Noise, FlakesHaveTheValuesOfMaterialX) {
-    const std::map<std::string, std::vector<float>> inputs = {
+    const std::map<std::string, Numbers> inputs = {
         {"size", {0.5f}},      {"roughness", {0.3f}},  {"coverage", {0.6f}},    {"texcoord", at2},
         {"normal", {0, 0, 1}}, {"tangent", {1, 0, 0}}, {"bitangent", {0, 1, 0}}};
     expectNumbers(folded("ND_flake2d", inputs, 0), {2610565});
@@ -133,15 +125,13 @@ TEST(Noise, UnifiedNodesAreTheOthersInARange) {
 }
 
 TEST(Noise, RandomNumbersAreCells) {
-    const std::vector<float> u = folded("ND_cellnoise2d_float", {{"texcoord", {3, 8}}});
-    expectNumbers(
-        folded("ND_randomfloat_integer", {{"in", {3}}, {"seed", {8}}, {"min", {1}}, {"max", {5}}}),
-        {1 + 4 * u[0]});
+    const Numbers u = folded("ND_cellnoise2d_float", {{"texcoord", {3, 8}}});
+    expectFolded("ND_randomfloat_integer", {{"in", {3}}, {"seed", {8}}, {"min", {1}}, {"max", {5}}},
+                 {1 + 4 * u[0]});
     // Hue free, saturation and value at 1: at least one channel is 1 and one is 0.
     for (float i = 0; i < 20; ++i) {
-        const std::vector<float> c =
-            folded("ND_randomcolor_integer",
-                   {{"in", {i}}, {"saturationlow", {1}}, {"saturationhigh", {1}}});
+        const Numbers c = folded("ND_randomcolor_integer",
+                                 {{"in", {i}}, {"saturationlow", {1}}, {"saturationhigh", {1}}});
         EXPECT_NEAR(std::max({c[0], c[1], c[2]}), 1.0f, 1e-6f);
         EXPECT_NEAR(std::min({c[0], c[1], c[2]}), 0.0f, 1e-6f);
     }
@@ -151,20 +141,17 @@ TEST(Noise, FarAndBrokenPlacesGiveNumbers) {
     for (const float x : {1e9f, -1e9f, 1e38f, INFINITY, -INFINITY, NAN}) {
         for (const char* id : {"ND_cellnoise3d_float", "ND_worleynoise3d_float"})
             EXPECT_TRUE(std::isfinite(folded(id, {{"position", {x, x, x}}})[0]) || !(x == x)) << id;
-        const std::vector<float> n = folded("ND_noise3d_float", {{"position", {x, x, x}}});
+        const Numbers n = folded("ND_noise3d_float", {{"position", {x, x, x}}});
         EXPECT_EQ(n.size(), 1u);
     }
     // Numbers that are none select the first of a list; those beyond it nothing.
     for (const float x : {1e38f, -1e38f, INFINITY, -INFINITY, NAN}) {
-        const std::vector<float> v =
-            folded("ND_unifiednoise3d_float", {{"position", at3}, {"type", {x}}});
-        EXPECT_EQ(v, x == x ? std::vector<float>{0.0f}
-                            : folded("ND_unifiednoise3d_float", {{"position", at3}}));
+        const Numbers v = folded("ND_unifiednoise3d_float", {{"position", at3}, {"type", {x}}});
+        EXPECT_EQ(v,
+                  x == x ? Numbers{0.0f} : folded("ND_unifiednoise3d_float", {{"position", at3}}));
         EXPECT_EQ(folded("ND_extract_vector3", {{"in", {1, 2, 3}}, {"index", {x}}})[0],
                   x > 0 ? 3.0f : 1.0f);
     }
     // Octaves without end come to one.
     EXPECT_EQ(folded("ND_fractal3d_float", {{"position", at3}, {"octaves", {2e9f}}}).size(), 1u);
 }
-
-} // namespace patina

@@ -2,55 +2,53 @@
 // Colour, shape and matrix nodes against closed forms.
 #include "materialNetwork/tests/patternFixture.h"
 
-namespace patina {
+using namespace patina;
 
 TEST(Patterns, ColorAdjustments) {
-    expectNumbers(folded("ND_contrast_float", {{"in", {0.8f}}, {"amount", {2}}, {"pivot", {0.5f}}}),
-                  {1.1f});
-    expectNumbers(folded("ND_range_float", {{"in", {0.35f}},
-                                            {"inlow", {0.1f}},
-                                            {"inhigh", {1.1f}},
-                                            {"gamma", {2}},
-                                            {"outlow", {1}},
-                                            {"outhigh", {3}}}),
-                  {2.0f}); // 0.25^(1/2) = 0.5
-    expectNumbers(folded("ND_range_float", {{"in", {4}}, {"doclamp", {1}}}), {1.0f});
-    expectNumbers(folded("ND_safepower_float", {{"in1", {-8}}, {"in2", {1.0f / 3.0f}}}), {-2.0f});
-    expectNumbers(
-        folded("ND_saturate_color3",
-               {{"in", {1, 0, 0}}, {"amount", {0.5f}}, {"lumacoeffs", {0.2f, 0.7f, 0.1f}}}),
-        {0.6f, 0.1f, 0.1f});
-    expectNumbers(
-        folded("ND_hsvadjust_color3", {{"in", {1, 0, 0}}, {"amount", {1 / 3.0f, 1, 0.5f}}}),
-        {0, 0.5f, 0});
-    expectNumbers(folded("ND_luminance_color3", {{"in", {1, 1, 1}}}), {1, 1, 1}, 1e-6f);
+    expectFolded("ND_contrast_float", {{"in", {0.8f}}, {"amount", {2}}, {"pivot", {0.5f}}}, {1.1f});
+    expectFolded("ND_range_float",
+                 {{"in", {0.35f}},
+                  {"inlow", {0.1f}},
+                  {"inhigh", {1.1f}},
+                  {"gamma", {2}},
+                  {"outlow", {1}},
+                  {"outhigh", {3}}},
+                 {2.0f}); // 0.25^(1/2) = 0.5
+    expectFolded("ND_range_float", {{"in", {4}}, {"doclamp", {1}}}, {1.0f});
+    expectFolded("ND_safepower_float", {{"in1", {-8}}, {"in2", {1.0f / 3.0f}}}, {-2.0f});
+    expectFolded("ND_saturate_color3",
+                 {{"in", {1, 0, 0}}, {"amount", {0.5f}}, {"lumacoeffs", {0.2f, 0.7f, 0.1f}}},
+                 {0.6f, 0.1f, 0.1f});
+    expectFolded("ND_hsvadjust_color3", {{"in", {1, 0, 0}}, {"amount", {1 / 3.0f, 1, 0.5f}}},
+                 {0, 0.5f, 0});
+    expectFolded("ND_luminance_color3", {{"in", {1, 1, 1}}}, {1, 1, 1}, 1e-6f);
     // Exposure 1 doubles, gain 0.5 halves; lift 0.5 pulls black up.
-    expectNumbers(
-        folded("ND_colorcorrect_color3",
-               {{"in", {0.2f, 0.4f, 0}}, {"exposure", {1}}, {"gain", {0.5f}}, {"lift", {0.5f}}}),
-        {0.6f, 0.7f, 0.5f});
+    expectFolded("ND_colorcorrect_color3",
+                 {{"in", {0.2f, 0.4f, 0}}, {"exposure", {1}}, {"gain", {0.5f}}, {"lift", {0.5f}}},
+                 {0.6f, 0.7f, 0.5f});
 }
 
 TEST(Patterns, Compositing) {
-    const std::vector<float> f = {0.2f, 0.4f, 0.6f, 0.7f}, b = {0.3f, 0.1f, 0.5f, 0.8f};
-    const auto blend = [&](const char* id, float mix) {
-        return folded(id, {{"fg", f}, {"bg", b}, {"mix", {mix}}});
+    const Numbers f = {0.2f, 0.4f, 0.6f, 0.7f}, b = {0.3f, 0.1f, 0.5f, 0.8f};
+    const auto blend = [&](const std::string& category, float mix, const Numbers& expected) {
+        expectFolded("ND_" + category + "_color4", {{"fg", f}, {"bg", b}, {"mix", {mix}}},
+                     expected);
     };
-    expectNumbers(blend("ND_over_color4", 1), {0.29f, 0.43f, 0.75f, 0.94f});
-    expectNumbers(blend("ND_in_color4", 1), {0.16f, 0.32f, 0.48f, 0.56f});
-    expectNumbers(blend("ND_out_color4", 1), {0.04f, 0.08f, 0.12f, 0.14f});
-    expectNumbers(blend("ND_mask_color4", 1), {0.21f, 0.07f, 0.35f, 0.56f});
-    expectNumbers(blend("ND_matte_color4", 1), {0.23f, 0.31f, 0.57f, 0.94f});
+    blend("over", 1, {0.29f, 0.43f, 0.75f, 0.94f});
+    blend("in", 1, {0.16f, 0.32f, 0.48f, 0.56f});
+    blend("out", 1, {0.04f, 0.08f, 0.12f, 0.14f});
+    blend("mask", 1, {0.21f, 0.07f, 0.35f, 0.56f});
+    blend("matte", 1, {0.23f, 0.31f, 0.57f, 0.94f});
     // Together more than 1: what is behind shows through what is left.
-    expectNumbers(blend("ND_disjointover_color4", 1),
-                  {0.2f + 0.3f * 0.375f, 0.4f + 0.1f * 0.375f, 0.6f + 0.5f * 0.375f, 1.0f});
-    for (const char* id : {"ND_over_color4", "ND_plus_color4", "ND_screen_color4"})
-        expectNumbers(blend(id, 0), b);
-    expectNumbers(blend("ND_plus_color4", 0.5f), {0.4f, 0.3f, 0.8f, 1.15f});
-    expectNumbers(blend("ND_minus_color4", 1), {0.1f, -0.3f, -0.1f, 0.1f});
-    expectNumbers(blend("ND_difference_color4", 1), {0.1f, 0.3f, 0.1f, 0.1f});
-    expectNumbers(blend("ND_screen_color4", 1), {0.44f, 0.46f, 0.8f, 0.94f});
-    expectNumbers(blend("ND_overlay_color4", 1), {0.12f, 0.08f, 0.6f, 0.88f});
+    blend("disjointover", 1,
+          {0.2f + 0.3f * 0.375f, 0.4f + 0.1f * 0.375f, 0.6f + 0.5f * 0.375f, 1.0f});
+    for (const char* category : {"over", "plus", "screen"})
+        blend(category, 0, b);
+    blend("plus", 0.5f, {0.4f, 0.3f, 0.8f, 1.15f});
+    blend("minus", 1, {0.1f, -0.3f, -0.1f, 0.1f});
+    blend("difference", 1, {0.1f, 0.3f, 0.1f, 0.1f});
+    blend("screen", 1, {0.44f, 0.46f, 0.8f, 0.94f});
+    blend("overlay", 1, {0.12f, 0.08f, 0.6f, 0.88f});
     const auto one = [](const char* id, float fg, float bg) {
         return folded(id, {{"fg", {fg}}, {"bg", {bg}}, {"mix", {0.5f}}});
     };
@@ -58,11 +56,11 @@ TEST(Patterns, Compositing) {
     expectNumbers(one("ND_dodge_float", 0.6f, 0.3f), {0.525f});
     expectNumbers(one("ND_burn_float", 0.0f, 0.3f), {0.0f});
     expectNumbers(one("ND_dodge_float", 1.0f, 0.3f), {0.0f});
-    expectNumbers(folded("ND_unpremult_color4", {{"in", {0.2f, 0.4f, 0.6f, 0.5f}}}),
-                  {0.4f, 0.8f, 1.2f, 0.5f});
-    expectNumbers(folded("ND_unpremult_color4", {{"in", {0.2f, 0.4f, 0.6f, 0}}}), {0, 0, 0, 0});
-    expectNumbers(folded("ND_inside_float", {{"in", {0.5f}}, {"mask", {0.2f}}}), {0.1f});
-    expectNumbers(folded("ND_outside_float", {{"in", {0.5f}}, {"mask", {0.2f}}}), {0.4f});
+    expectFolded("ND_unpremult_color4", {{"in", {0.2f, 0.4f, 0.6f, 0.5f}}},
+                 {0.4f, 0.8f, 1.2f, 0.5f});
+    expectFolded("ND_unpremult_color4", {{"in", {0.2f, 0.4f, 0.6f, 0}}}, {0, 0, 0, 0});
+    expectFolded("ND_inside_float", {{"in", {0.5f}}, {"mask", {0.2f}}}, {0.1f});
+    expectFolded("ND_outside_float", {{"in", {0.5f}}, {"mask", {0.2f}}}, {0.4f});
 }
 
 TEST(Patterns, Shapes) {
@@ -106,21 +104,15 @@ TEST(Patterns, Shapes) {
 }
 
 TEST(Patterns, RampsAndSplits) {
-    const std::vector<float> uv = {0.25f, 0.75f};
-    expectNumbers(folded("ND_ramplr_float", {{"valuel", {1}}, {"valuer", {3}}, {"texcoord", uv}}),
-                  {1.5f});
-    expectNumbers(folded("ND_ramptb_float", {{"valuet", {1}}, {"valueb", {3}}, {"texcoord", uv}}),
-                  {1.5f});
-    expectNumbers(folded("ND_ramp4_float", {{"valuetl", {1}},
-                                            {"valuetr", {2}},
-                                            {"valuebl", {3}},
-                                            {"valuebr", {4}},
-                                            {"texcoord", uv}}),
-                  {0.75f * 1.25f + 0.25f * 3.25f});
-    expectNumbers(folded("ND_splitlr_float", {{"valuel", {1}}, {"valuer", {3}}, {"texcoord", uv}}),
-                  {1});
-    expectNumbers(folded("ND_splittb_float", {{"valuet", {1}}, {"valueb", {3}}, {"texcoord", uv}}),
-                  {1});
+    const Numbers uv = {0.25f, 0.75f};
+    expectFolded("ND_ramplr_float", {{"valuel", {1}}, {"valuer", {3}}, {"texcoord", uv}}, {1.5f});
+    expectFolded("ND_ramptb_float", {{"valuet", {1}}, {"valueb", {3}}, {"texcoord", uv}}, {1.5f});
+    expectFolded(
+        "ND_ramp4_float",
+        {{"valuetl", {1}}, {"valuetr", {2}}, {"valuebl", {3}}, {"valuebr", {4}}, {"texcoord", uv}},
+        {0.75f * 1.25f + 0.25f * 3.25f});
+    expectFolded("ND_splitlr_float", {{"valuel", {1}}, {"valuer", {3}}, {"texcoord", uv}}, {1});
+    expectFolded("ND_splittb_float", {{"valuet", {1}}, {"valueb", {3}}, {"texcoord", uv}}, {1});
     const auto ramp = [](float u, float type, float interpolation, float count) {
         return folded("ND_ramp", {{"texcoord", {u, 0.5f}},
                                   {"type", {type}},
@@ -144,64 +136,54 @@ TEST(Patterns, RampsAndSplits) {
 }
 
 TEST(Patterns, Matrices) {
-    const std::vector<float> m = {2, 0, 0, 0, 3, 0, 5, 7, 1}; // scales, then moves by (5, 7)
-    expectNumbers(folded("ND_transformmatrix_vector2M3", {{"in", {1, 1}}, {"mat", m}}), {7, 10});
-    expectNumbers(folded("ND_transformmatrix_vector3", {{"in", {1, 1, 1}}, {"mat", m}}),
-                  {7, 10, 1});
-    expectNumbers(folded("ND_determinant_matrix33", {{"in", m}}), {6});
-    expectNumbers(folded("ND_transpose_matrix33", {{"in", m}}), {2, 0, 5, 0, 3, 7, 0, 0, 1});
-    expectNumbers(folded("ND_invertmatrix_matrix33", {{"in", m}}),
-                  {0.5f, 0, 0, 0, 1 / 3.0f, 0, -2.5f, -7 / 3.0f, 1});
-    expectNumbers(
-        folded("ND_multiply_matrix33", {{"in1", {1, 2, 3, 4, 5, 6, 7, 8, 9}}, {"in2", m}}),
-        {17, 27, 3, 38, 57, 6, 59, 87, 9});
-    expectNumbers(folded("ND_divide_matrix33", {{"in1", m}, {"in2", m}}),
-                  {1, 0, 0, 0, 1, 0, 0, 0, 1});
-    expectNumbers(folded("ND_add_matrix33FA", {{"in1", m}, {"in2", {1}}}),
-                  {3, 1, 1, 1, 4, 1, 6, 8, 2});
-    expectNumbers(folded("ND_extract_matrix33", {{"in", m}, {"index", {2}}}), {5, 7, 1});
-    expectNumbers(folded("ND_creatematrix_vector3_matrix44", {{"in4", {1, 2, 3}}}),
-                  {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1});
-    expectNumbers(folded("ND_ifgreater_matrix33", {{"value1", {0}}, {"in2", m}}), m);
-    expectNumbers(folded("ND_switch_matrix33", {{"which", {2}}, {"in3", m}}), m);
+    const Numbers m = {2, 0, 0, 0, 3, 0, 5, 7, 1}; // scales, then moves by (5, 7)
+    expectFolded("ND_transformmatrix_vector2M3", {{"in", {1, 1}}, {"mat", m}}, {7, 10});
+    expectFolded("ND_transformmatrix_vector3", {{"in", {1, 1, 1}}, {"mat", m}}, {7, 10, 1});
+    expectFolded("ND_determinant_matrix33", {{"in", m}}, {6});
+    expectFolded("ND_transpose_matrix33", {{"in", m}}, {2, 0, 5, 0, 3, 7, 0, 0, 1});
+    expectFolded("ND_invertmatrix_matrix33", {{"in", m}},
+                 {0.5f, 0, 0, 0, 1 / 3.0f, 0, -2.5f, -7 / 3.0f, 1});
+    expectFolded("ND_multiply_matrix33", {{"in1", {1, 2, 3, 4, 5, 6, 7, 8, 9}}, {"in2", m}},
+                 {17, 27, 3, 38, 57, 6, 59, 87, 9});
+    expectFolded("ND_divide_matrix33", {{"in1", m}, {"in2", m}}, {1, 0, 0, 0, 1, 0, 0, 0, 1});
+    expectFolded("ND_add_matrix33FA", {{"in1", m}, {"in2", {1}}}, {3, 1, 1, 1, 4, 1, 6, 8, 2});
+    expectFolded("ND_extract_matrix33", {{"in", m}, {"index", {2}}}, {5, 7, 1});
+    expectFolded("ND_creatematrix_vector3_matrix44", {{"in4", {1, 2, 3}}},
+                 {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1});
+    expectFolded("ND_ifgreater_matrix33", {{"value1", {0}}, {"in2", m}}, m);
+    expectFolded("ND_switch_matrix33", {{"which", {2}}, {"in3", m}}, m);
     // No inverse: nothing explodes.
-    expectNumbers(folded("ND_invertmatrix_matrix44", {{"in", std::vector<float>(16, 1.0f)}}),
-                  {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    expectFolded("ND_invertmatrix_matrix44", {{"in", Numbers(16, 1.0f)}},
+                 {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
 }
 
 TEST(Patterns, ChoicesAndWaves) {
-    expectNumbers(folded("ND_ifgreater_boolean", {{"value1", {2}}, {"value2", {1}}}), {1});
-    expectNumbers(folded("ND_ifequal_booleanI", {{"value1", {2}}, {"value2", {1}}}), {0});
-    expectNumbers(folded("ND_switch_float", {{"which", {-3}}, {"in1", {5}}}), {5});
-    expectNumbers(folded("ND_switch_float", {{"which", {10}}, {"in10", {5}}}), {0});
+    expectFolded("ND_ifgreater_boolean", {{"value1", {2}}, {"value2", {1}}}, {1});
+    expectFolded("ND_ifequal_booleanI", {{"value1", {2}}, {"value2", {1}}}, {0});
+    expectFolded("ND_switch_float", {{"which", {-3}}, {"in1", {5}}}, {5});
+    expectFolded("ND_switch_float", {{"which", {10}}, {"in10", {5}}}, {0});
     for (const auto& [x, y] :
          {std::pair{0.25f, 0.25f}, {0.75f, 0.25f}, {-1.5f, 0.5f}, {2.0f, 0.0f}})
-        expectNumbers(folded("ND_trianglewave_float", {{"in", {x}}}), {y});
-    expectNumbers(folded("ND_maxcomponent_vector3", {{"in", {-3, -1, -2}}}), {-1});
-    expectNumbers(folded("ND_mincomponent_vector4", {{"in", {3, 1, 2, 0}}}), {0});
+        expectFolded("ND_trianglewave_float", {{"in", {x}}}, {y});
+    expectFolded("ND_maxcomponent_vector3", {{"in", {-3, -1, -2}}}, {-1});
+    expectFolded("ND_mincomponent_vector4", {{"in", {3, 1, 2, 0}}}, {0});
     // Rows times matrices: a quarter turn about z takes x to -y.
-    expectNumbers(
-        folded("ND_rotate3d_vector3", {{"in", {1, 0, 0}}, {"amount", {90}}, {"axis", {0, 0, 2}}}),
-        {0, -1, 0});
-    expectNumbers(folded("ND_reflect_vector3", {{"in", {1, -1, 0}}, {"normal", {0, 1, 0}}}),
-                  {1, 1, 0});
+    expectFolded("ND_rotate3d_vector3", {{"in", {1, 0, 0}}, {"amount", {90}}, {"axis", {0, 0, 2}}},
+                 {0, -1, 0});
+    expectFolded("ND_reflect_vector3", {{"in", {1, -1, 0}}, {"normal", {0, 1, 0}}}, {1, 1, 0});
     // Snell: the sine of 30 degrees by 1.5.
-    expectNumbers(
-        folded("ND_refract_vector3",
-               {{"in", {0.5f, -0.8660254f, 0}}, {"normal", {0, 1, 0}}, {"ior", {1 / 1.5f}}}),
-        {1 / 3.0f, -std::sqrt(8.0f) / 3.0f, 0});
-    expectNumbers(folded("ND_refract_vector3",
-                         {{"in", {0.8f, -0.6f, 0}}, {"normal", {0, 1, 0}}, {"ior", {1.5f}}}),
-                  {0, 0, 0});
+    expectFolded("ND_refract_vector3",
+                 {{"in", {0.5f, -0.8660254f, 0}}, {"normal", {0, 1, 0}}, {"ior", {1 / 1.5f}}},
+                 {1 / 3.0f, -std::sqrt(8.0f) / 3.0f, 0});
+    expectFolded("ND_refract_vector3",
+                 {{"in", {0.8f, -0.6f, 0}}, {"normal", {0, 1, 0}}, {"ior", {1.5f}}}, {0, 0, 0});
     // At 6504 K the Planckian locus passes (0.3135, 0.3236); luminance is 1 everywhere.
-    const std::vector<float> white = folded("ND_blackbody", {{"temperature", {6504}}});
+    const Numbers white = folded("ND_blackbody", {{"temperature", {6504}}});
     expectNumbers(white, {1.0431f, 0.9837f, 1.0353f}, 5e-3f);
     for (const float t : {800.0f, 2000.0f, 10000.0f, 25000.0f}) {
-        const std::vector<float> c = folded("ND_blackbody", {{"temperature", {t}}});
+        const Numbers c = folded("ND_blackbody", {{"temperature", {t}}});
         if (t >= 2000.0f) {
             EXPECT_NEAR(0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2], 1.0f, 2e-3f) << t;
         }
     }
 }
-
-} // namespace patina

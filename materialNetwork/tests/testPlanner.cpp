@@ -4,7 +4,7 @@
 #include "materialNetwork/planner/planner.h"
 #include "materialNetwork/tests/materialFixture.h"
 
-namespace patina {
+using namespace patina;
 
 namespace {
 
@@ -24,58 +24,53 @@ const PlannedMethod& at(const MethodPlan& plan, const std::string& point) {
     return none;
 }
 
-double timeOf(const MethodPlan& plan) {
-    double ns = 0.0;
+/// Over all choices.
+double sumOf(const MethodPlan& plan, double PlannedMethod::*member) {
+    double sum = 0.0;
     for (const PlannedMethod& m : plan.choices)
-        ns += m.ns;
-    return ns;
+        sum += m.*member;
+    return sum;
 }
 
-NetworkNode gold(float roughness) {
-    return makeNode("bsdf", "ND_conductor_bsdf",
-                    {{"ior", color(0.183f, 0.421f, 1.373f)},
-                     {"extinction", color(3.424f, 2.346f, 1.77f)},
-                     {"roughness", pair(roughness)}});
+double timeOf(const MethodPlan& plan) {
+    return sumOf(plan, &PlannedMethod::ns);
+}
+
+const Inputs ofGold = {{"ior", color(0.183f, 0.421f, 1.373f)},
+                       {"extinction", color(3.424f, 2.346f, 1.77f)}};
+
+NetworkNode gold(const char* name, float roughness) {
+    Inputs inputs = ofGold;
+    inputs["roughness"] = pair(roughness);
+    return makeNode(name, "ND_conductor_bsdf", inputs);
 }
 
 Network metal(float roughness) {
-    return bsdfNetwork({gold(roughness)});
+    return bsdfNetwork({gold("bsdf", roughness)});
+}
+
+Network coated(float roughness, float ior, const NetworkNode& base) {
+    return layered(
+        {makeNode("top", "ND_dielectric_bsdf", {{"roughness", pair(roughness)}, {"ior", ior}}),
+         base});
 }
 
 Network coat(float roughness, float ior) {
-    return bsdfNetwork(
-        {makeNode("top", "ND_dielectric_bsdf",
-                  {{"roughness", pair(roughness)}, {"ior", number(ior)}}),
-         makeNode("base", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
-         makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {"top", ""}}, {"base", {"base", ""}}})});
-}
-
-Network coatedGold(float coat, float roughness) {
-    NetworkNode base = gold(roughness);
-    base.path = "/m/base";
-    return bsdfNetwork(
-        {makeNode("top", "ND_dielectric_bsdf", {{"roughness", pair(coat)}, {"ior", number(1.5f)}}),
-         base,
-         makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {"top", ""}}, {"base", {"base", ""}}})});
+    return coated(roughness, ior, diffuseNode("base", grey(0.5f)));
 }
 
 Network texturedMetal() {
-    return bsdfNetwork({makeNode("image", "ND_image_vector2", {{"file", text("map.exr")}}),
-                        makeNode("bsdf", "ND_conductor_bsdf",
-                                 {{"ior", color(0.183f, 0.421f, 1.373f)},
-                                  {"extinction", color(3.424f, 2.346f, 1.77f)}},
-                                 {{"roughness", {"image", ""}}})});
+    return bsdfNetwork({makeNode("image", "ND_image_vector2", {{"file", "map.exr"}}),
+                        makeNode("bsdf", "ND_conductor_bsdf", ofGold, {{"roughness", "image"}})});
 }
 
 } // namespace
 
 TEST(Planner, TablesServeInterfacesThatWalksAskAnew) {
     // Schlick's curve from black: light passes it unbent, so walks do not enter its facets.
-    const Network network = bsdfNetwork(
-        {makeNode("top", "ND_generalized_schlick_bsdf",
-                  {{"color0", grey(0.0f)}, {"roughness", pair(1.0f)}}),
-         makeNode("base", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
-         makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {"top", ""}}, {"base", {"base", ""}}})});
+    const Network network = layered({makeNode("top", "ND_generalized_schlick_bsdf",
+                                              {{"color0", grey(0.0f)}, {"roughness", pair(1.0f)}}),
+                                     diffuseNode("base", grey(0.5f))});
     const MethodChoices walks = {{"layering", "positionFree"}};
     const MethodPlan plan = planOf(network, 0.01, walks);
     EXPECT_NE(at(plan, "directionalAlbedo").method, "quadrature");
@@ -111,9 +106,7 @@ TEST(Planner, WithoutAToleranceTheDefaultsStay) {
     for (const PlannedMethod& m : plan.choices)
         EXPECT_EQ(m.method, chosenMethod({}, m.point)) << m.point;
     EXPECT_GT(plan.error, 0.0);
-    FakeTextures textures;
-    Diagnostics diagnostics;
-    EXPECT_TRUE(compileMaterial(metal(0.5f), textures, diagnostics)->planned().choices.empty());
+    EXPECT_TRUE(Compiled(metal(0.5f))->planned().choices.empty());
 }
 
 TEST(Planner, PredictedErrorsStayWithinTheirShare) {
@@ -122,10 +115,7 @@ TEST(Planner, PredictedErrorsStayWithinTheirShare) {
         for (double tolerance : tolerances) {
             const MethodPlan plan = planOf(network, tolerance);
             EXPECT_LE(plan.error, methodShare * tolerance * (1.0 + 1e-9)) << tolerance;
-            double sum = 0.0;
-            for (const PlannedMethod& m : plan.choices)
-                sum += m.error;
-            EXPECT_DOUBLE_EQ(plan.error, sum);
+            EXPECT_DOUBLE_EQ(plan.error, sumOf(plan, &PlannedMethod::error));
         }
 }
 
@@ -140,9 +130,7 @@ TEST(Planner, ForcedMethodsStayAndAreCounted) {
 }
 
 TEST(Planner, MeaningsAreNeverChanged) {
-    FakeTextures textures;
     for (double tolerance : {0.0, 0.001, 0.5}) {
-        Diagnostics diagnostics;
         const MethodPlan plan = planOf(coat(0.4f, 1.5f), tolerance);
         for (const PlannedMethod& m : plan.choices)
             EXPECT_TRUE(!truthMethod(m.point).empty() || m.point == "sampling") << m.point;
@@ -165,15 +153,13 @@ TEST(Planner, AVaryingParameterCountsAtItsWorst) {
 }
 
 TEST(Planner, ABackEndWithoutWalksSaysWhatItTakes) {
-    const MethodPlan walked = planOf(coatedGold(0.1f, 0.9f), 1e-4), scaled = withoutWalks(walked);
+    const MethodPlan walked = planOf(coated(0.1f, 1.5f, gold("base", 0.9f)), 1e-4),
+                     scaled = withoutWalks(walked);
     EXPECT_EQ(at(walked, "energyCompensation").method, "randomWalk");
     EXPECT_EQ(at(scaled, "energyCompensation").method, "turquin");
     EXPECT_EQ(at(scaled, "energyCompensation").error,
               at(walked, "energyCompensation").errorDefault);
-    double sum = 0.0;
-    for (const PlannedMethod& m : scaled.choices)
-        sum += m.error;
-    EXPECT_NEAR(scaled.error, sum, 1e-12);
+    EXPECT_NEAR(scaled.error, sumOf(scaled, &PlannedMethod::error), 1e-12);
     EXPECT_GT(scaled.error, 1e-3);
 }
 
@@ -206,5 +192,3 @@ TEST(MethodTable, RowsAreWhole) {
         EXPECT_LE(largest, row.largest * 1.005f + 1e-3f) << name;
     }
 }
-
-} // namespace patina

@@ -1,24 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 // Linear spaces in which light is added and multiplied, and networks in them.
-#include "materialNetwork/tests/materialFixture.h"
+#include "materialNetwork/tests/colorFixture.h"
 
-#include "materialNetwork/color/colorSpaces.h"
 #include "materialNetwork/network/renderingColors.h"
 
-#include <cmath>
-
-namespace patina {
+using namespace patina;
 
 namespace {
 
 // Rec.709 to AP1 by Bradford's transform, as the ACES reference implementation gives it.
-const glm::mat3 ap1 = glm::transpose(glm::mat3(0.613097402f, 0.339523146f, 0.047379451f,
-                                               0.070193722f, 0.916353879f, 0.013452398f,
-                                               0.020615593f, 0.109569773f, 0.869814634f));
+const glm::mat3 ap1 =
+    glm::transpose(glm::mat3(0.613097402f, 0.339523146f, 0.047379451f, 0.070193722f, 0.916353879f,
+                             0.013452398f, 0.020615593f, 0.109569773f, 0.869814634f));
 
-void expectNear(const glm::vec3& a, const glm::vec3& b, float bound = 2e-5f) {
-    EXPECT_LT(glm::length(a - b), bound * std::max(1.0f, glm::length(b)))
-        << a.x << " " << a.y << " " << a.z;
+void expectNear(const glm::vec3& a, const glm::vec3& b) {
+    expectVector(a, b, 2e-5f);
+}
+
+/// A colour of a node's input.
+glm::vec3 colorAt(const Network& network, const std::string& path, const char* input) {
+    const std::vector<float>& n = network.find("/m/" + path)->inputs.at(input).numbers;
+    return {n[0], n[1], n[2]};
+}
+
+const glm::vec3 orange(0.7f, 0.2f, 0.05f);
+
+/// A diffuse node "d", of whose colour that is the space.
+NetworkNode diffuseIn(const char* space) {
+    Value value = color(orange.x, orange.y, orange.z);
+    value.colorSpace = space;
+    return makeNode("d", "ND_oren_nayar_diffuse_bsdf", {{"color", value}, {"roughness", 0.3f}});
 }
 
 } // namespace
@@ -39,7 +50,7 @@ TEST(RenderingSpace, LinearSpacesAreFoundByAnyOfTheirNames) {
 
 TEST(RenderingSpace, ItsMatrixIsThatOfAces) {
     const RenderingSpace& aces = *RenderingSpace::find("acescg");
-    const glm::vec3 c(0.7f, 0.2f, 0.05f);
+    const glm::vec3& c = orange;
     expectNear(aces.from709(c), ap1 * c);
     expectNear(aces.to709(aces.from709(c)), c);
     EXPECT_EQ(aces.from709(glm::vec3(0.3f)), glm::vec3(0.3f)); // to the bit
@@ -55,76 +66,45 @@ TEST(RenderingSpace, ItsMatrixIsThatOfAces) {
 TEST(RenderingSpace, TexturesAndDisplaysGoByWayOfRec709) {
     const ColorSpaces spaces;
     const RenderingSpace& aces = *RenderingSpace::find("acescg");
-    const auto through = [](const ColorTransformPtr& transform, glm::vec3 c) {
-        transform->apply(&c.x, 1, 3);
-        return c;
-    };
-    const glm::vec3 c(0.7f, 0.2f, 0.05f);
+    const glm::vec3& c = orange;
     EXPECT_TRUE(spaces.toRendering("ACEScg", aces)->isIdentity());
     EXPECT_TRUE(spaces.toRendering("raw", aces)->isIdentity());
     EXPECT_FALSE(spaces.toRendering("mine", aces));
-    expectNear(through(spaces.toRendering("linear", aces), c), ap1 * c);
-    expectNear(through(spaces.toRendering("sRGB", aces), c),
-               ap1 * through(spaces.toRec709("sRGB"), c));
-    expectNear(through(spaces.display("", "", aces), ap1 * c), through(spaces.display(), c));
+    expectNear(converted(spaces.toRendering("linear", aces), c), ap1 * c);
+    expectNear(converted(spaces.toRendering("sRGB", aces), c),
+               ap1 * converted(spaces.toRec709("sRGB"), c));
+    expectNear(converted(spaces.display("", "", aces), ap1 * c), converted(spaces.display(), c));
 }
 
 TEST(RenderingSpace, ColoursOfANetworkAreConverted) {
     const RenderingSpace& aces = *RenderingSpace::find("acescg");
-    Network network;
-    NetworkNode diffuse, metal, light, glow;
-    diffuse.path = "/d";
-    diffuse.id = "ND_oren_nayar_diffuse_bsdf";
-    diffuse.inputs["color"] = color(0.7f, 0.2f, 0.05f);
-    diffuse.inputs["roughness"] = Value::makeFloat(0.3f);
-    metal.path = "/m";
-    metal.id = "ND_conductor_bsdf";
-    metal.inputs["ior"] = color(0.2f, 0.4f, 1.4f);
-    metal.inputs["extinction"] = color(3.9f, 2.4f, 1.6f);
-    light.path = "/b";
-    light.id = "ND_blackbody";
-    glow.path = "/g";
-    glow.id = "ND_uniform_edf";
-    glow.connections["color"] = {"/b", ""};
-    network.nodes = {diffuse, metal, light, glow};
-    network.nodes[0].inputs["color"].colorSpace = "lin_ap1";
-    const Network other = inRenderingSpace(network, aces);
-    const auto at = [&](const char* path, const char* input) {
-        const std::vector<float>& n = other.find(path)->inputs.at(input).numbers;
-        return glm::vec3(n[0], n[1], n[2]);
-    };
-    expectNear(at("/d", "color"), {0.7f, 0.2f, 0.05f}); // given in the space
-    EXPECT_EQ(other.find("/d")->inputs.at("roughness").numbers[0], 0.3f);
-    EXPECT_EQ(at("/m", "ior"), glm::vec3(0.2f, 0.4f, 1.4f)); // no colours
-    EXPECT_EQ(at("/m", "extinction"), glm::vec3(3.9f, 2.4f, 1.6f));
-    EXPECT_EQ(other.find("/g")->connections.at("color").node, "/b.rendering");
-    EXPECT_TRUE(other.find("/b.rendering"));
+    const Network other = inRenderingSpace(
+        makeNetwork(
+            {diffuseIn("lin_ap1"),
+             makeNode("m", "ND_conductor_bsdf",
+                      {{"ior", color(0.2f, 0.4f, 1.4f)}, {"extinction", color(3.9f, 2.4f, 1.6f)}}),
+             makeNode("b", "ND_blackbody"), makeNode("g", "ND_uniform_edf", {}, {{"color", "b"}})}),
+        aces);
+    expectNear(colorAt(other, "d", "color"), orange); // given in the space
+    EXPECT_EQ(other.find("/m/d")->inputs.at("roughness").numbers[0], 0.3f);
+    EXPECT_EQ(colorAt(other, "m", "ior"), glm::vec3(0.2f, 0.4f, 1.4f)); // no colours
+    EXPECT_EQ(colorAt(other, "m", "extinction"), glm::vec3(3.9f, 2.4f, 1.6f));
+    EXPECT_EQ(other.find("/m/g")->connections.at("color").node, "/m/b.rendering");
+    EXPECT_TRUE(other.find("/m/b.rendering"));
 
-    network.nodes[0].inputs["color"].colorSpace.clear();
-    const Network plain = inRenderingSpace(network, aces);
-    const std::vector<float>& n = plain.find("/d")->inputs.at("color").numbers;
-    expectNear({n[0], n[1], n[2]}, ap1 * glm::vec3(0.7f, 0.2f, 0.05f));
+    const Network plain = inRenderingSpace(makeNetwork({diffuseIn("")}), aces);
+    expectNear(colorAt(plain, "d", "color"), ap1 * orange);
     // A default that is no grey is a colour of Rec.709 as well.
-    Network model;
-    model.nodes.resize(1);
-    model.nodes[0].path = "/o";
-    model.nodes[0].id = "ND_open_pbr_surface_surfaceshader";
-    const Network opened = inRenderingSpace(model, aces);
-    const std::vector<float>& r = opened.find("/o")->inputs.at("subsurface_radius_scale").numbers;
-    expectNear({r[0], r[1], r[2]}, ap1 * glm::vec3(1.0f, 0.5f, 0.25f));
-    EXPECT_EQ(opened.find("/o")->inputs.size(), 1u);
+    const Network opened =
+        inRenderingSpace(modelNetwork("ND_open_pbr_surface_surfaceshader"), aces);
+    expectNear(colorAt(opened, "surface", "subsurface_radius_scale"),
+               ap1 * glm::vec3(1.0f, 0.5f, 0.25f));
+    EXPECT_EQ(opened.find("/m/surface")->inputs.size(), 1u);
 }
 
 TEST(RenderingSpace, AColourOfAnUnknownSpaceStaysAndIsTold) {
-    Network network;
-    network.nodes.resize(1);
-    network.nodes[0].path = "/d";
-    network.nodes[0].id = "ND_oren_nayar_diffuse_bsdf";
-    Value& value = network.nodes[0].inputs["color"] = color(0.7f, 0.2f, 0.05f);
-    value.colorSpace = "nobody knows";
-    const Network same = inRenderingSpace(network, *RenderingSpace::find("acescg"));
-    EXPECT_EQ(same.nodes[0].inputs.at("color").numbers, value.numbers);
+    const Network same =
+        inRenderingSpace(makeNetwork({diffuseIn("nobody knows")}), *RenderingSpace::find("acescg"));
+    EXPECT_EQ(colorAt(same, "d", "color"), orange);
     EXPECT_EQ(same.nodes[0].inputs.at("color").colorSpace, "nobody knows");
 }
-
-} // namespace patina

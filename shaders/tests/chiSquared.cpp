@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/tests/chiSquared.h"
 
-#include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "shaders/tests/pearson.h"

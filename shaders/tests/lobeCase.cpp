@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/tests/lobeCase.h"
 
-#include <cmath>
 #include <cstdio>
+
+#include <gtest/gtest.h>
 
 namespace patina::test {
 
 namespace {
+
+const double ggxAlphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
 
 std::string label(const char* lobe, double a, double b, double c, int mode) {
     static const char* const modes[] = {"", "R", "T", "RT"};
@@ -15,48 +18,51 @@ std::string label(const char* lobe, double a, double b, double c, int mode) {
     return text;
 }
 
-void addDiffuse(std::vector<LobeCase>& cases) {
-    for (double r : {0.0, 0.3, 1.0}) {
-        cases.push_back(PATINA_LOBE_CASE(label("orenNayar", r, 0, 0, 0), orenNayar,
-                                         vec3(0.8, 0.5, 0.1), r, false));
-        cases.push_back(
-            PATINA_LOBE_CASE(label("eon", r, 0, 0, 0), orenNayar, vec3(1.0, 0.5, 0.1), r, true));
-        cases.push_back(
-            PATINA_LOBE_CASE(label("burley", r, 0, 0, 0), burley, vec3(0.8, 0.5, 0.1), r));
-    }
-    for (LobeCase& c : cases)
-        c.reciprocal = true;
-    LobeCase t = PATINA_LOBE_CASE("translucent", translucent, vec3(0.8, 0.5, 0.1));
-    t.twoSided = true;
-    t.reciprocal = true;
-    cases.push_back(t);
+/// A case with what it is declared to be.
+LobeCase declared(LobeCase c, double alpha, bool reciprocal, double ior = 1.0,
+                  bool twoSided = false) {
+    c.alpha = alpha;
+    c.ior = ior;
+    c.twoSided = twoSided;
+    c.reciprocal = reciprocal;
+    return c;
 }
 
-void addSheen(std::vector<LobeCase>& cases) {
+using Cases = std::vector<LobeCase>;
+
+void addDiffuse(Cases& cases) {
+    for (double r : {0.0, 0.3, 1.0})
+        for (const LobeCase& c :
+             {PATINA_LOBE_CASE(label("orenNayar", r, 0, 0, 0), orenNayar, vec3(0.8, 0.5, 0.1), r,
+                               false),
+              PATINA_LOBE_CASE(label("eon", r, 0, 0, 0), orenNayar, vec3(1.0, 0.5, 0.1), r, true),
+              PATINA_LOBE_CASE(label("burley", r, 0, 0, 0), burley, vec3(0.8, 0.5, 0.1), r)})
+            cases.push_back(declared(c, 1.0, true));
+    cases.push_back(declared(PATINA_LOBE_CASE("translucent", translucent, vec3(0.8, 0.5, 0.1)), 1.0,
+                             true, 1.0, true));
+}
+
+void addSheen(Cases& cases) {
     for (double r : {0.05, 0.3, 1.0})
-        for (int mode : {0, 1}) {
-            LobeCase c = PATINA_LOBE_CASE(label(mode == 0 ? "contyKulla" : "zeltner", r, 0, 0, 0),
-                                          sheen, vec3(1.0, 0.5, 0.1), r, mode);
+        for (int mode : {0, 1})
             // The bound on the albedo and the fit over wo alone are declared to break it.
-            c.reciprocal = mode == 0 && r >= 0.3;
-            cases.push_back(c);
-        }
+            cases.push_back(
+                declared(PATINA_LOBE_CASE(label(mode == 0 ? "contyKulla" : "zeltner", r, 0, 0, 0),
+                                          sheen, vec3(1.0, 0.5, 0.1), r, mode),
+                         1.0, mode == 0 && r >= 0.3));
 }
 
-void addClassic(std::vector<LobeCase>& cases) {
+void addClassic(Cases& cases) {
     const vec3 color(1.0, 0.5, 0.1);
-    const auto add = [&](LobeCase c, double alpha) {
-        c.alpha = alpha;
-        c.reciprocal = true;
-        cases.push_back(c);
+    const auto add = [&](const LobeCase& c, double alpha) {
+        cases.push_back(declared(c, alpha, true));
     };
     for (double n : {1.0, 30.0, 500.0}) {
         const double alpha = std::sqrt(2.0 / (n + 2.0));
         add(PATINA_LOBE_CASE(label("phong", n, 0, 0, 0), phong, vec3(color), n), alpha);
         add(PATINA_LOBE_CASE(label("blinnPhong", n, 0, 0, 0), blinnPhong, vec3(color), n), alpha);
     }
-    const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
-    for (const auto& a : alphas) {
+    for (const auto& a : ggxAlphas) {
         for (int form : {0, 1})
             add(PATINA_LOBE_CASE(label(form ? "wardExact" : "wardBounded", a[0], a[1], 0, 0), ward,
                                  vec3(color), vec2(a[0], a[1]), form),
@@ -64,134 +70,100 @@ void addClassic(std::vector<LobeCase>& cases) {
         if (a[0] != a[1]) continue;
         for (int fresnel : {0, 1})
             add(PATINA_LOBE_CASE(label("cookTorrance", a[0], fresnel, 0, 0), cookTorrance,
-                                 vec3(color), vec3(0.183, 0.421, 1.373), vec3(3.424, 2.346, 1.77),
-                                 a[0], fresnel),
+                                 vec3(color), vec3(goldIor), vec3(goldExtinction), a[0], fresnel),
                 a[0]);
     }
 }
 
 // Interfaces under a film: lobe PREFIX with its inputs, and film(lobe, thickness, ior).
-void addFilm(std::vector<LobeCase>& cases, int compensate) {
-    for (double thickness : {400.0})
-        for (double alpha : {0.3}) {
-            const vec2 a(alpha);
-            LobeCase metal;
-            metal.f32 = bindLobe<sh::vec3>(
-                sh::conductorFilm(sh::conductorSetup(sh::vec3(0.183, 0.421, 1.373),
-                                                     sh::vec3(3.424, 2.346, 1.77), sh::vec2(a),
-                                                     false, compensate),
-                                  float(thickness), 1.6f),
-                sh::conductorEval, sh::conductorSample, sh::conductorAlbedo);
-            metal.f64 =
-                bindLobe<vec3>(sh64::conductorFilm(sh64::conductorSetup(vec3(0.183, 0.421, 1.373),
-                                                                        vec3(3.424, 2.346, 1.77), a,
-                                                                        false, compensate),
-                                                   thickness, 1.6f),
-                               sh64::conductorEval, sh64::conductorSample, sh64::conductorAlbedo);
-            metal.name = label("film conductor", thickness, alpha, 0, 0);
-            metal.alpha = alpha;
-            metal.reciprocal = compensate == 0;
-            cases.push_back(metal);
-            for (double ior : {1.5, 0.75}) {
-                LobeCase d =
-                    PATINA_LOBE_CASE_AS(label("film dielectric", thickness, alpha, ior, 3),
-                                        filmDielectric, schlick, vec3(1.0, 0.9, 0.2), ior,
-                                        vec2(alpha), thickness, 1.33, false, 3, false, compensate);
-                d.alpha = alpha * std::fabs(ior - 1.0);
-                d.ior = ior;
-                d.twoSided = true;
-                d.reciprocal = compensate == 0;
-                cases.push_back(d);
-            }
-        }
+void addFilm(Cases& cases, int compensate) {
+    const double thickness = 400.0, alpha = 0.3;
+    const bool bare = compensate == 0;
+    cases.push_back(declared(
+        PATINA_LOBE_CASE_WITH(label("film conductor", thickness, alpha, 0, 0), conductor, conductor,
+                              l = conductorFilm(l, thickness, 1.6f), vec3(goldIor),
+                              vec3(goldExtinction), vec2(alpha), false, compensate),
+        alpha, bare));
+    for (double ior : {1.5, 0.75})
+        cases.push_back(
+            declared(PATINA_LOBE_CASE_AS(label("film dielectric", thickness, alpha, ior, 3),
+                                         filmDielectric, schlick, vec3(1.0, 0.9, 0.2), ior,
+                                         vec2(alpha), thickness, 1.33, false, 3, false, compensate),
+                     alpha * std::fabs(ior - 1.0), bare, ior, true));
 }
 
-void addHair(std::vector<LobeCase>& cases) {
+void addHair(Cases& cases) {
     for (double v : {0.02, 0.3})
-        for (double cuticle : {0.5, 0.53}) {
-            LobeCase c = PATINA_LOBE_CASE(label("chiangHair", v, cuticle, 0, 0), chiangHair,
+        for (double cuticle : {0.5, 0.53})
+            cases.push_back(
+                declared(PATINA_LOBE_CASE(label("chiangHair", v, cuticle, 0, 0), chiangHair,
                                           vec3(1.0, 0.9, 0.8), vec3(1.0), vec3(0.5, 1.0, 1.0), 1.55,
                                           vec2(v, 0.2), vec2(0.5 * v, 0.1), vec2(2.0 * v, 0.3),
-                                          cuticle, vec3(0.1, 0.4, 1.2));
-            c.alpha = 0.1;
-            c.twoSided = true;
-            cases.push_back(c);
-        }
+                                          cuticle, vec3(0.1, 0.4, 1.2)),
+                         0.1, false, 1.0, true));
 }
 
 // Beckmann facets instead of GGX. Alpha 1 has no other paths than 0.3, and interfaces differ by
 // mode only in what they leave out.
-void addBeckmann(std::vector<LobeCase>& cases, int compensate) {
+void addBeckmann(Cases& cases, int compensate) {
     const double alphas[][2] = {{0.05, 0.05}, {0.5, 0.5}, {0.1, 0.4}};
+    const int ndf = sh::NDF_BECKMANN;
+    const bool bare = compensate == 0;
     for (const auto& a : alphas) {
         const double ax = a[0], ay = a[1];
-        const auto add = [&](LobeCase c, double ior, bool transmits) {
-            c.alpha = ax * (transmits ? std::min(1.0, std::fabs(ior - 1.0)) : 1.0);
-            c.ior = ior;
-            c.twoSided = transmits;
-            c.reciprocal = compensate == 0;
-            cases.push_back(c);
-        };
-        const int ndf = sh::NDF_BECKMANN;
-        add(PATINA_LOBE_CASE_WITH(label("beckmann conductor", ax, ay, 0, 0), conductor, conductor,
-                                  l.ndf = ndf, vec3(0.183, 0.421, 1.373), vec3(3.424, 2.346, 1.77),
-                                  vec2(ax, ay), ax == 0.5, compensate),
-            1.0, false);
-        add(PATINA_LOBE_CASE_WITH(label("beckmann dielectric", ax, ay, 1.5, 3), dielectric,
-                                  dielectric, l.ndf = ndf, vec3(1.0, 0.9, 0.2), 1.5, vec2(ax, ay),
-                                  false, 3, false, compensate),
-            1.5, true);
-        add(PATINA_LOBE_CASE_WITH(label("beckmann schlick", ax, ay, 0.04, 3), schlick, schlick,
-                                  l.ndf = ndf, vec3(0.02, 0.04, 0.06), vec3(0.9, 1.0, 0.5),
-                                  vec3(1.0, 0.9, 1.0), 5.0, vec2(ax, ay), false, 3, false,
-                                  compensate),
-            1.5, true);
+        cases.push_back(declared(PATINA_LOBE_CASE_WITH(label("beckmann conductor", ax, ay, 0, 0),
+                                                       conductor, conductor, l.ndf = ndf,
+                                                       vec3(goldIor), vec3(goldExtinction),
+                                                       vec2(ax, ay), ax == 0.5, compensate),
+                                 ax, bare));
+        for (const LobeCase& c :
+             {PATINA_LOBE_CASE_WITH(label("beckmann dielectric", ax, ay, 1.5, 3), dielectric,
+                                    dielectric, l.ndf = ndf, vec3(1.0, 0.9, 0.2), 1.5, vec2(ax, ay),
+                                                false, 3, false, compensate),
+              PATINA_LOBE_CASE_WITH(label("beckmann schlick", ax, ay, 0.04, 3), schlick, schlick,
+                                    l.ndf = ndf, vec3(0.02, 0.04, 0.06), vec3(0.9, 1.0, 0.5),
+                                    vec3(1.0, 0.9, 1.0), 5.0, vec2(ax, ay), false, 3, false,
+                                    compensate)})
+            cases.push_back(declared(c, ax * 0.5, bare, 1.5, true));
+    }
+}
+
+void addGgx(Cases& cases, int compensate) {
+    const bool bare = compensate == 0;
+    for (const auto& a : ggxAlphas) {
+        const double ax = a[0], ay = a[1];
+        cases.push_back(
+            declared(PATINA_LOBE_CASE(label("conductor", ax, ay, 0, 0), conductor, vec3(goldIor),
+                                      vec3(goldExtinction), vec2(ax, ay), ax == 0.3, compensate),
+                     ax, bare));
+        for (int mode : {1, 2, 3}) {
+            for (double ior : {1.05, 1.5, 0.75})
+                cases.push_back(declared(
+                    PATINA_LOBE_CASE(label("dielectric", ax, ay, ior, mode), dielectric,
+                                     vec3(1.0, 0.9, 0.2), ior, vec2(ax, ay), false, mode, false,
+                                     compensate),
+                    ax * (mode == 1 ? 1.0 : std::min(1.0, std::fabs(ior - 1.0))), bare, ior, true));
+            cases.push_back(declared(PATINA_LOBE_CASE(label("schlick", ax, ay, 0.04, mode), schlick,
+                                                      vec3(0.02, 0.04, 0.06), vec3(0.9, 1.0, 0.5),
+                                                      vec3(1.0, 0.9, 1.0), 5.0, vec2(ax, ay), false,
+                                                      mode, false, compensate),
+                                     ax * (mode == 1 ? 1.0 : 0.5), bare,
+                                     (1.0 + std::sqrt(0.04)) / (1.0 - std::sqrt(0.04)), true));
+        }
     }
 }
 
 } // namespace
 
 std::vector<LobeCase> lobeCases(int compensate) {
-    std::vector<LobeCase> cases;
+    Cases cases;
     addDiffuse(cases);
     addSheen(cases);
     addClassic(cases);
     addFilm(cases, compensate);
     addHair(cases);
     addBeckmann(cases, compensate);
-    const bool bare = compensate == 0;
-    const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
-    for (const auto& a : alphas) {
-        const double ax = a[0];
-        const double ay = a[1];
-        LobeCase metal =
-            PATINA_LOBE_CASE(label("conductor", ax, ay, 0, 0), conductor, vec3(0.183, 0.421, 1.373),
-                             vec3(3.424, 2.346, 1.77), vec2(ax, ay), ax == 0.3, compensate);
-        metal.alpha = ax;
-        metal.reciprocal = bare;
-        cases.push_back(metal);
-        for (int mode : {1, 2, 3}) {
-            for (double ior : {1.05, 1.5, 0.75}) {
-                LobeCase d = PATINA_LOBE_CASE(label("dielectric", ax, ay, ior, mode), dielectric,
-                                              vec3(1.0, 0.9, 0.2), ior, vec2(ax, ay), false, mode,
-                                              false, compensate);
-                d.alpha = ax * (mode == 1 ? 1.0 : std::min(1.0, std::fabs(ior - 1.0)));
-                d.ior = ior;
-                d.twoSided = true;
-                d.reciprocal = bare;
-                cases.push_back(d);
-            }
-            LobeCase s =
-                PATINA_LOBE_CASE(label("schlick", ax, ay, 0.04, mode), schlick,
-                                 vec3(0.02, 0.04, 0.06), vec3(0.9, 1.0, 0.5), vec3(1.0, 0.9, 1.0),
-                                 5.0, vec2(ax, ay), false, mode, false, compensate);
-            s.alpha = ax * (mode == 1 ? 1.0 : 0.5);
-            s.ior = (1.0 + std::sqrt(0.04)) / (1.0 - std::sqrt(0.04));
-            s.twoSided = true;
-            s.reciprocal = bare;
-            cases.push_back(s);
-        }
-    }
+    addGgx(cases, compensate);
     return cases;
 }
 
@@ -203,11 +175,8 @@ vec3 direction(double z, double phi) {
 std::vector<vec3> outgoing(const LobeCase& c) {
     std::vector<vec3> wo = {direction(1.0, 0.0), direction(0.7071, 0.4), direction(0.1736, 1.9),
                             direction(0.01745, 5.0)};
-    if (c.twoSided) {
-        wo.push_back(direction(-0.95, 0.4));
-        wo.push_back(direction(-0.75, 2.0));
-        wo.push_back(direction(-0.2, 4.0));
-    }
+    if (c.twoSided)
+        wo.insert(wo.end(), {direction(-0.95, 0.4), direction(-0.75, 2.0), direction(-0.2, 4.0)});
     return wo;
 }
 
@@ -216,6 +185,45 @@ vec3 quasiRandom(int i) {
     const auto wrap = [](double x) { return x - std::floor(x); };
     return vec3(wrap(n * 0.8191725133961645), wrap(n * 0.6710436067037893),
                 wrap(n * 0.5497004779019703));
+}
+
+void expectSamplesAreOfEval(const LobeCase& c, vec3 wo, int count, double tolerance) {
+    for (int i = 0; i < count; ++i) {
+        const sh64::LobeSample s = c.f64.sample(wo, quasiRandom(i));
+        if (s.event == 0 || (s.event & sh::LOBE_DELTA) != 0) continue;
+        const sh64::LobeEval e = c.f64.eval(wo, s.wi);
+        ASSERT_GT(s.pdf, 0.0) << c.name;
+        // Where wi grazes, its cosine is a difference of two near numbers.
+        const double tol = tolerance / std::max(std::fabs(s.wi.z), 1e-6);
+        ASSERT_NEAR(e.pdf / s.pdf, 1.0, tol) << c.name << " wo.z " << wo.z;
+        ASSERT_LT(largest(e.value / e.pdf - s.weight),
+                  tol * std::max(largest(s.weight), 1e-3) + 1e-10)
+            << c.name << " wo.z " << wo.z << " wi.z " << s.wi.z;
+    }
+}
+
+double asymmetry(const LobeCase& c) {
+    double worst = 0.0;
+    for (int i = 0; i < 500; ++i) {
+        const vec3 u = quasiRandom(i);
+        const vec3 v = quasiRandom(i + 7000);
+        const vec3 o = c.twoSided ? sphereDirection(u) : direction(u.x, 6.2831853 * u.y);
+        vec3 w = c.twoSided ? sphereDirection(v) : direction(v.x, 6.2831853 * v.y);
+        if (i % 2 == 0) {
+            const sh64::LobeSample s = c.f64.sample(o, v);
+            if (s.event == 0) continue;
+            w = s.wi;
+        }
+        const double no = o.z >= 0.0 ? 1.0 : c.ior;
+        const double nw = w.z >= 0.0 ? 1.0 : c.ior;
+        const vec3 there = c.f64.eval(o, w).value / std::fabs(w.z) * (no * no);
+        const vec3 back = c.f64.eval(w, o).value / std::fabs(o.z) * (nw * nw);
+        for (int k = 0; k < 3; ++k) {
+            const double sum = there[k] + back[k];
+            if (sum > 1e-6) worst = std::max(worst, std::fabs(there[k] - back[k]) / sum);
+        }
+    }
+    return worst;
 }
 
 vec3 sampledAlbedo(const BoundLobe& lobe, vec3 wo, int count) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -30,14 +32,11 @@ struct LobeCase {
     bool reciprocal = false; ///< f(o, i) n(o)^2 = f(i, o) n(i)^2
 };
 
-inline sh64::LobeEval widen(const sh64::LobeEval& e) {
-    return e;
+template <class T> T widen(const T& ofDoubles) {
+    return ofDoubles;
 }
 inline sh64::LobeEval widen(const sh::LobeEval& e) {
     return {vec3(e.value), double(e.pdf)};
-}
-inline sh64::LobeSample widen(const sh64::LobeSample& s) {
-    return s;
 }
 inline sh64::LobeSample widen(const sh::LobeSample& s) {
     return {vec3(s.wi), vec3(s.weight), double(s.pdf), s.event, double(s.eta)};
@@ -65,38 +64,66 @@ BoundLobe bindLobe(Lobe l, Eval eval, Sample sample, Albedo albedo) {
     [&] {                                                                                          \
         patina::test::LobeCase c;                                                                  \
         c.name = NAME;                                                                             \
-        {                                                                                          \
-            using patina::sh::vec2;                                                                \
-            using patina::sh::vec3;                                                                \
-            auto l = patina::sh::SETUP##Setup(__VA_ARGS__);                                        \
-            CHANGE;                                                                                \
-            c.f32 = patina::test::bindLobe<vec3>(l, patina::sh::PREFIX##Eval,                      \
-                                                 patina::sh::PREFIX##Sample,                       \
-                                                 patina::sh::PREFIX##Albedo);                      \
-        }                                                                                          \
-        {                                                                                          \
-            using patina::sh64::vec2;                                                              \
-            using patina::sh64::vec3;                                                              \
-            auto l = patina::sh64::SETUP##Setup(__VA_ARGS__);                                      \
-            CHANGE;                                                                                \
-            c.f64 = patina::test::bindLobe<vec3>(l, patina::sh64::PREFIX##Eval,                    \
-                                                 patina::sh64::PREFIX##Sample,                     \
-                                                 patina::sh64::PREFIX##Albedo);                    \
-        }                                                                                          \
+        PATINA_BIND_LOBE(c.f32, sh, SETUP, PREFIX, CHANGE, __VA_ARGS__)                            \
+        PATINA_BIND_LOBE(c.f64, sh64, SETUP, PREFIX, CHANGE, __VA_ARGS__)                          \
         return c;                                                                                  \
     }()
+
+#define PATINA_BIND_LOBE(BOUND, SPACE, SETUP, PREFIX, CHANGE, ...)                                 \
+    {                                                                                              \
+        using patina::SPACE::vec2;                                                                 \
+        using patina::SPACE::vec3;                                                                 \
+        auto l = patina::SPACE::SETUP##Setup(__VA_ARGS__);                                         \
+        CHANGE;                                                                                    \
+        BOUND = patina::test::bindLobe<vec3>(l, patina::SPACE::PREFIX##Eval,                       \
+                                             patina::SPACE::PREFIX##Sample,                        \
+                                             patina::SPACE::PREFIX##Albedo);                       \
+    }
 
 /// Every lobe over a grid of regular inputs. compensate: 0 or 1.
 std::vector<LobeCase> lobeCases(int compensate);
 
+/// Gold, as an ior and an extinction.
+inline const vec3 goldIor(0.183, 0.421, 1.373), goldExtinction(3.424, 2.346, 1.77);
+
+inline double largest(vec3 v) {
+    return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z)));
+}
+
 /// Unit direction at cosine `z` and azimuth `phi`.
 vec3 direction(double z, double phi);
+
+/// Point `u` of the unit square as a direction of equal solid angle.
+inline vec3 sphereDirection(vec3 u) {
+    return direction(2.0 * u.x - 1.0, 2.0 * sh64::PI * u.y);
+}
 
 /// Directions a case is tried from: normal to grazing, and below the surface where that is valid.
 std::vector<vec3> outgoing(const LobeCase& c);
 
 /// Point i of a low-discrepancy sequence in the unit cube (Roberts 2018, generalized golden ratio).
 vec3 quasiRandom(int i);
+
+/// Density and weight of samples are those of eval(), in double and without mirrors.
+/// @param tolerance of the density, where wi does not graze
+void expectSamplesAreOfEval(const LobeCase& c, vec3 wo, int count, double tolerance);
+
+/// Largest relative difference of f(o, i) and f(i, o) over a set of direction pairs.
+double asymmetry(const LobeCase& c);
+
+/// Root mean square and largest of errors.
+struct Error {
+    double square = 0.0;
+    double largest = 0.0;
+    int count = 0;
+
+    void add(double e) {
+        square += e * e;
+        largest = std::max(largest, std::fabs(e));
+        ++count;
+    }
+    double rms() const { return std::sqrt(square / count); }
+};
 
 /// Mean sample weight over `count` quasi-random points: the albedo as the sampler sees it.
 vec3 sampledAlbedo(const BoundLobe& lobe, vec3 wo, int count);

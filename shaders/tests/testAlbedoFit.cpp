@@ -2,9 +2,6 @@
 // The methods for directional albedos against quadrature, over the 32 x 32 cell centres of (cosine,
 // root of alpha): RMSE times 65535, single scattering. Everything here is deterministic.
 
-#include <cmath>
-#include <functional>
-
 #include <gtest/gtest.h>
 
 #include "shaders/bake/albedoQuadrature.h"
@@ -19,32 +16,28 @@ namespace {
 constexpr int gridSide = 32;
 constexpr double referenceBound = 12.4; // of the reference curve that the fit had to beat
 
-/// A reflectance: exact, and the lobe's albedo in float by a method.
+/// A reflectance: exact, and as a lobe with a method for its albedo.
 struct Curve {
     std::string name;
     std::function<double(double c)> exact;
-    std::function<double(vec3 wo, double alpha, int method)> lobe;
+    std::function<test::LobeCase(double alpha, int method)> lobe;
 };
 
 Curve dielectric(double ior) {
     return {"ior " + std::to_string(ior), [=](double c) { return sh64::fresnelDielectric(c, ior); },
-            [=](vec3 wo, double alpha, int method) {
-                sh::DielectricLobe l =
-                    sh::dielectricSetup(sh::vec3(1.0f), float(ior), sh::vec2(float(alpha)), false,
-                                        sh::SCATTER_R, false, sh::COMPENSATE_NONE);
-                l.albedo = method;
-                return double(sh::dielectricAlbedo(l, sh::vec3(wo)).x);
+            [=](double alpha, int method) {
+                return PATINA_LOBE_CASE_WITH("", dielectric, dielectric, l.albedo = method,
+                                             vec3(1.0), ior, vec2(alpha), false, sh::SCATTER_R,
+                                             false, sh::COMPENSATE_NONE);
             }};
 }
 
 Curve conductor(double n, double k) {
     return {"n " + std::to_string(n) + " k " + std::to_string(k),
             [=](double c) { return sh64::fresnelConductorChannel(c, n, k); },
-            [=](vec3 wo, double alpha, int method) {
-                sh::ConductorLobe l = sh::conductorSetup(sh::vec3(float(n)), sh::vec3(float(k)),
-                                                         sh::vec2(float(alpha)), false, 0);
-                l.albedo = method;
-                return double(sh::conductorAlbedo(l, sh::vec3(wo)).x);
+            [=](double alpha, int method) {
+                return PATINA_LOBE_CASE_WITH("", conductor, conductor, l.albedo = method, vec3(n),
+                                             vec3(k), vec2(alpha), false, 0);
             }};
 }
 
@@ -55,12 +48,10 @@ Curve schlick(double f0, double f82, double f90, double exponent) {
                            c, sh64::schlickFresnel(vec3(f0), vec3(f82), vec3(f90), exponent))
                     .x;
             },
-            [=](vec3 wo, double alpha, int method) {
-                sh::SchlickLobe l = sh::schlickSetup(
-                    sh::vec3(float(f0)), sh::vec3(float(f82)), sh::vec3(float(f90)),
-                    float(exponent), sh::vec2(float(alpha)), false, sh::SCATTER_R, false, 0);
-                l.albedo = method;
-                return double(sh::schlickAlbedo(l, sh::vec3(wo)).x);
+            [=](double alpha, int method) {
+                return PATINA_LOBE_CASE_WITH("", schlick, schlick, l.albedo = method, vec3(f0),
+                                             vec3(f82), vec3(f90), exponent, vec2(alpha), false,
+                                             sh::SCATTER_R, false, 0);
             }};
 }
 
@@ -73,17 +64,15 @@ public:
         return grid;
     }
 
-    double rms(const Curve& curve, int method, double* largest = nullptr) const {
-        double square = 0.0;
+    test::Error error(const Curve& curve, int method) const {
+        test::Error error;
         for (const Place& p : _places) {
             double truth = 0.0;
             for (int i = 0; i < binCount; ++i)
                 if (p.light[i] > 0.0) truth += p.light[i] * curve.exact(p.cosine[i]);
-            const double e = curve.lobe(p.wo, p.alpha, method) - truth;
-            square += e * e;
-            if (largest) *largest = std::max(*largest, std::fabs(e));
+            error.add(curve.lobe(p.alpha, method).f32.albedo(p.wo).x - truth);
         }
-        return std::sqrt(square / double(_places.size())) * 65535.0;
+        return error;
     }
 
 private:
@@ -113,7 +102,7 @@ private:
 };
 
 double rms(const Curve& curve, int method) {
-    return Grid::shared().rms(curve, method);
+    return Grid::shared().error(curve, method).rms() * 65535.0;
 }
 
 } // namespace
@@ -123,9 +112,9 @@ TEST(AlbedoFit, DielectricsFromNearlyMatchedToDiamond) {
         const double ior = 1.05 + 1.95 * std::pow(i / 26.0, 1.5);
         EXPECT_LE(rms(dielectric(ior), sh::ALBEDO_FIT), referenceBound) << ior;
     }
-    double largest = 0.0;
-    EXPECT_LE(Grid::shared().rms(dielectric(1.5), sh::ALBEDO_FIT, &largest), 2.5);
-    EXPECT_LE(largest, 1e-3);
+    const test::Error glass = Grid::shared().error(dielectric(1.5), sh::ALBEDO_FIT);
+    EXPECT_LE(glass.rms() * 65535.0, 2.5);
+    EXPECT_LE(glass.largest, 1e-3);
 }
 
 // Silver to carbon, none of them among those that were fitted to but the last.

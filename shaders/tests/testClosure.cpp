@@ -3,13 +3,13 @@
 // whole materials (materialNetwork/tests/testLayerReturn.cpp).
 
 #include "shaders/closure.h"
+#include "shaders/tests/estimate.h"
 
 #include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,18 +21,20 @@ namespace {
 const float notANumber = std::numeric_limits<float>::quiet_NaN();
 const float infinite = std::numeric_limits<float>::infinity();
 
-glm::vec3 direction(std::mt19937& random) {
-    std::normal_distribution<float> normal;
-    glm::vec3 d;
-    do
-        d = glm::vec3(normal(random), normal(random), normal(random));
-    while (glm::dot(d, d) < 1e-4f);
-    return glm::normalize(d);
-}
-
 void expectSame(const glm::vec3& found, const glm::vec3& expected, float error) {
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(found[c], expected[c], error) << c;
+}
+
+/// sh::bendNormal() by its words, in double.
+glm::dvec3 bent(glm::dvec3 n, const glm::dvec3& v, const glm::dvec3& g) {
+    const double margin = 1e-3;
+    if (glm::dot(n, v) <= 0.0) n = glm::normalize(n + v * (margin - glm::dot(n, v)));
+    const glm::dvec3 mirror = n * (2.0 * glm::dot(n, v)) - v;
+    const double wanted = std::min(margin, glm::dot(v, g));
+    const double above = glm::dot(mirror, g);
+    if (above >= wanted) return n;
+    return glm::normalize(v + glm::normalize(mirror + g * (wanted - above)));
 }
 
 } // namespace
@@ -49,12 +51,12 @@ TEST(ClosureAmounts, AuthoredNumbersBecomeUsable) {
 }
 
 TEST(ClosureFrame, IsOrthonormalWhateverIsAuthored) {
-    std::mt19937 random(1);
+    test::Random random(1);
     const glm::vec3 odd[] = {glm::vec3(0.0f),     glm::vec3(notANumber),   glm::vec3(infinite),
                              glm::vec3(1e-20f),   glm::vec3(0, 0, -1e18f), glm::vec3(1, 0, 0),
                              glm::vec3(0, 0, -1), glm::vec3(-0.0f, 0, 1)};
     for (int i = 0; i < 500; ++i) {
-        const glm::vec3 g = direction(random), view = direction(random);
+        const glm::vec3 g = random.direction(), view = random.direction();
         glm::vec3 x, y;
         sh::completeBasis(g, x, y);
         for (const glm::vec3& normal : odd)
@@ -87,6 +89,30 @@ TEST(ClosureFrame, IsOrthonormalWhateverIsAuthored) {
     }
 }
 
+// A sine of 1e-3 has 1e-4 of its value as the rounding of unit vectors; what a lobe makes of it, as
+// much. Sums of nearly opposite directions left ten times that, and more.
+TEST(ClosureFrame, TurnedNormalsAreExactAtGrazingAngles) {
+    test::Random random(3);
+    int turned = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const float sine = std::pow(10.0f, -3.5f + 3.0f * random());
+        const float phi = 6.2831853f * random();
+        const glm::vec3 g(0, 0, 1);
+        const glm::vec3 v = glm::normalize(glm::vec3(std::cos(phi), std::sin(phi), sine));
+        const float theta = glm::radians(89.0f) * random(), turn = 6.2831853f * random();
+        const glm::vec3 n(std::sin(theta) * std::cos(turn), std::sin(theta) * std::sin(turn),
+                          std::cos(theta));
+        const glm::dvec3 expected =
+            bent(glm::normalize(glm::dvec3(n)), glm::normalize(glm::dvec3(v)), g);
+        const glm::vec3 found = sh::bendNormal(n, v, g);
+        turned += glm::length(expected - glm::dvec3(n)) > 1e-3;
+        const double seen = glm::dot(expected, glm::normalize(glm::dvec3(v)));
+        EXPECT_NEAR(glm::dot(glm::dvec3(found), glm::dvec3(v)), seen, 1e-3 * seen + 5e-7)
+            << i << " sine " << sine;
+    }
+    EXPECT_GT(turned, 500);
+}
+
 // The series of bounces between two faces loses nothing.
 TEST(ClosureSlab, WhatDoesNotPassIsReflected) {
     for (const float once : {0.0f, 0.04f, 0.5f, 0.99f, 1.0f}) {
@@ -107,11 +133,10 @@ TEST(ClosureSlab, PresenceLosesNoLight) {
     // Where it is met, lobes count so much more.
     EXPECT_NEAR(presence * sh::slabScale(through), 0.75f, 1e-6f);
     // Whatever a colour is, neither way makes much of little.
-    std::mt19937 random(2);
-    std::uniform_real_distribution<float> share(0.0f, 1.0f);
+    test::Random random(2);
     for (int i = 0; i < 1000; ++i) {
-        const auto any = [&] { return std::pow(share(random), 8.0f); };
-        const glm::vec3 c(any(), 1.0f - any(), share(random));
+        const auto any = [&] { return std::pow(random(), 8.0f); };
+        const glm::vec3 c(any(), 1.0f - any(), random());
         sh::presenceOf(1.0f, c, passes);
         const glm::vec3 met = (1.0f - c) * sh::slabScale(c);
         EXPECT_LE(std::max({passes.x, passes.y, passes.z, met.x, met.y, met.z}), 3.001f);
@@ -169,30 +194,24 @@ TEST(ClosureMedium, PhaseMixtureIsADensityAndItsSamplesFollowIt) {
     const glm::vec3 throughput(0.5f, 0.3f, 0.2f);
     const sh::PhaseMixture p = sh::phaseMixture(m, throughput);
     EXPECT_NEAR(p.parts[0].chance + p.parts[1].chance, 1.0f, 1e-6f);
-    std::mt19937 random(7);
-    std::uniform_real_distribution<float> uniform;
-    const glm::vec3 wo = direction(random);
+    test::Random random(7);
+    const glm::vec3 wo = random.direction();
     const int count = 20000;
-    double value = 0.0, density = 0.0, square = 0.0, mean = 0.0, expected = 0.0, weight = 0.0;
+    test::Mean value, density, mean, expected, weight;
     for (int i = 0; i < count; ++i) {
-        const glm::vec3 wi = direction(random);
+        const glm::vec3 wi = random.direction();
         const sh::LobeEval e = sh::phaseMixtureEval(p, wo, wi);
-        const double each = 12.5663706 * double(e.value.x);
-        value += each / count;
-        square += each * each / count;
-        density += 12.5663706 * double(e.pdf) / count;
-        expected += 12.5663706 * double(e.pdf * glm::dot(wo, wi)) / count;
-        const sh::LobeSample s = sh::phaseMixtureSample(
-            p, wo, glm::vec3(uniform(random), uniform(random), 0.0f), uniform(random));
-        mean += double(glm::dot(wo, s.wi)) / count;
-        weight += double(s.weight.y) / count;
+        value.add(4.0 * test::pi * double(e.value.x));
+        density.add(4.0 * test::pi * double(e.pdf));
+        expected.add(4.0 * test::pi * double(e.pdf * glm::dot(wo, wi)));
+        const sh::LobeSample s = sh::phaseMixtureSample(p, wo, random.cube(), random());
+        mean.add(double(glm::dot(wo, s.wi)));
+        weight.add(double(s.weight.y));
         const sh::LobeEval there = sh::phaseMixtureEval(p, wo, s.wi);
         EXPECT_EQ(there.pdf, s.pdf);
         EXPECT_EQ(s.weight.z, 0.0f); // nothing scatters blue light
     }
-    const double bound = 5.0 * std::sqrt((square - value * value) / count); // 5 sigma
-    EXPECT_NEAR(value, 1.0, bound);
-    EXPECT_NEAR(density, 1.0, bound);
-    EXPECT_NEAR(weight, 1.0, bound);
-    EXPECT_NEAR(mean, expected, 2.0 * bound);
+    for (const test::Mean* one : {&value, &density, &weight})
+        EXPECT_TRUE(agree(*one, 1.0));
+    EXPECT_TRUE(agree(mean, expected));
 }

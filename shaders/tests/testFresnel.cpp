@@ -15,18 +15,15 @@ TEST(Fresnel, NormalIncidence) {
     EXPECT_NEAR(sh64::fresnelDielectric(1.0, 1.0 / 1.5), 0.04, 1e-15);
     EXPECT_NEAR(sh::fresnelDielectric(1.0f, 1.5f), 0.04f, 1e-8f);
     // Gold at 580 nm or so: ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2).
-    const double n = 0.183;
-    const double k = 3.424;
-    const double f = ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
-    EXPECT_NEAR(sh64::fresnelConductorChannel(1.0, n, k), f, 1e-14);
+    const double n = 0.183, k = 3.424;
+    EXPECT_NEAR(sh64::fresnelConductorChannel(1.0, n, k),
+                ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k), 1e-14);
 }
 
 TEST(Fresnel, BrewsterAngleHasOnlyTheOtherPolarisation) {
     // tan(theta) = n; there R = Rs / 2 with Rs = ((n^2 - 1) / (n^2 + 1))^2.
-    const double n = 1.5;
-    const double c = 1.0 / std::sqrt(1.0 + n * n);
-    const double rs = (n * n - 1.0) / (n * n + 1.0);
-    EXPECT_NEAR(sh64::fresnelDielectric(c, n), 0.5 * rs * rs, 1e-14);
+    const double n = 1.5, rs = (n * n - 1.0) / (n * n + 1.0);
+    EXPECT_NEAR(sh64::fresnelDielectric(1.0 / std::sqrt(1.0 + n * n), n), 0.5 * rs * rs, 1e-14);
 }
 
 TEST(Fresnel, MatchedIorReflectsNothing) {
@@ -39,8 +36,7 @@ TEST(Fresnel, MatchedIorReflectsNothing) {
 }
 
 TEST(Fresnel, TotalReflectionBeyondTheCriticalAngle) {
-    const double eta = 1.0 / 1.5;
-    const double critical = std::sqrt(1.0 - eta * eta);
+    const double eta = 1.0 / 1.5, critical = std::sqrt(1.0 - eta * eta);
     EXPECT_EQ(sh64::fresnelDielectric(critical * 0.999, eta), 1.0);
     EXPECT_LT(sh64::fresnelDielectric(critical * 1.001, eta), 1.0);
     EXPECT_EQ(sh64::fresnelDielectric(0.0, eta), 1.0);
@@ -49,11 +45,9 @@ TEST(Fresnel, TotalReflectionBeyondTheCriticalAngle) {
 
 TEST(Fresnel, BothSidesReflectAlike) {
     for (double n : {1.05, 1.5, 2.4})
-        for (double c = 0.01; c <= 1.0; c += 0.07) {
-            const double far = sh64::cosRefracted(c, n);
-            EXPECT_NEAR(sh64::fresnelDielectric(c, n), sh64::fresnelDielectric(far, 1.0 / n),
-                        1e-12);
-        }
+        for (double c = 0.01; c <= 1.0; c += 0.07)
+            EXPECT_NEAR(sh64::fresnelDielectric(c, n),
+                        sh64::fresnelDielectric(sh64::cosRefracted(c, n), 1.0 / n), 1e-12);
 }
 
 TEST(Fresnel, ConductorWithoutExtinctionIsDielectric) {

@@ -2,6 +2,7 @@
 // Lobes, patterns and lights as GLSL: every file of the dialect compiles as a compute shader (with
 // storage buffer) and as an OpenGL ES 3.0 fragment shader (with the host's own table look-up).
 
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -49,57 +50,43 @@ std::string compile(const std::string& source, const std::string& stage) {
     return status == 0 ? std::string() : output + "\nstatus " + std::to_string(status);
 }
 
-// A shader that calls every lobe, so that nothing is left unlinked.
-const char* const lobeCalls = R"(
-vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
-    OrenNayarLobe o = orenNayarSetup(vec3(0.8), 0.3, true);
-    BurleyLobe b = burleySetup(vec3(0.8), 0.3);
-    TranslucentLobe t = translucentSetup(vec3(0.8));
-    ConductorLobe c = conductorSetup(vec3(0.2), vec3(3.0), vec2(0.2), false, 1);
-    DielectricLobe d = dielectricSetup(vec3(1.0), 1.5, vec2(0.2), false, SCATTER_RT, false, 1);
-    SchlickLobe s = schlickSetup(vec3(0.04), vec3(1.0), vec3(1.0), 5.0, vec2(0.2), false,
-                                 SCATTER_RT, false, 1);
-    SheenLobe k = sheenSetup(vec3(0.8), 0.3, SHEEN_CONTY_KULLA);
-    SheenLobe z = sheenSetup(vec3(0.8), 0.3, SHEEN_ZELTNER);
-    PhaseHenyeyGreensteinLobe p = phaseHenyeyGreensteinSetup(0.5);
-    vec3 sum = phaseHenyeyGreensteinEval(p, wo, wi).value +
-               phaseHenyeyGreensteinSample(p, wo, u).wi + phaseHenyeyGreensteinAlbedo(p, wo) +
-               orenNayarEval(o, wo, wi).value + burleyEval(b, wo, wi).value +
-               translucentEval(t, wo, wi).value + conductorEval(c, wo, wi).value +
-               dielectricEval(d, wo, wi).value + schlickEval(s, wo, wi).value;
-    sum += orenNayarSample(o, wo, u).weight + burleySample(b, wo, u).weight +
-           translucentSample(t, wo, u).weight + conductorSample(c, wo, u).weight +
-           dielectricSample(d, wo, u).weight + schlickSample(s, wo, u).weight;
-    sum += orenNayarAlbedo(o, wo) + burleyAlbedo(b, wo) + translucentAlbedo(t, wo) +
-           conductorAlbedo(c, wo) + dielectricAlbedo(d, wo) + schlickAlbedo(s, wo);
-    sum += sheenEval(k, wo, wi).value + sheenEval(z, wo, wi).value + sheenSample(k, wo, u).weight +
-           sheenSample(z, wo, u).weight + sheenAlbedo(k, wo) + sheenAlbedo(z, wo);
-    PhongLobe q = phongSetup(vec3(0.8), 20.0);
-    BlinnPhongLobe n = blinnPhongSetup(vec3(0.8), 20.0);
-    WardLobe w = wardSetup(vec3(0.8), vec2(0.2), WARD_BOUNDED);
-    CookTorranceLobe x =
-        cookTorranceSetup(vec3(0.8), vec3(1.5), vec3(0.0), 0.2, COOK_TORRANCE_SCHLICK);
-    sum += phongEval(q, wo, wi).value + phongSample(q, wo, u).weight + phongAlbedo(q, wo) +
-           blinnPhongEval(n, wo, wi).value + blinnPhongSample(n, wo, u).weight +
-           blinnPhongAlbedo(n, wo) + wardEval(w, wo, wi).value + wardSample(w, wo, u).weight +
-           wardAlbedo(w, wo) + cookTorranceEval(x, wo, wi).value +
-           cookTorranceSample(x, wo, u).weight + cookTorranceAlbedo(x, wo);
-    ConductorLobe cf = conductorFilm(c, 300.0, 1.5);
-    SchlickLobe sf = schlickFilm(s, 300.0, 1.5);
-    SchlickLobe df = filmDielectricSetup(vec3(1.0), 1.5, vec2(0.2), 300.0, 1.3, false, SCATTER_RT,
-                                         false, 1);
-    c.ndf = NDF_BECKMANN;
-    d.ndf = NDF_BECKMANN;
-    sum += conductorSample(c, wo, u).weight + dielectricEval(d, wo, wi).value;
-    sum += conductorEval(cf, wo, wi).value + schlickEval(sf, wo, wi).value +
-           schlickAlbedo(df, wo) + conductorAlbedo(cf, wo);
-    ChiangHairLobe h = chiangHairSetup(vec3(1.0), vec3(1.0), vec3(1.0), 1.55, vec2(0.1), vec2(0.1),
-                                       vec2(0.2), 0.5, vec3(0.3));
-    sum += chiangHairEval(h, wo, wi).value + chiangHairSample(h, wo, u).weight +
-           chiangHairAlbedo(h, wo);
-    SubsurfaceLobe i = subsurfaceSetup(vec3(0.8), vec3(1.0), 0.0);
-    sum += subsurfaceEval(i, wo, wi).value + subsurfaceSample(i, wo, u).weight +
-           subsurfaceAlbedo(i, wo);
+// Calls of every lobe, so that nothing is left unlinked.
+std::string lobeCalls() {
+    // Of prefixSetup() the arguments, of what is made otherwise all that stands for it.
+    const char* const lobes[][3] = {
+        {"orenNayar", "o", "vec3(0.8), 0.3, true"},
+        {"burley", "b", "vec3(0.8), 0.3"},
+        {"translucent", "t", "vec3(0.8)"},
+        {"conductor", "c", "vec3(0.2), vec3(3.0), vec2(0.2), false, 1"},
+        {"dielectric", "d", "vec3(1.0), 1.5, vec2(0.2), false, SCATTER_RT, false, 1"},
+        {"schlick", "s",
+         "vec3(0.04), vec3(1.0), vec3(1.0), 5.0, vec2(0.2), false, SCATTER_RT, false, 1"},
+        {"sheen", "k", "vec3(0.8), 0.3, SHEEN_CONTY_KULLA"},
+        {"sheen", "z", "vec3(0.8), 0.3, SHEEN_ZELTNER"},
+        {"phaseHenyeyGreenstein", "p", "0.5"},
+        {"phong", "q", "vec3(0.8), 20.0"},
+        {"blinnPhong", "n", "vec3(0.8), 20.0"},
+        {"ward", "w", "vec3(0.8), vec2(0.2), WARD_BOUNDED"},
+        {"cookTorrance", "x", "vec3(0.8), vec3(1.5), vec3(0.0), 0.2, COOK_TORRANCE_SCHLICK"},
+        {"chiangHair", "h",
+         "vec3(1.0), vec3(1.0), vec3(1.0), 1.55, vec2(0.1), vec2(0.1), vec2(0.2), 0.5, vec3(0.3)"},
+        {"subsurface", "i", "vec3(0.8), vec3(1.0), 0.0"},
+        {"conductor", "cf", "= conductorFilm(c, 300.0, 1.5)"},
+        {"schlick", "sf", "= schlickFilm(s, 300.0, 1.5)"},
+        {"schlick", "df",
+         "= filmDielectricSetup(vec3(1.0), 1.5, vec2(0.2), 300.0, 1.3, false, SCATTER_RT, false, "
+         "1)"},
+        {"conductor", "cb", "= c; cb.ndf = NDF_BECKMANN"},
+        {"dielectric", "db", "= d; db.ndf = NDF_BECKMANN"}};
+    std::string text = "vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {\n    vec3 sum = vec3(0.0);\n";
+    for (const auto& [prefix, name, made] : lobes) {
+        const std::string f = prefix, l = name;
+        text += char(std::toupper(f[0])) + f.substr(1) + "Lobe " + l +
+                (made[0] == '=' ? made : " = " + f + "Setup(" + made + ")") + ";\nsum += " + f +
+                "Eval(" + l + ", wo, wi).value + " + f + "Sample(" + l + ", wo, u).weight + " + f +
+                "Albedo(" + l + ", wo);\n";
+    }
+    return text + R"(
     vec3 albedo = vec3(0.0);
     sum += lobeFix(o, wo, albedo) + lobeFix(b, wo, albedo) + lobeFix(t, wo, albedo) +
            lobeFix(c, wo, albedo) + lobeFix(d, wo, albedo) + lobeFix(s, wo, albedo) +
@@ -112,6 +99,7 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
     return sum;
 }
 )";
+}
 
 // How lobes become a material.
 const char* const closureCalls = R"(
@@ -216,44 +204,47 @@ vec3 everyLight(vec3 p, vec3 w, vec2 u) {
 }
 )";
 
+/// All of them, between what a stage begins with and what it does with EVERYTHING, their sum.
+std::string shader(const std::string& begin, const std::string& end) {
+    return begin + flatten("shaders/compat/glsl.glsl") + flatten("shaders/lobes.glsl") +
+           lobeCalls() + flatten("shaders/closure.glsl") + closureCalls +
+           flatten("shaders/patterns.glsl") + patternCalls + nodeFunctions() +
+           flatten("shaders/lights.glsl") + lightCalls +
+           "#define EVERYTHING vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
+           "everyClosure(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + everyPattern(vec3(0.5)) + "
+           "everyLight(vec3(0.5), vec3(0, 0, 1), vec2(0.5)), 1)\n" +
+           end;
+}
+
+class GlslDialect : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (validator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
+    }
+};
+
 } // namespace
 
-TEST(GlslDialect, CompilesAsComputeShader) {
-    if (validator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
-    const std::string source = "#version 450\n" + flatten("shaders/compat/glsl.glsl") +
-                               flatten("shaders/lobes.glsl") + lobeCalls +
-                               flatten("shaders/closure.glsl") + closureCalls +
-                               flatten("shaders/patterns.glsl") + patternCalls + nodeFunctions() +
-                               flatten("shaders/lights.glsl") + lightCalls +
-                               "layout(local_size_x = 64) in;\n"
-                               "layout(std430, binding = 0) buffer Out { vec4 result[]; };\n"
-                               "void main() { result[gl_GlobalInvocationID.x] = "
-                               "vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
-                               "everyClosure(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
-                               "everyPattern(vec3(0.5)) + "
-                               "everyLight(vec3(0.5), vec3(0, 0, 1), vec2(0.5)), 1); }\n";
-    EXPECT_EQ(compile(source, "comp"), "");
+TEST_F(GlslDialect, CompilesAsComputeShader) {
+    EXPECT_EQ(compile(shader("#version 450\n",
+                             "layout(local_size_x = 64) in;\n"
+                             "layout(std430, binding = 0) buffer Out { vec4 result[]; };\n"
+                             "void main() { result[gl_GlobalInvocationID.x] = EVERYTHING; }\n"),
+                      "comp"),
+              "");
 }
 
-TEST(GlslDialect, CompilesAsEsFragmentShader) {
-    if (validator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
-    const std::string source =
-        "#version 300 es\nprecision highp float;\nprecision highp int;\n"
-        "uniform highp sampler2D table;\n"
-        "#define PATINA_ALBEDO_TABLE_FETCH\n"
-        "float albedoTableFetch(int i) {"
-        " return texelFetch(table, ivec2(i & 1023, i >> 10), 0).x; }\n" +
-        flatten("shaders/compat/glsl.glsl") + flatten("shaders/lobes.glsl") + lobeCalls +
-        flatten("shaders/closure.glsl") + closureCalls + flatten("shaders/patterns.glsl") +
-        patternCalls + nodeFunctions() + flatten("shaders/lights.glsl") + lightCalls +
-        "out vec4 color;\nvoid main() { color = vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), "
-        "vec3(0.5)) + everyClosure(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
-        "everyPattern(vec3(0.5)) + "
-        "everyLight(vec3(0.5), vec3(0, 0, 1), vec2(0.5)), 1); }\n";
-    EXPECT_EQ(compile(source, "frag"), "");
+TEST_F(GlslDialect, CompilesAsEsFragmentShader) {
+    EXPECT_EQ(compile(shader("#version 300 es\nprecision highp float;\nprecision highp int;\n"
+                             "uniform highp sampler2D table;\n"
+                             "#define PATINA_ALBEDO_TABLE_FETCH\n"
+                             "float albedoTableFetch(int i) {"
+                             " return texelFetch(table, ivec2(i & 1023, i >> 10), 0).x; }\n",
+                             "out vec4 color;\nvoid main() { color = EVERYTHING; }\n"),
+                      "frag"),
+              "");
 }
 
-TEST(GlslDialect, RejectsWhatIsNotGlsl) {
-    if (validator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
+TEST_F(GlslDialect, RejectsWhatIsNotGlsl) {
     EXPECT_NE(compile("#version 450\nvoid main() { float x = nothing(); }\n", "vert"), "");
 }

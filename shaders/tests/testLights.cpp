@@ -1,39 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes, shaping and maps of lights: what the rasterizer and the page have of them is what
-// geometry says. The path tracer's samples are tested in hdDelegate/lights/tests.
-
-#include <cmath>
-#include <random>
-
-#include <glm/glm.hpp>
-#include <gtest/gtest.h>
+// geometry says; samples of sphere lights are in `SphereLight`. The path tracer's samples are
+// tested in hdDelegate/lights/tests.
 
 #include "shaders/lights.h"
+#include "shaders/tests/estimate.h"
 
+#include <vector>
+
+using namespace patina;
 using namespace patina::shLights;
 
 namespace {
 
-std::mt19937 engine(7);
-
-float number() {
-    return std::uniform_real_distribution<float>(0.0f, 1.0f)(engine);
-}
-vec2 pair() {
-    const float x = number();
-    return vec2(x, number());
-}
-vec3 direction() {
-    const float z = 1.0f - 2.0f * number(), a = 2.0f * PI * number();
-    const float r = std::sqrt(1.0f - z * z);
-    return vec3(r * std::cos(a), r * std::sin(a), z);
-}
+test::Random dice(7);
 
 /// A skewed map; the third axis is the unit normal, as of flat shapes.
 ShapeFrame skewed(bool flat) {
     mat3 axes(vec3(1.2f, 0.3f, 0.0f), vec3(-0.2f, 0.5f, 0.4f), vec3(0.1f, 0.3f, -0.8f));
     if (flat) axes[2] = glm::normalize(glm::cross(axes[0], axes[1]));
     return {vec3(0.4f, 0.2f, 2.0f), axes, glm::inverse(axes), std::fabs(glm::determinant(axes))};
+}
+
+/// A light under an affine map, seen from the origin.
+struct Pose {
+    vec3 origin;
+    glm::mat3 axes;
+
+    bool hit(const vec3& wi, float& t, float& density) const {
+        const glm::mat3 inverse = glm::inverse(axes);
+        return sphereLightHit(inverse * -origin, inverse * wi, std::fabs(glm::determinant(axes)), t,
+                              density);
+    }
+    /// Towards a place of the light.
+    vec3 sample(test::Random& random) const {
+        return glm::normalize(origin + axes * sphereLightPlace(random.cube()));
+    }
+};
+
+std::vector<Pose> poses() {
+    const glm::mat3 round(0.5f),
+        skewed(vec3(1.2f, 0.1f, 0.0f), vec3(-0.2f, 0.4f, 0.1f), vec3(0.0f, 0.3f, -0.7f));
+    std::vector<Pose> all;
+    for (const glm::mat3& axes : {round, skewed})
+        for (const vec3& at :
+             {vec3(1.6f, 1.2f, 0.1f), vec3(0.1f, -1.2f, 0.9f), vec3(-0.5f, 1.7f, -1.3f)})
+            all.push_back({at, axes});
+    return all;
 }
 
 bool isFlat(int kind) {
@@ -43,30 +56,26 @@ bool isFlat(int kind) {
 } // namespace
 
 // The solid angle is the mean of one over the density of places that face the point, and a share of
-// all directions that hit. Four standard errors of both.
+// all directions that hit.
 TEST(Lights, placesHaveTheirDensity) {
     constexpr int count = 200000;
     for (int kind = 0; kind < SHAPES; ++kind) {
         const ShapeFrame s = skewed(isFlat(kind));
         const vec3 point = s.origin + 1.4f * s.axes[2] - 0.3f * s.axes[0] + 0.5f * s.axes[1];
-        double byPlaces = 0.0, squares = 0.0, met = 0.0;
+        test::Mean byPlaces, met;
         for (int i = 0; i < count; ++i) {
-            const vec3 q = shapePlace(kind, pair());
+            const vec3 q = shapePlace(kind, dice.square());
             const vec3 normal = shapeNormalAt(kind, s, q);
             const float byArea = shapePlaceDensity(kind, s, q);
             const float pdf = areaToSolidAngle(byArea, point - s.origin - s.axes * q, normal);
-            const double one = pdf > 0.0f ? 1.0 / double(pdf) : 0.0;
-            byPlaces += one / count;
-            squares += one * one / count;
+            byPlaces.add(pdf > 0.0f ? 1.0 / double(pdf) : 0.0);
             float t;
             vec3 on;
-            met += shapeHit(kind, shapeLocal(s, point), s.inverse * direction(), t, on) ? 1.0 : 0.0;
+            const vec3 d = s.inverse * dice.direction();
+            met.add(shapeHit(kind, shapeLocal(s, point), d, t, on) ? 4.0 * test::pi : 0.0);
         }
-        const double all = 4.0 * 3.14159265358979, share = met / count;
-        const double error = std::sqrt((squares - byPlaces * byPlaces) / count) +
-                             all * std::sqrt(share * (1.0 - share) / count);
-        ASSERT_GT(share, 0.01) << kind;
-        EXPECT_NEAR(byPlaces, all * share, 4.0 * error) << kind;
+        ASSERT_GT(met.mean(), 0.1) << kind;
+        EXPECT_TRUE(agree(byPlaces, met)) << kind;
     }
 }
 
@@ -76,7 +85,7 @@ TEST(Lights, placesAreInTheBoxAround) {
         const vec3 extent = shapeExtent(kind, s);
         vec3 reach(0.0f);
         for (int i = 0; i < 20000; ++i)
-            reach = glm::max(reach, abs(s.axes * shapePlace(kind, pair())));
+            reach = glm::max(reach, abs(s.axes * shapePlace(kind, dice.square())));
         for (int c = 0; c < 3; ++c) {
             EXPECT_LE(reach[c], extent[c] * 1.00001f) << kind;
             EXPECT_GE(reach[c], extent[c] * 0.95f) << kind; // the box is no larger than it must be
@@ -89,7 +98,7 @@ TEST(Lights, raysToPlacesMeetThem) {
         const ShapeFrame s = skewed(isFlat(kind));
         const vec3 point = s.origin + 1.4f * s.axes[2];
         for (int i = 0; i < 1000; ++i) {
-            const vec2 u = 0.98f * pair() + 0.01f; // the edges are rounding's
+            const vec2 u = 0.98f * dice.square() + 0.01f; // the edges are rounding's
             const vec3 place = shapePlace(kind, u), normal = shapeNormalAt(kind, s, place);
             vec3 q;
             const vec3 d = s.origin + s.axes * place - point;
@@ -123,7 +132,7 @@ TEST(Lights, tablesAreLinearBetweenDirections) {
                      float(i / thetas) / float(phis - 1) * TWO_PI);
     };
     for (int i = 0; i < 1000; ++i) {
-        const float theta = number() * PI, phi = number() * 0.999f * TWO_PI;
+        const float theta = dice() * PI, phi = dice() * 0.999f * TWO_PI;
         const TableCell c = directionCell(thetas, phis, theta, phi - (i % 2 ? TWO_PI : 0.0f));
         ASSERT_GE(c.low, 0);
         ASSERT_LT(c.highNext, thetas * phis);
@@ -156,7 +165,7 @@ TEST(Lights, conesFadeFromStartToEnd) {
 
 TEST(Lights, domesMapBothWays) {
     for (int i = 0; i < 1000; ++i) {
-        const vec3 d = direction();
+        const vec3 d = dice.direction();
         EXPECT_LT(glm::length(domeDirection(domeTexel(d)) - d), 1e-5f);
     }
     EXPECT_LT(glm::length(domeDirection(vec2(0.5f, 0.5f)) - vec3(0, 0, 1)), 1e-6f);
@@ -167,8 +176,8 @@ TEST(Lights, domesMapBothWays) {
 TEST(Lights, samplesOfDistantLightsAreInTheirCone) {
     for (const float versine : {2.0f, 0.5f, 1e-5f, 1e-9f})
         for (int i = 0; i < 1000; ++i) {
-            const vec3 toLight = direction();
-            const vec2 u(0.99f * number(), number());
+            const vec3 toLight = dice.direction();
+            const vec2 u(0.99f * dice(), dice());
             EXPECT_TRUE(distantHit(toLight, versine * 1.001f + 1e-13f,
                                    distantSample(lightBasis(toLight), versine, u)))
                 << versine;
@@ -180,17 +189,74 @@ TEST(Lights, samplesOfDistantLightsAreInTheirCone) {
 TEST(Lights, linesAreSampledByTheirDensity) {
     const vec3 middle(0.2f, 1.0f, -0.4f), along(1.0f, 2.0f, -2.0f);
     for (const vec3 point : {vec3(0.0f), vec3(0.3f, 1.1f, 0.5f), vec3(3.0f, 8.0f, -5.0f)}) {
-        double sum = 0.0, squares = 0.0;
-        constexpr int count = 20000;
-        for (int i = 0; i < count; ++i) {
+        const test::Mean e = test::estimate(20000, [&] {
             vec3 d;
             float pdf;
-            ASSERT_TRUE(lineSample(middle, along, point, number(), d, pdf));
-            const vec3 off = glm::cross(point + d - middle, along) / 3.0f;
-            ASSERT_LT(glm::length(off), 1e-4f);
-            sum += 1.0 / double(pdf) / count;
-            squares += 1.0 / double(pdf) / double(pdf) / count;
+            EXPECT_TRUE(lineSample(middle, along, point, dice(), d, pdf));
+            EXPECT_LT(glm::length(glm::cross(point + d - middle, along) / 3.0f), 1e-4f);
+            return 1.0 / double(pdf);
+        });
+        EXPECT_NEAR(e.mean(), 3.0, 4.0 * e.error() + 1e-4);
+    }
+}
+
+// The solid angle is a sum of one over density over samples, and a count over all directions.
+TEST(SphereLight, samplesHaveTheirDensity) {
+    test::Random random(11);
+    constexpr int count = 200000, side = 1500;
+    for (const Pose& p : poses()) {
+        double bySamples = 0.0, lit = 0.0, turned = 0.0, turnedLit = 0.0;
+        for (int i = 0; i < count; ++i) {
+            const vec3 wi = p.sample(random);
+            float t, density;
+            if (!p.hit(wi, t, density)) continue;
+            bySamples += 1.0 / density / count;
+            turned += wi.y / density / count; // where they are, not only how many
         }
-        EXPECT_NEAR(sum, 3.0, 4.0 * std::sqrt((squares - sum * sum) / count) + 1e-4);
+        for (int i = 0; i < side * side; ++i) {
+            const float z = 1.0f - 2.0f * (float(i % side) + 0.5f) / float(side);
+            const float r = std::sqrt(1.0f - z * z),
+                        a = 2.0f * PI * (float(i / side) + 0.5f) / float(side);
+            const vec3 wi(r * std::cos(a), r * std::sin(a), z);
+            float t, density;
+            if (!p.hit(wi, t, density)) continue;
+            lit += 4.0 * PI / (double(side) * side);
+            turnedLit += wi.y * 4.0 * PI / (double(side) * side);
+        }
+        ASSERT_GT(lit, 0.0);
+        EXPECT_NEAR(bySamples / lit, 1.0, 0.01);
+        EXPECT_NEAR(turned / lit, turnedLit / lit, 0.01);
+    }
+}
+
+// From far away all samples of a ball count alike: that is what they are for.
+TEST(SphereLight, densityIsEvenFromFarAway) {
+    const Pose p{vec3(100.0f, 3.0f, 1.0f), glm::mat3(0.5f)};
+    test::Random random(12);
+    float low = 1e30f, high = 0.0f;
+    for (int i = 0; i < 1000; ++i) {
+        float t, density;
+        if (!p.hit(p.sample(random), t, density)) continue;
+        low = std::min(low, density);
+        high = std::max(high, density);
+    }
+    EXPECT_LT(high / low, 1.02f);
+}
+
+TEST(SphereLight, nothingShinesInwards) {
+    float t, density;
+    EXPECT_FALSE(sphereLightHit(vec3(0.2f, 0.0f, 0.0f), vec3(1, 0, 0), 1.0f, t, density));
+    EXPECT_FALSE(sphereLightHit(vec3(2.0f, 0.0f, 0.0f), vec3(1, 0, 0), 1.0f, t, density));
+}
+
+// A lamp of a centimetre, ten kilometres away.
+TEST(SphereLight, smallOnesFarAwayAreNotLost) {
+    const Pose p{vec3(8000.0f, 5000.0f, 3000.0f), glm::mat3(0.01f)};
+    const float solidAngle = PI * 0.01f * 0.01f / glm::dot(p.origin, p.origin);
+    test::Random random(13);
+    for (int i = 0; i < 1000; ++i) {
+        float t, density;
+        p.hit(p.sample(random), t, density);
+        ASSERT_NEAR(density * solidAngle, 1.0f, 0.001f);
     }
 }

@@ -2,7 +2,6 @@
 // Directional albedos against quadrature, furnaces against 1, and the tables' error as measured
 // here.
 
-#include <cmath>
 #include <cstdio>
 
 #include <gtest/gtest.h>
@@ -17,20 +16,6 @@ namespace {
 
 constexpr int pointCount = 20000;
 
-// Root mean square and largest error over a set of points.
-struct Error {
-    double square = 0.0;
-    double largest = 0.0;
-    int count = 0;
-
-    void add(double e) {
-        square += e * e;
-        largest = std::max(largest, std::fabs(e));
-        ++count;
-    }
-    double rms() const { return std::sqrt(square / count); }
-};
-
 // mu from grazing to normal, alpha from the mirror threshold to 1, dense where things change.
 vec2 tablePoint(int i) {
     const vec3 u = quasiRandom(i);
@@ -39,8 +24,10 @@ vec2 tablePoint(int i) {
     return vec2(mu, std::max(alpha, 1.0e-3));
 }
 
-double furnace(const sh64::DielectricLobe& l, vec3 wo) {
-    return sh64::dielectricAlbedo(l, wo).x;
+/// What the tables say of an interface: reflected and transmitted light.
+vec2 ofTables(vec3 wo, vec2 alpha, int ndf, double eta) {
+    const auto place = sh64::microfacetPlace(wo, alpha, ndf);
+    return sh64::microfacetInterface(place, eta) * sh64::microfacetAlbedo0(place);
 }
 
 } // namespace
@@ -83,9 +70,7 @@ TEST(AlbedoTable, InterfaceIsWithinItsError) {
                     const vec2 p = tablePoint(i);
                     quadrature.setView(bake::slanted(p.x), vec2(p.y));
                     const vec2 exact = quadrature.dielectric(eta);
-                    const auto place = sh64::microfacetPlace(bake::slanted(p.x), vec2(p.y), ndf);
-                    const vec2 table =
-                        sh64::microfacetInterface(place, eta) * sh64::microfacetAlbedo0(place);
+                    const vec2 table = ofTables(bake::slanted(p.x), vec2(p.y), ndf, eta);
                     reflected.add(table.x - exact.x);
                     transmitted.add(table.y - exact.y);
                 }
@@ -120,13 +105,11 @@ TEST(AlbedoTable, AnisotropyIsWithinItsError) {
                 quadrature.setView(wo, alpha);
                 double zero = 0.0, e0 = 0.0;
                 quadrature.moments(&zero, 1, &e0);
-                const auto place = sh64::microfacetPlace(wo, alpha, ndf);
-                const double table0 = sh64::microfacetAlbedo0(place);
                 const vec2 above = quadrature.dielectric(eta);
                 const vec2 below = quadrature.dielectric(1.0 / eta);
-                const vec2 a = sh64::microfacetInterface(place, eta) * table0;
-                const vec2 c = sh64::microfacetInterface(place, 1.0 / eta) * table0;
-                mirror.add(table0 - e0);
+                const vec2 a = ofTables(wo, alpha, ndf, eta);
+                const vec2 c = ofTables(wo, alpha, ndf, 1.0 / eta);
+                mirror.add(sh64::microfacetAlbedo0(sh64::microfacetPlace(wo, alpha, ndf)) - e0);
                 outside.add(a.x - above.x);
                 outside.add(a.y - above.y);
                 inside.add(c.x - below.x);
@@ -150,30 +133,31 @@ TEST(AlbedoTable, AnisotropicWardIsWithinItsError) {
     constexpr int n = 96;
     for (int form : {sh::WARD_BOUNDED, sh::WARD_EXACT})
         for (double ratio : {0.6, 0.2, 0.03}) {
-            double absolute = 0.0, relative = 0.0;
+            Error absolute, relative;
             for (double larger : {0.08, 0.25, 0.6, 1.0})
                 for (double z : {0.05, 0.2, 0.5, 1.0})
                     for (double turn : {0.0, 0.6, 1.1, 1.57}) {
                         const vec3 wo = direction(z, turn);
                         const auto l =
                             sh64::wardSetup(vec3(1.0), vec2(larger, larger * ratio), form);
-                        double sum = 0.0;
+                        double mean = 0.0;
                         for (int i = 0; i < n; ++i)
                             for (int j = 0; j < n; ++j) {
                                 const double shift = (i + 0.5) * 0.6180339887498949;
                                 const vec3 u((i + 0.5) / n, (shift - std::floor(shift) + j) / n,
                                              0.5);
-                                sum += sh64::wardSample(l, wo, u).weight.x;
+                                mean += sh64::wardSample(l, wo, u).weight.x / (n * n);
                             }
-                        const double e = sh64::wardAlbedo(l, wo).x - sum / (n * n);
-                        absolute = std::max(absolute, std::fabs(e));
-                        relative = std::max(relative, std::fabs(e) / (sum / (n * n)));
+                        const double e = sh64::wardAlbedo(l, wo).x - mean;
+                        absolute.add(e);
+                        relative.add(e / mean);
                     }
             std::printf("Ward %d, alphas 1 : %.2g: error %.2g, relative %.2g\n", form, ratio,
-                        absolute, relative);
-            EXPECT_LT(absolute, 2e-2) << form << " " << ratio;
+                        absolute.largest, relative.largest);
+            EXPECT_LT(absolute.largest, 2e-2) << form << " " << ratio;
             // The exact form has a peak at the horizon, which neither rule resolves.
-            EXPECT_LT(relative, form == sh::WARD_EXACT ? 8e-2 : 2e-2) << form << " " << ratio;
+            EXPECT_LT(relative.largest, form == sh::WARD_EXACT ? 8e-2 : 2e-2)
+                << form << " " << ratio;
         }
 }
 
@@ -183,38 +167,34 @@ TEST(AlbedoTable, AnisotropicWardIsWithinItsError) {
 TEST(LobeAlbedo, EqualsTheMeanSampleWeight) {
     struct Budget {
         const char* lobe;
-        double outside;
-        double inside;
-        double measuredOutside;
-        double measuredInside;
+        double outside, inside;
+        Error measuredOutside, measuredInside;
     };
-    Budget budgets[] = {{"anisotropic", 5e-2, 5e-2, 0, 0}, {"beckmann", 2e-2, 2e-2, 0, 0},
-                        {"film", 4e-2, 2e-2, 0, 0},        {"chiangHair", 5e-3, 5e-3, 0, 0},
-                        {"conductor", 2e-3, 0.0, 0, 0},    {"dielectric", 1.2e-2, 8e-3, 0, 0},
-                        {"schlickR(", 2e-3, 0.1, 0, 0},    {"schlick", 5e-2, 0.1, 0, 0},
-                        {"translucent", 1e-9, 1e-9, 0, 0}, {"contyKulla", 5e-3, 0.0, 0, 0},
-                        {"zeltner", 1e-6, 0.0, 0, 0},      {"phong", 5e-3, 0.0, 0, 0},
-                        {"blinnPhong", 5e-3, 0.0, 0, 0},   {"wardBounded", 5e-3, 0.0, 0, 0},
-                        {"wardExact", 3e-2, 0.0, 0, 0},    {"cookTorrance", 5e-3, 0.0, 0, 0}};
+    Budget budgets[] = {{"anisotropic", 5e-2, 5e-2, {}, {}}, {"beckmann", 2e-2, 2e-2, {}, {}},
+                        {"film", 4e-2, 2e-2, {}, {}},        {"chiangHair", 5e-3, 5e-3, {}, {}},
+                        {"conductor", 2e-3, 0.0, {}, {}},    {"dielectric", 1.2e-2, 8e-3, {}, {}},
+                        {"schlickR(", 2e-3, 0.1, {}, {}},    {"schlick", 5e-2, 0.1, {}, {}},
+                        {"translucent", 1e-9, 1e-9, {}, {}}, {"contyKulla", 5e-3, 0.0, {}, {}},
+                        {"zeltner", 1e-6, 0.0, {}, {}},      {"phong", 5e-3, 0.0, {}, {}},
+                        {"blinnPhong", 5e-3, 0.0, {}, {}},   {"wardBounded", 5e-3, 0.0, {}, {}},
+                        {"wardExact", 3e-2, 0.0, {}, {}},    {"cookTorrance", 5e-3, 0.0, {}, {}}};
     for (int compensate : {0, 1})
         for (const LobeCase& c : lobeCases(compensate))
             for (Budget& b : budgets) {
                 const bool anisotropic = c.name.find("0.1, 0.4") != std::string::npos;
                 if (anisotropic ? &b != budgets : c.name.find(b.lobe) != 0) continue;
                 for (vec3 wo : outgoing(c)) {
-                    const vec3 e = sampledAlbedo(c.f64, wo, pointCount) - c.f64.albedo(wo);
                     const double error =
-                        std::max(std::fabs(e.x), std::max(std::fabs(e.y), std::fabs(e.z)));
-                    double& measured = wo.z > 0.0 ? b.measuredOutside : b.measuredInside;
-                    measured = std::max(measured, error);
+                        largest(sampledAlbedo(c.f64, wo, pointCount) - c.f64.albedo(wo));
+                    (wo.z > 0.0 ? b.measuredOutside : b.measuredInside).add(error);
                     EXPECT_LT(error, wo.z > 0.0 ? b.outside : b.inside)
                         << c.name << " wo.z " << wo.z << " compensate " << compensate;
                 }
                 break;
             }
     for (const Budget& b : budgets)
-        std::printf("albedo error of %s: outside %.2g, inside %.2g\n", b.lobe, b.measuredOutside,
-                    b.measuredInside);
+        std::printf("albedo error of %s: outside %.2g, inside %.2g\n", b.lobe,
+                    b.measuredOutside.largest, b.measuredInside.largest);
 }
 
 // Sharp lobes reflect mu (Phong) or mu^2 (Blinn-Phong) where the cells of the table are wide.
@@ -292,10 +272,9 @@ TEST(LobeAlbedo, WhiteMetalLosesNothing) {
     // n = 0, k = 1: reflects everything at all angles.
     for (double alpha : {0.0, 1e-3, 0.05, 0.3, 1.0})
         for (double z : {1.0, 0.7, 0.2, 0.02}) {
-            const auto l = sh64::conductorSetup(vec3(0.0), vec3(1.0), vec2(alpha), false, 1);
             const LobeCase c =
                 PATINA_LOBE_CASE("white", conductor, vec3(0.0), vec3(1.0), vec2(alpha), false, 1);
-            EXPECT_NEAR(sh64::conductorAlbedo(l, direction(z, 0.0)).x, 1.0, 1e-6);
+            EXPECT_NEAR(c.f64.albedo(direction(z, 0.0)).x, 1.0, 1e-6);
             EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, 0.0), pointCount).x, 1.0, 5e-3)
                 << alpha << " " << z;
         }
@@ -311,12 +290,10 @@ TEST(LobeAlbedo, WhiteGlassLosesNothing) {
         for (double ior : {1.0, 1.05, 1.5, 2.4, 0.7})
             for (double z : {1.0, 0.7, 0.2, 0.02, -0.02, -0.4, -0.75, -1.0}) {
                 const vec3 wo = direction(z, 0.0);
-                const auto l =
-                    sh64::dielectricSetup(vec3(1.0), ior, vec2(alpha), false, 3, false, 1);
-                // The factor is bounded where next to nothing is transmitted.
-                EXPECT_NEAR(furnace(l, wo), 1.0, 2e-3) << alpha << " " << ior << " " << z;
                 const LobeCase c = PATINA_LOBE_CASE("white", dielectric, vec3(1.0), ior,
                                                     vec2(alpha), false, 3, false, 1);
+                // The factor is bounded where next to nothing is transmitted.
+                EXPECT_NEAR(c.f64.albedo(wo).x, 1.0, 2e-3) << alpha << " " << ior << " " << z;
                 EXPECT_NEAR(sampledAlbedo(c.f64, wo, pointCount).x, 1.0, 1.5e-2)
                     << alpha << " " << ior << " " << z;
             }
@@ -351,9 +328,7 @@ TEST(LobeAlbedo, GroovesReflectAllBeyondAnAzimuth) {
             bake::InterfaceQuadrature quadrature(96, ndf);
             quadrature.setView(wo, alpha);
             const vec2 exact = quadrature.dielectric(1.0 / v.ior);
-            const auto place = sh64::microfacetPlace(wo, alpha, ndf);
-            const vec2 table =
-                sh64::microfacetInterface(place, 1.0 / v.ior) * sh64::microfacetAlbedo0(place);
+            const vec2 table = ofTables(wo, alpha, ndf, 1.0 / v.ior);
             EXPECT_NEAR((exact.x + exact.y) / (table.x + table.y), 1.0, 0.06)
                 << v.z << " " << v.ratio << " " << ndf;
         }

@@ -8,8 +8,6 @@
 // reject with a chance of 0.5, 0.9 and 0.99, two out of three do with 0.5, 0.97 and 0.9997, and
 // 120000 with 0.80, 0.99 and 0.9999 (threshold at 4.1 deviations).
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "shaders/tests/chiSquared.h"

@@ -2,7 +2,6 @@
 // The phase function: normalised, sampled by its own density, with the mean cosine that it
 // promises.
 
-#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -15,10 +14,6 @@ using namespace patina::test;
 namespace {
 
 const double anisotropies[] = {-1.0, -0.9, -0.5, -1e-4, 0.0, 1e-4, 0.3, 0.8, 0.99, 1.0};
-
-double dot3(vec3 a, vec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 } // namespace
 
@@ -50,9 +45,9 @@ TEST(Phase, SamplesAreUnitAndHaveTheirDensity) {
                 const auto l = sh64::phaseHenyeyGreensteinSetup(g);
                 const vec3 u = quasiRandom(i);
                 const auto s = sh64::phaseHenyeyGreensteinSample(l, wo, u);
-                ASSERT_NEAR(std::sqrt(dot3(s.wi, s.wi)), 1.0, 1e-9);
+                ASSERT_NEAR(sh64::length(s.wi), 1.0, 1e-9);
                 // The share of the sphere's measure up to the sampled cosine is u, in closed form.
-                const double c = -dot3(wo, s.wi);
+                const double c = -sh64::dot(wo, s.wi);
                 const double root = std::sqrt(1 + l.g * l.g - 2 * l.g * c);
                 const double below = std::fabs(l.g) < 1e-6
                                          ? 0.5 * (1 + c)
@@ -60,9 +55,9 @@ TEST(Phase, SamplesAreUnitAndHaveTheirDensity) {
                 ASSERT_NEAR(below, u.x, 1e-6) << g;
                 const auto f = sh::phaseHenyeyGreensteinSample(
                     sh::phaseHenyeyGreensteinSetup(float(g)), sh::vec3(wo), sh::vec3(u));
-                ASSERT_NEAR(std::sqrt(dot3(vec3(f.wi), vec3(f.wi))), 1.0, 1e-5);
+                ASSERT_NEAR(sh64::length(vec3(f.wi)), 1.0, 1e-5);
                 ASSERT_TRUE(std::isfinite(f.pdf) && f.pdf > 0.0f);
-                ASSERT_NEAR(-dot3(wo, vec3(f.wi)), c, 2e-4) << g;
+                ASSERT_NEAR(-sh64::dot(wo, vec3(f.wi)), c, 2e-4) << g;
             }
 }
 

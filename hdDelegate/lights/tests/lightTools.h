@@ -4,59 +4,32 @@
 // Small scenes of lights, and Monte Carlo estimates with their confidence.
 
 #include "hdDelegate/lights/lightSet.h"
+#include "shaders/tests/estimate.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include <cmath>
 #include <functional>
 #include <memory>
-#include <random>
 
 namespace patina {
 
-constexpr double testPi = 3.14159265358979323846;
+using test::agree;
+using test::estimate;
+using Estimate = test::Mean;
+using test::Random;
 
-/// An estimate passes when it is within this many standard errors: two-sided significance 7e-6.
-constexpr double testSigmas = 4.5;
+constexpr double testPi = test::pi;
 
-struct Estimate {
-    double mean = 0.0, error = 0.0, deviation = 0.0;
-    bool agrees(double exact, double slack = 0.0) const {
-        return std::abs(mean - exact) <= testSigmas * error + slack * std::abs(exact) + 1e-12;
-    }
-};
+inline const LightType areaTypes[] = {LightType::Sphere, LightType::Rect, LightType::Disk,
+                                      LightType::Cylinder};
 
-inline Estimate estimate(int count, const std::function<double()>& draw) {
-    double sum = 0.0, squares = 0.0;
-    for (int i = 0; i < count; ++i) {
-        const double x = draw();
-        sum += x;
-        squares += x * x;
-    }
-    Estimate e;
-    e.mean = sum / count;
-    e.deviation = std::sqrt(std::max(0.0, squares / count - e.mean * e.mean));
-    e.error = e.deviation / std::sqrt(double(count));
-    return e;
+inline mat4 at(float x, float y, float z) {
+    return glm::translate(mat4(1.0f), vec3(x, y, z));
 }
 
-class Random {
-public:
-    explicit Random(uint32_t seed) : _engine(seed) {}
-    float operator()() { return float(_engine() >> 8) * 0x1p-24f; }
-    vec3 cube() {
-        const float x = (*this)(), y = (*this)();
-        return vec3(x, y, (*this)());
-    }
-    vec3 direction() {
-        const float z = 1.0f - 2.0f * (*this)(), phi = 2.0f * float(testPi) * (*this)();
-        const float s = std::sqrt(std::max(0.0f, 1.0f - z * z));
-        return vec3(s * std::cos(phi), s * std::sin(phi), z);
-    }
-
-private:
-    std::mt19937 _engine;
-};
+inline mat4 turned(double angle, const vec3& axis) {
+    return glm::rotate(mat4(1.0f), float(angle), glm::normalize(axis));
+}
 
 inline std::shared_ptr<Light> makeLight(LightType type, const mat4& transform = mat4(1.0f)) {
     auto light = std::make_shared<Light>();
@@ -66,10 +39,52 @@ inline std::shared_ptr<Light> makeLight(LightType type, const mat4& transform = 
     return light;
 }
 
+/// At a place of an image of the sky.
+inline vec3 latlongDirection(float u, float v) {
+    const float longitude = float(testPi) * (1.0f - 2.0f * u), theta = float(testPi) * v;
+    return vec3(std::sin(theta) * std::sin(longitude), std::cos(theta),
+                std::sin(theta) * std::cos(longitude));
+}
+
+/// A triangle overhead, and what it shines by.
+inline LightTriangle slantedTriangle() {
+    LightTriangle t;
+    t.vertices[0] = vec3(-1.0f, 1.0f, -1.0f);
+    t.vertices[1] = vec3(2.0f, 1.5f, -0.5f);
+    t.vertices[2] = vec3(0.2f, 0.8f, 1.4f);
+    return t;
+}
+
+inline std::shared_ptr<ImageRGB> image(int width, int height,
+                                       const std::function<vec3(int, int)>& pixel) {
+    auto result = std::make_shared<ImageRGB>();
+    result->width = width;
+    result->height = height;
+    result->valid = true;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            result->pixels.push_back(pixel(x, y));
+    return result;
+}
+
+/// Shows the same image for every file, and counts.
+inline LightImages::Loader loaderOf(std::shared_ptr<ImageRGB> shown, int* loaded = nullptr) {
+    return [=](const std::string&, const std::string&, const std::string&, const std::string&) {
+        if (loaded) ++*loaded;
+        return shown ? *shown : ImageRGB();
+    };
+}
+
+inline std::shared_ptr<Light> makeDome(const std::string& file,
+                                       const mat4& transform = mat4(1.0f)) {
+    auto light = makeLight(LightType::Dome, transform);
+    light->textureFile = file;
+    return light;
+}
+
 struct LightScene {
     Diagnostics diagnostics;
-    LightImages images{[](const std::string&, const std::string&, const std::string&,
-                          const std::string&) { return ImageRGB(); }};
+    LightImages images{loaderOf(nullptr)};
     LightSetInput input;
     std::unique_ptr<LightSet> set;
 
@@ -87,8 +102,12 @@ struct LightScene {
         input.add(place);
     }
     const LightSet& build(std::shared_ptr<Light> light) {
-        input.lights = {{std::move(light), mat4(1.0f)}};
+        input.lights.clear();
+        add(std::move(light));
         return build();
+    }
+    void add(std::shared_ptr<Light> light) {
+        input.lights.push_back({std::move(light), mat4(1.0f)});
     }
 };
 
@@ -117,6 +136,12 @@ inline Estimate irradianceByRays(const LightSet& set, const vec3& point, const v
             sum += hits[i].radiance.y;
         return sum * std::max(0.0f, glm::dot(d, normal)) * 4.0 * testPi;
     });
+}
+
+/// The density of samples of a light at infinity, the first of a set.
+inline float pdfTowards(const LightSet& set, const vec3& direction, const vec3& normal,
+                        bool twoSided = false, const vec3& point = vec3(0.0f)) {
+    return set.pdfInfinite(0, point, normal, twoSided, set.place(0, direction, 0.0f), 0.0f);
 }
 
 /// Irradiance from a polygon of radiance 1 that is wholly above the horizon (Lambert 1760).

@@ -5,24 +5,19 @@
 #include "hdDelegate/lights/tests/lightTools.h"
 #include "shaders/tests/pearson.h"
 
-#include <gtest/gtest.h>
-
 using namespace patina;
 
 namespace {
 
 mat4 place(const vec3& scale, float shear) {
-    mat4 m = glm::translate(mat4(1.0f), vec3(0.3f, 0.2f, -1.6f));
-    m = glm::rotate(m, 2.6f, glm::normalize(vec3(0.2f, 1.0f, 0.1f)));
-    m = glm::scale(m, scale);
+    mat4 m = glm::scale(at(0.3f, 0.2f, -1.6f) * turned(2.6, vec3(0.2f, 1.0f, 0.1f)), scale);
     m[0] += shear * m[1];
     return m;
 }
 
 std::vector<std::shared_ptr<Light>> areaLights() {
     std::vector<std::shared_ptr<Light>> lights;
-    for (const LightType type :
-         {LightType::Sphere, LightType::Rect, LightType::Disk, LightType::Cylinder})
+    for (const LightType type : areaTypes)
         for (const mat4& m : {place(vec3(1.0f), 0.0f), place(vec3(1.5f, 0.6f, 1.0f), 0.4f)})
             lights.push_back(makeLight(type, m));
     return lights;
@@ -41,7 +36,7 @@ TEST(Density, integratesToOne) {
             if (!set.intersect(vec3(0.0f), d, 0.0f, INFINITY, 0.0f, &hit, 1)) return 0.0;
             return 4.0 * testPi * set.pdf(0, vec3(0.0f), vec3(0.0f), false, 0.0f, hit);
         });
-        EXPECT_TRUE(e.agrees(1.0)) << int(light->type) << ": " << e.mean << " +- " << e.error;
+        EXPECT_TRUE(agree(e, 1.0)) << int(light->type);
     }
 }
 
@@ -79,32 +74,21 @@ TEST(Density, samplesFollowIt) {
     for (const auto& light : areaLights()) {
         LightScene scene;
         const LightSet& set = scene.build(light);
-        constexpr int rows = 24, columns = 48, drawn = 100000;
-        std::vector<double> expected(rows * columns, 0.0), found(rows * columns, 0.0);
+        constexpr int drawn = 100000;
         // The bins' pole is y: the lights stand at -z, and bins at a pole are long and thin.
-        const auto bin = [](const vec3& d) {
-            const int row = std::min(int(0.5f * (d.y + 1.0f) * rows), rows - 1);
-            const float phi = std::atan2(d.x, d.z) / (2.0f * float(testPi)) + 0.5f;
-            return row * columns + std::min(int(phi * columns), columns - 1);
-        };
-        constexpr int fine = 40; // midpoints per bin and axis
-        for (int r = 0; r < rows * fine; ++r)
-            for (int c = 0; c < columns * fine; ++c) {
-                const float z = 2.0f * (r + 0.5f) / (rows * fine) - 1.0f;
-                const float phi = 2.0f * float(testPi) * ((c + 0.5f) / (columns * fine) - 0.5f);
-                const float s = std::sqrt(1.0f - z * z);
-                const vec3 d(s * std::sin(phi), z, s * std::cos(phi));
-                LightHit hit;
-                if (set.intersect(vec3(0.0f), d, 0.0f, INFINITY, 0.0f, &hit, 1))
-                    expected[(r / fine) * columns + c / fine] +=
-                        set.pdf(0, vec3(0.0f), vec3(0.0f), false, 0.0f, hit) * 4.0 * testPi /
-                        (double(rows) * columns * fine * fine) * drawn;
-            }
+        const test::DirectionBins bins{24, 48, -1.0};
+        const auto expected = bins.integrals(40, [&](const vec3& d) {
+            LightHit hit;
+            if (!set.intersect(vec3(0.0f), vec3(d.y, d.z, d.x), 0.0f, INFINITY, 0.0f, &hit, 1))
+                return 0.0;
+            return drawn * double(set.pdf(0, vec3(0.0f), vec3(0.0f), false, 0.0f, hit));
+        });
+        std::vector<double> found(expected.size(), 0.0);
         Random random(13);
         for (int i = 0; i < drawn; ++i) {
             LightSample s;
             if (set.sample(vec3(0.0f), vec3(0.0f), false, random.cube(), 0.0f, s))
-                found[bin(s.direction)] += 1.0;
+                found[bins.of(vec3(s.direction.z, s.direction.x, s.direction.y))] += 1.0;
         }
         // Bins at the silhouette are integrated poorly; they are pooled with the thin ones.
         const test::Pearson result = test::pearson(expected, found, 200.0);
@@ -123,27 +107,19 @@ TEST(Density, lightsAtInfinity) {
                 const LightSet& set = scene.build(light);
                 Random random(14);
                 const Estimate e = estimate(200000, [&] {
-                    return 4.0 * testPi *
-                           set.pdfInfinite(0, vec3(0.0f), normal, twoSided,
-                                           set.place(0, random.direction(), 0.0f), 0.0f);
+                    return 4.0 * testPi * pdfTowards(set, random.direction(), normal, twoSided);
                 });
-                EXPECT_TRUE(e.agrees(1.0, 1e-5)) << e.mean << " +- " << e.error;
+                EXPECT_TRUE(agree(e, 1.0, 1e-5));
                 LightSample s;
                 ASSERT_TRUE(set.sample(vec3(0.0f), normal, twoSided, random.cube(), 0.0f, s));
-                EXPECT_NEAR(set.pdfInfinite(0, vec3(0.0f), normal, twoSided,
-                                            set.place(0, s.direction, 0.0f), 0.0f) /
-                                s.pdf,
-                            1.0f, 1e-4f);
+                EXPECT_NEAR(pdfTowards(set, s.direction, normal, twoSided) / s.pdf, 1.0f, 1e-4f);
                 EXPECT_EQ(set.environment(0, set.place(0, s.direction, 0.0f), 0.0f), s.radiance);
             }
 }
 
 TEST(Density, triangles) {
     LightScene scene;
-    LightTriangle t;
-    t.vertices[0] = vec3(-1.0f, 1.0f, -1.0f);
-    t.vertices[1] = vec3(2.0f, 1.5f, -0.5f);
-    t.vertices[2] = vec3(0.2f, 0.8f, 1.4f);
+    LightTriangle t = slantedTriangle();
     t.twoSided = true;
     std::vector<LightTriangle> triangles = {t, t};
     for (vec3& v : triangles[1].vertices)

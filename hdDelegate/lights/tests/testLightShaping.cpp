@@ -32,50 +32,61 @@ std::string iesText(const std::string& horizontal, const std::string& vertical,
     return out.str();
 }
 
+/// A profile that is taken.
+std::shared_ptr<IesProfile> profileOf(const std::string& horizontal, const std::string& vertical,
+                                      const std::string& candela, int h, int v,
+                                      const std::string& tilt = "NONE") {
+    auto profile = std::make_shared<IesProfile>();
+    std::string error;
+    EXPECT_TRUE(profile->parse(iesText(horizontal, vertical, candela, h, v, tilt), error)) << error;
+    return profile;
+}
+
+LightShaping shapingOf(const Light& light, std::shared_ptr<const IesProfile> profile = nullptr) {
+    return LightShaping(light, mat4(1.0f), profile);
+}
+
+Light coneOf(float angle, float softness = 0.0f) {
+    Light light;
+    light.shapingConeAuthored = true;
+    light.shapingConeAngle = angle;
+    light.shapingConeSoftness = softness;
+    return light;
+}
+
 } // namespace
 
 TEST(Shaping, plainLightsAreNotShaped) {
     Light light;
     light.shapingConeAngle = 20.0f; // the API is not applied
-    const LightShaping shaping(light, mat4(1.0f), nullptr);
+    const LightShaping shaping = shapingOf(light);
     EXPECT_FALSE(shaping.active());
     EXPECT_EQ(shaping.factor(off(150.0f)), vec3(1.0f));
 }
 
-TEST(Shaping, hardCone) {
-    Light light;
-    light.shapingConeAuthored = true;
-    light.shapingConeAngle = 30.0f;
-    const LightShaping shaping(light, mat4(1.0f), nullptr);
-    EXPECT_EQ(shaping.factor(off(29.9f)), vec3(1.0f));
-    EXPECT_EQ(shaping.factor(off(30.1f)), vec3(0.0f));
-    EXPECT_NEAR(shaping.cutoff(), pi / 6.0f, 1e-6f);
-}
-
-TEST(Shaping, softCone) {
-    Light light;
-    light.shapingConeAuthored = true;
-    light.shapingConeAngle = 40.0f;
-    light.shapingConeSoftness = 0.5f; // falls from 20 to 40 degrees
-    const LightShaping shaping(light, mat4(1.0f), nullptr);
-    EXPECT_NEAR(shaping.factor(off(19.0f)).x, 1.0f, 1e-5f);
-    EXPECT_NEAR(shaping.factor(off(25.0f)).x, 1.0f - 0.15625f, 1e-4f);
-    EXPECT_NEAR(shaping.factor(off(30.0f)).x, 0.5f, 1e-4f);
-    EXPECT_NEAR(shaping.factor(off(35.0f)).x, 0.15625f, 1e-4f);
-    EXPECT_EQ(shaping.factor(off(40.1f)).x, 0.0f);
-    light.shapingConeSoftness = 7.0f; // clamped: from the axis on
-    const LightShaping softest(light, mat4(1.0f), nullptr);
+TEST(Shaping, cones) {
+    const LightShaping hard = shapingOf(coneOf(30.0f));
+    EXPECT_EQ(hard.factor(off(29.9f)), vec3(1.0f));
+    EXPECT_EQ(hard.factor(off(30.1f)), vec3(0.0f));
+    EXPECT_NEAR(hard.cutoff(), pi / 6.0f, 1e-6f);
+    const LightShaping soft = shapingOf(coneOf(40.0f, 0.5f)); // falls from 20 to 40 degrees
+    EXPECT_NEAR(soft.factor(off(19.0f)).x, 1.0f, 1e-5f);
+    EXPECT_NEAR(soft.factor(off(25.0f)).x, 1.0f - 0.15625f, 1e-4f);
+    EXPECT_NEAR(soft.factor(off(30.0f)).x, 0.5f, 1e-4f);
+    EXPECT_NEAR(soft.factor(off(35.0f)).x, 0.15625f, 1e-4f);
+    EXPECT_EQ(soft.factor(off(40.1f)).x, 0.0f);
+    const LightShaping softest = shapingOf(coneOf(40.0f, 7.0f)); // clamped: from the axis on
     EXPECT_NEAR(softest.factor(off(20.0f)).x, 0.5f, 1e-4f);
 }
 
 TEST(Shaping, focusAndTint) {
     Light light;
     light.shapingFocus = 3.0f;
-    const LightShaping shaping(light, mat4(1.0f), nullptr);
+    const LightShaping shaping = shapingOf(light);
     EXPECT_NEAR(shaping.factor(off(60.0f)).x, 0.125f, 1e-5f);
     EXPECT_NEAR(shaping.factor(off(120.0f)).x, 0.125f, 1e-5f); // |cos|
     light.shapingFocusTint = vec3(1.0f, 0.5f, 0.0f);
-    const LightShaping tinted(light, mat4(1.0f), nullptr);
+    const LightShaping tinted = shapingOf(light);
     const vec3 f = tinted.factor(off(60.0f));
     EXPECT_NEAR(f.x, 1.0f, 1e-5f);
     EXPECT_NEAR(f.y, 0.5f + 0.5f * 0.125f, 1e-5f);
@@ -84,69 +95,58 @@ TEST(Shaping, focusAndTint) {
 }
 
 TEST(Shaping, axisFollowsTheTransform) {
-    Light light;
-    light.shapingConeAuthored = true;
-    light.shapingConeAngle = 10.0f;
     const mat4 m = glm::scale(glm::rotate(mat4(1.0f), pi / 2.0f, vec3(0.0f, 1.0f, 0.0f)),
                               vec3(1.0f, 1.0f, 5.0f));
-    const LightShaping shaping(light, m, nullptr);
+    const LightShaping shaping(coneOf(10.0f), m, nullptr);
     EXPECT_EQ(shaping.factor(vec3(-1.0f, 0.0f, 0.0f)), vec3(1.0f));
     EXPECT_EQ(shaping.factor(vec3(0.0f, 0.0f, -1.0f)), vec3(0.0f));
 }
 
 TEST(Ies, axiallySymmetric) {
-    IesProfile profile;
-    std::string error;
     // multiplier 2, ballast factor 0.5: candela as they stand
-    ASSERT_TRUE(profile.parse(iesText("0", "0 45 90", "100 50 0", 1, 3), error)) << error;
-    EXPECT_NEAR(profile.candela(0.0f, 1.0f), 100.0f, 1e-3f);
-    EXPECT_NEAR(profile.candela(22.5f * pi / 180.0f, 4.0f), 75.0f, 1e-2f);
-    EXPECT_NEAR(profile.candela(67.5f * pi / 180.0f, -2.0f), 25.0f, 1e-2f);
-    EXPECT_EQ(profile.candela(2.0f, 0.0f), 0.0f);
-    EXPECT_EQ(profile.peak(), 100.0f);
+    const auto profile = profileOf("0", "0 45 90", "100 50 0", 1, 3);
+    EXPECT_NEAR(profile->candela(0.0f, 1.0f), 100.0f, 1e-3f);
+    EXPECT_NEAR(profile->candela(22.5f * pi / 180.0f, 4.0f), 75.0f, 1e-2f);
+    EXPECT_NEAR(profile->candela(67.5f * pi / 180.0f, -2.0f), 25.0f, 1e-2f);
+    EXPECT_EQ(profile->candela(2.0f, 0.0f), 0.0f);
+    EXPECT_EQ(profile->peak(), 100.0f);
 }
 
 TEST(Ies, symmetries) {
-    std::string error;
-    const float t = 45.0f * pi / 180.0f, r = pi / 180.0f;
-    IesProfile quadrant, half, full, turned;
-    ASSERT_TRUE(quadrant.parse(iesText("0 45 90", "0 90", "1 1 2 2 3 3", 3, 2), error)) << error;
-    for (const float phi : {90.0f, 270.0f, -90.0f})
-        EXPECT_NEAR(quadrant.candela(t, phi * r), 3.0f, 1e-3f);
-    for (const float phi : {45.0f, 135.0f, 225.0f, 315.0f})
-        EXPECT_NEAR(quadrant.candela(t, phi * r), 2.0f, 1e-3f);
-    EXPECT_NEAR(quadrant.candela(t, 180.0f * r), 1.0f, 1e-3f);
-    ASSERT_TRUE(half.parse(iesText("0,90,180", "0 90", "1 1 2 2 5 5", 3, 2), error)) << error;
-    EXPECT_NEAR(half.candela(t, 270.0f * r), 2.0f, 1e-3f);
-    EXPECT_NEAR(half.candela(t, 180.0f * r), 5.0f, 1e-3f);
-    EXPECT_NEAR(half.candela(t, 225.0f * r), 3.5f, 1e-2f);
-    ASSERT_TRUE(
-        full.parse(iesText("0 90 180 270 360", "0 90", "1 1 2 2 3 3 4 4 1 1", 5, 2), error));
-    EXPECT_NEAR(full.candela(t, 270.0f * r), 4.0f, 1e-3f);
-    EXPECT_NEAR(full.candela(t, 315.0f * r), 2.5f, 1e-2f);
-    ASSERT_TRUE(turned.parse(iesText("90 180 270", "0 90", "1 1 2 2 5 5", 3, 2), error)) << error;
-    EXPECT_NEAR(turned.candela(t, 90.0f * r), 1.0f, 1e-3f);
-    EXPECT_NEAR(turned.candela(t, 0.0f), 2.0f, 1e-3f);
-    EXPECT_NEAR(turned.candela(t, 315.0f * r), 3.5f, 1e-2f);
+    struct Value {
+        float phi, candela, tolerance = 1e-3f; ///< degrees
+    };
+    const struct {
+        const char *name, *horizontal, *candela;
+        int count;
+        std::vector<Value> values;
+    } cases[] = {
+        {"quadrant",
+         "0 45 90",
+         "1 1 2 2 3 3",
+         3,
+         {{90, 3}, {270, 3}, {-90, 3}, {45, 2}, {135, 2}, {225, 2}, {315, 2}, {180, 1}}},
+        {"half", "0,90,180", "1 1 2 2 5 5", 3, {{270, 2}, {180, 5}, {225, 3.5f, 1e-2f}}},
+        {"full", "0 90 180 270 360", "1 1 2 2 3 3 4 4 1 1", 5, {{270, 4}, {315, 2.5f, 1e-2f}}},
+        {"turned", "90 180 270", "1 1 2 2 5 5", 3, {{90, 1}, {0, 2}, {315, 3.5f, 1e-2f}}}};
+    for (const auto& c : cases) {
+        const auto profile = profileOf(c.horizontal, "0 90", c.candela, c.count, 2);
+        for (const Value& v : c.values)
+            EXPECT_NEAR(profile->candela(pi / 4.0f, v.phi * pi / 180.0f), v.candela, v.tolerance)
+                << c.name << " " << v.phi;
+    }
 }
 
 TEST(Ies, powerAndNormalization) {
-    std::string error;
-    auto sphere = std::make_shared<IesProfile>();
-    ASSERT_TRUE(sphere->parse(iesText("0", "0 90 180", "7 7 7", 1, 3), error));
+    const auto sphere = profileOf("0", "0 90 180", "7 7 7", 1, 3);
     EXPECT_NEAR(sphere->mean(), 7.0f, 1e-4f);
-    IesProfile hemisphere;
-    ASSERT_TRUE(hemisphere.parse(iesText("0", "0 90", "7 7", 1, 2), error));
-    EXPECT_NEAR(hemisphere.mean(), 7.0f, 1e-4f);
-    IesProfile slope; // mean over the hemisphere of 1 - 2 t / pi is 1 - 2 / pi
-    ASSERT_TRUE(slope.parse(iesText("0", "0 90", "1 0", 1, 2), error));
-    EXPECT_NEAR(slope.mean(), 1.0f - 2.0f / pi, 1e-4f);
+    EXPECT_NEAR(profileOf("0", "0 90", "7 7", 1, 2)->mean(), 7.0f, 1e-4f); // a hemisphere
+    // The mean over the hemisphere of 1 - 2 t / pi is 1 - 2 / pi.
+    EXPECT_NEAR(profileOf("0", "0 90", "1 0", 1, 2)->mean(), 1.0f - 2.0f / pi, 1e-4f);
     Light light;
-    const LightShaping raw(light, mat4(1.0f), sphere);
-    EXPECT_NEAR(raw.factor(off(50.0f)).x, 7.0f, 1e-3f);
+    EXPECT_NEAR(shapingOf(light, sphere).factor(off(50.0f)).x, 7.0f, 1e-3f);
     light.iesNormalize = true;
-    const LightShaping normalized(light, mat4(1.0f), sphere);
-    EXPECT_NEAR(normalized.factor(off(50.0f)).x, 1.0f, 1e-4f);
+    EXPECT_NEAR(shapingOf(light, sphere).factor(off(50.0f)).x, 1.0f, 1e-4f);
 }
 
 TEST(Ies, angleScale) {
@@ -158,10 +158,7 @@ TEST(Ies, angleScale) {
 }
 
 TEST(Ies, tiltData) {
-    IesProfile profile;
-    std::string error;
-    ASSERT_TRUE(profile.parse(iesText("0", "0 90", "4 4", 1, 2, "INCLUDE"), error)) << error;
-    EXPECT_NEAR(profile.candela(0.5f, 0.0f), 4.0f, 1e-4f);
+    EXPECT_NEAR(profileOf("0", "0 90", "4 4", 1, 2, "INCLUDE")->candela(0.5f, 0.0f), 4.0f, 1e-4f);
 }
 
 TEST(Ies, badFilesSayWhy) {

@@ -5,8 +5,6 @@
 #include "hdDelegate/lights/tests/lightTools.h"
 #include "shaders/tests/pearson.h"
 
-#include <gtest/gtest.h>
-
 using namespace patina;
 
 namespace {
@@ -23,13 +21,6 @@ std::vector<View> views(uint32_t seed) {
     for (int i = 0; i < 4; ++i)
         result.push_back({random.direction(), i % 2 == 1});
     return result;
-}
-
-vec3 cellDirection(const glm::ivec2& cell, int width, int height) {
-    const float longitude = float(testPi) * (1.0f - 2.0f * (float(cell.x) + 0.5f) / float(width));
-    const float theta = float(testPi) * (float(cell.y) + 0.5f) / float(height);
-    return vec3(std::sin(theta) * std::sin(longitude), std::cos(theta),
-                std::sin(theta) * std::cos(longitude));
 }
 
 /// A third of the cells black, and a sun.
@@ -65,7 +56,7 @@ TEST(SkyDistribution, probabilitiesSumToOneAndAreThoseOfSamples) {
                 glm::ivec2 cell;
                 vec2 within;
                 const float p =
-                    sky.sample(vec2(random(), random()), view.normal, view.twoSided, cell, within);
+                    sky.sample(random.square(), view.normal, view.twoSided, cell, within);
                 ASSERT_EQ(p, sky.probability(cell, view.normal, view.twoSided));
                 ASSERT_GT(p, 0.0f);
                 ASSERT_TRUE(within.x >= 0.0f && within.x < 1.0f);
@@ -86,7 +77,7 @@ TEST(SkyDistribution, samplesFollowTheProbabilities) {
         for (int i = 0; i < count; ++i) {
             glm::ivec2 cell;
             vec2 within;
-            sky.sample(vec2(random(), random()), view.normal, view.twoSided, cell, within);
+            sky.sample(random.square(), view.normal, view.twoSided, cell, within);
             ++hits[size_t(cell.y * width + cell.x)];
         }
         std::vector<double> expected(hits.size());
@@ -118,7 +109,9 @@ TEST(SkyDistribution, skyBelowTheHorizonTakesFewSamples) {
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 const double p = sky.probability({x, y}, normal, false);
-                const double cosine = glm::dot(normal, cellDirection({x, y}, width, height));
+                const double cosine =
+                    glm::dot(normal, latlongDirection((float(x) + 0.5f) / float(width),
+                                                      (float(y) + 0.5f) / float(height)));
                 const double value = even[size_t(y * width + x)] * std::max(cosine, 0.0);
                 below += cosine < 0.0 ? p : 0.0;
                 mean += value;

@@ -20,8 +20,7 @@ float weightOf(const LightSample& light, const LightInfo& info, float lightPdf, 
 LightDraw LightSampling::begin(const Path& path, const SurfacePoint& point, bool twoSided,
                                const vec3& u) const {
     const ShadingPoint& s = point.shading;
-    const LightDraw draw =
-        _lights.set().begin(s.position, facingNormal(s), twoSided, u, path.time);
+    const LightDraw draw = _lights.set().begin(s.position, facingNormal(s), twoSided, u, path.time);
     _lights.request(draw.light);
     return draw;
 }

@@ -47,6 +47,10 @@ public:
         primvars[{id, name}] = std::move(samples);
         interpolations[{id, name}] = interpolation;
     }
+    void setPrimvar(const SdfPath& id, const TfToken& name, HdInterpolation interpolation,
+                    const VtValue& value) {
+        setPrimvar(id, name, interpolation, Samples<VtValue>{{0.0f, value}});
+    }
 
     VtValue Get(const SdfPath& id, const TfToken& name) override {
         const auto found = primvars.find({id, name});

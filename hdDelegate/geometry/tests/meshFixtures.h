@@ -194,6 +194,16 @@ inline vec3 cornerNormal(const TriangleMesh& mesh, size_t t, int corner, size_t 
     }
 }
 
+/// Normals of corners are about those of their triangles. @param cosine of the largest angle
+inline void expectNormalsAlongTriangles(const TriangleMesh& mesh, float cosine) {
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const vec3 n = cornerNormal(mesh, t, k);
+            EXPECT_NEAR(glm::length(n), 1.0f, 1e-5f);
+            EXPECT_GT(glm::dot(n, glm::normalize(triangleCross(mesh, t))), cosine);
+        }
+}
+
 /// Every edge is shared by exactly two triangles, once in each direction (by position).
 inline void expectClosed(const TriangleMesh& mesh) {
     std::map<std::array<float, 6>, int> edges;

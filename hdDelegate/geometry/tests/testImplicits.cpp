@@ -15,12 +15,7 @@ void expectSolid(const TriangleMesh& mesh, double wantedVolume, double wantedAre
     EXPECT_NEAR(surfaceArea(mesh), wantedArea, 2e-3 * wantedArea);
     EXPECT_LE(surfaceArea(mesh), wantedArea * (1 + 1e-5)) << "vertices lie on the surface";
     expectClosed(mesh);
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            const vec3 n = cornerNormal(mesh, t, k);
-            EXPECT_NEAR(glm::length(n), 1.0f, 1e-5f);
-            EXPECT_GT(glm::dot(n, glm::normalize(triangleCross(mesh, t))), 0.99f);
-        }
+    expectNormalsAlongTriangles(mesh, 0.99f);
 }
 
 const double pi = glm::pi<double>();

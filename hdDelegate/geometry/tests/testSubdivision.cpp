@@ -29,16 +29,6 @@ void crease(Mesh& mesh, std::vector<int> indices, std::vector<int> lengths) {
     mesh.creaseLengths = std::move(lengths);
 }
 
-/// Normals of corners are about those of their triangles. @param cosine of the largest angle
-void expectNormalsAlongTriangles(const TriangleMesh& mesh, float cosine) {
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            EXPECT_NEAR(glm::length(cornerNormal(mesh, t, k)), 1.0f, 1e-5f);
-            EXPECT_GT(glm::dot(cornerNormal(mesh, t, k), glm::normalize(triangleCross(mesh, t))),
-                      cosine);
-        }
-}
-
 bool hasPoint(const TriangleMesh& mesh, const vec3& point, float tolerance = 1e-5f) {
     for (const vec3& p : mesh.positions[0])
         if (glm::length(p - point) < tolerance) return true;

@@ -105,9 +105,9 @@ struct Reason {
 const Reason reasons[] = {
     {"dielectric",
      "past total reflection and under shared interfaces what passes is 1 minus nearly 1"},
-    {"schlick", "past total reflection and under shared interfaces what passes is 1 minus nearly "
-                "1; an index of up "
-                "to 22, from a colour near 1, multiplies the rounding of the cosine by its square"},
+    {"schlick",
+     "past total reflection and under shared interfaces what passes is 1 minus nearly 1; an index "
+     "of up to 22, from a colour near 1, multiplies the rounding of the cosine by its square"},
     {"conductor", "n below 1 with k 0: facets lie on both sides of total reflection"},
     {"methods of conductor",
      "at grazing angles narrow facets multiply the rounding of their slope"},

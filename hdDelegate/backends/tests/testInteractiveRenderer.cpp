@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/backends/interactiveRenderer.h"
+#include "hdDelegate/scene/tests/prims.h"
+#include "base/tests/testTools.h"
 
 #include "hdDelegate/backends/tests/fakeRenderer.h"
-
-#include <gtest/gtest.h>
+#include "hdDelegate/renderer/tests/rendering.h"
 
 #include <new>
 
@@ -36,9 +37,7 @@ struct Session {
     std::atomic<bool> listening{false};
 
     explicit Session(int quickFails = -1, int quickWait = 0, bool device = false) {
-        settings.width = 70;
-        settings.height = 50;
-        settings.samples = 12;
+        settings = imageOf(70, 50, 12);
         settings.aovs = {"depth"};
         auto a = std::make_unique<FakeRenderer>(
             FakeRenderer::Plan{"raster", direct, quickFails, true, quickWait, device});
@@ -61,18 +60,19 @@ struct Session {
         });
     }
 
-    void render() {
-        renderer->start(scene, "", settings, film);
-        renderer->wait();
+    void render() { rendered(*renderer, scene, settings, film); }
+    /// From frame to frame there is none.
+    void expectNoJump() const {
+        for (size_t i = 1; i < shown.size(); ++i)
+            EXPECT_LE(largestStep(shown[i - 1], shown[i]),
+                      InteractiveRenderer::largestChange * 1.001f)
+                << i;
     }
 
     /// The image that the slow renderer alone makes.
     Picture reference() const {
         FakeRenderer alone(FakeRenderer::Plan{"slow", whole});
-        auto own = std::make_shared<Film>();
-        alone.start(nullptr, "", settings, own);
-        alone.wait();
-        return pictureOf(*own);
+        return pictureOf(*rendered(alone, scene, settings));
     }
 };
 
@@ -88,10 +88,7 @@ TEST(Interactive, TheQuickImageComesFirstAndTheSlowOneLastWithoutAJump) {
     // From end to end it is a jump, from frame to frame it is none.
     EXPECT_GT(largestStep(s.shown.front(), s.shown.back()),
               3.0f * InteractiveRenderer::largestChange);
-    for (size_t i = 1; i < s.shown.size(); ++i)
-        EXPECT_LE(largestStep(s.shown[i - 1], s.shown[i]),
-                  InteractiveRenderer::largestChange * 1.001f)
-            << i;
+    s.expectNoJump();
     EXPECT_EQ(s.shown.back().pixels, s.reference().pixels);
     EXPECT_EQ(pictureOf(*s.film).pixels, s.reference().pixels);
     for (size_t i = 0; i + 1 < s.reported.size(); ++i)
@@ -112,10 +109,7 @@ TEST(Interactive, ImagesOnADeviceAreShownUntilThereAreSamples) {
     EXPECT_TRUE(std::is_sorted(s.onDevice.rbegin(), s.onDevice.rend())) << "they came again";
     std::mt19937 random;
     EXPECT_EQ(s.shown[0].pixels[0], glm::vec4(direct(0, 0, random), 1.0f));
-    for (size_t i = 1; i < s.shown.size(); ++i)
-        EXPECT_LE(largestStep(s.shown[i - 1], s.shown[i]),
-                  InteractiveRenderer::largestChange * 1.001f)
-            << i;
+    s.expectNoJump();
     EXPECT_EQ(s.shown.back().pixels, s.reference().pixels);
 }
 
@@ -129,10 +123,9 @@ TEST(Interactive, APairEndsWhereTheDeviceFailsAfterAnImage) {
 
 TEST(Interactive, CamerasThatOnlyRaysShowAreTracedFromTheStart) {
     Session s;
-    auto camera = std::make_shared<Camera>();
-    camera->path = "/camera";
+    auto camera = makePrim<Camera>("/camera");
     camera->lens.projection = LensProjection::Spherical;
-    s.scene->edit().set(std::shared_ptr<const Camera>(camera));
+    s.scene->edit().set(camera);
     s.renderer->start(s.scene, "/camera", s.settings, s.film);
     s.renderer->wait();
     EXPECT_EQ(s.quick->starts, 0);
@@ -162,8 +155,7 @@ TEST(Interactive, AQuickRendererWithoutADeviceIsLeftOut) {
     for (const RenderProgress& p : s.reported)
         EXPECT_EQ(p.backend, "slow");
     EXPECT_EQ(s.shown.back().pixels, s.reference().pixels);
-    ASSERT_EQ(s.scene->diagnostics().count(), 1);
-    EXPECT_EQ(s.scene->diagnostics().all()[0].message,
+    EXPECT_EQ(onlyMessage(s.scene->diagnostics()),
               "the raster broke; the path tracer goes on without a first image");
     s.render();
     EXPECT_EQ(s.quick->starts, 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/backends/refine.h"
 
-#include <gtest/gtest.h>
+#include "hdDelegate/film/tests/filmFixtures.h"
 
 #include <cmath>
 #include <random>
@@ -73,18 +73,16 @@ TEST(Picture, RefiningKeepsTheDetailAndTakesTheLight) {
     const int w = 96, h = 64;
     std::mt19937 random(4);
     std::exponential_distribution<float> noisy(1.0f);
-    Film traced;
-    traced.reset(w, h, {});
+    TestFilm traced(w, h);
     Picture quick{w, h, {}}, truth{w, h, {}};
     const auto pattern = [](int x, int y) { return (x + y) % 2 ? 1.0f : 0.5f; };
-    for (int y = 0; y < h; ++y)
-        for (int x = 0; x < w; ++x) {
-            const glm::vec3 color = pattern(x, y) * glm::vec3(0.4f, 0.3f, 0.2f);
-            quick.pixels.push_back({0.5f * color.x, 0.7f * color.y, 0.6f * color.z, 1.0f});
-            truth.pixels.push_back({color.x, color.y, color.z, 1.0f});
-            for (int s = 0; s < 2; ++s)
-                traced.addColor(x, y, color * noisy(random), 1.0f);
-        }
+    forPixels(traced, [&](int x, int y) {
+        const glm::vec3 color = pattern(x, y) * glm::vec3(0.4f, 0.3f, 0.2f);
+        quick.pixels.push_back({0.5f * color.x, 0.7f * color.y, 0.6f * color.z, 1.0f});
+        truth.pixels.push_back({color.x, color.y, color.z, 1.0f});
+        for (int s = 0; s < 2; ++s)
+            traced.addColor(x, y, color * noisy(random), 1.0f);
+    });
     const Picture path = pictureOf(traced);
     const Picture shown = refine(quick, path, noiseOf(traced), 0.0f);
     double before = 0.0, after = 0.0, rasterized = 0.0;
@@ -101,22 +99,19 @@ TEST(Picture, RefiningKeepsTheDetailAndTakesTheLight) {
 }
 
 TEST(Picture, WithoutNoiseThePathTracedImageIsShown) {
-    Film traced;
-    traced.reset(32, 32, {});
-    for (int i = 0; i < 32 * 32; ++i)
-        for (int s = 0; s < 2; ++s)
-            traced.addColor(i % 32, i / 32, glm::vec3(float(i) / 1024.0f), 1.0f);
+    TestFilm traced(32, 32);
+    for (int s = 0; s < 2; ++s)
+        addColors(traced, [](int x, int y) { return glm::vec3(float(32 * y + x) / 1024.0f); });
     const Picture path = pictureOf(traced);
     EXPECT_EQ(refine(noise(32, 32, 1.0f, 5), path, noiseOf(traced), 0.0f).pixels, path.pixels);
 }
 
 TEST(Picture, AtTheEndThePathTracedImageIsShown) {
-    Film traced;
-    traced.reset(32, 32, {});
+    TestFilm traced(32, 32);
     std::mt19937 random(6);
     std::exponential_distribution<float> noisy(1.0f);
-    for (int i = 0; i < 32 * 32 * 4; ++i)
-        traced.addColor(i % 32, i / 32 % 32, glm::vec3(noisy(random)), 1.0f);
+    for (int s = 0; s < 4; ++s)
+        addColors(traced, [&](int, int) { return glm::vec3(noisy(random)); });
     const Picture path = pictureOf(traced);
     const Picture half = refine(noise(32, 32, 1.0f, 7), path, noiseOf(traced), 0.5f);
     EXPECT_NE(half.pixels, path.pixels);

@@ -2,6 +2,7 @@
 // The thread behind every back end.
 
 #include "hdDelegate/renderer/renderLoop.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <gtest/gtest.h>
 
@@ -35,18 +36,11 @@ protected:
 
 class RenderLoopThread : public testing::Test {
 protected:
-    RenderLoopThread() {
-        auto camera = std::make_shared<Camera>();
-        camera->path = "/camera";
-        SceneEdit edit(*scene);
-        edit.set(std::shared_ptr<const Camera>(camera));
-        edit.commit();
-        settings.width = settings.height = 4;
-    }
+    RenderLoopThread() { scene->edit().set(makePrim<Camera>("/camera")); }
 
     std::shared_ptr<Scene> scene = std::make_shared<Scene>();
     std::shared_ptr<Film> film = std::make_shared<Film>();
-    RenderSettings settings;
+    RenderSettings settings = imageOf(4, 4);
 };
 
 } // namespace
@@ -73,11 +67,7 @@ TEST_F(RenderLoopThread, LetsGoOfTheStateWhenStopped) {
     loop.endless = true;
     loop.start(scene, "/camera", settings, film);
     const std::weak_ptr<const SceneState> state = scene->snapshot();
-    auto camera = std::make_shared<Camera>();
-    camera->path = "/camera";
-    SceneEdit edit(*scene);
-    edit.set(std::shared_ptr<const Camera>(camera));
-    edit.commit();
+    scene->edit().set(makePrim<Camera>("/camera"));
     EXPECT_FALSE(state.expired());
     loop.stop();
     EXPECT_TRUE(state.expired());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/compiled/cameraFrame.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <gtest/gtest.h>
 
@@ -17,9 +18,7 @@ Camera camera(float width, float height) {
 }
 
 RenderSettings image(int width, int height, const std::string& policy) {
-    RenderSettings settings;
-    settings.width = width;
-    settings.height = height;
+    RenderSettings settings = imageOf(width, height);
     settings.aspectRatioConformPolicy = policy;
     return settings;
 }

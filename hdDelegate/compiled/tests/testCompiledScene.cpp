@@ -16,11 +16,7 @@ TEST(CompiledScene, IsOnePerScene) {
 
 TEST(CompiledScene, EndsWithItsLastRenderer) {
     const auto scene = std::make_shared<Scene>();
-    std::weak_ptr<CompiledScene> watched;
-    {
-        const auto compiled = CompiledScene::of(scene);
-        watched = compiled;
-    }
+    const std::weak_ptr<CompiledScene> watched = CompiledScene::of(scene);
     EXPECT_TRUE(watched.expired());
     EXPECT_EQ(scene.use_count(), 1);
     EXPECT_NE(CompiledScene::of(scene), nullptr);

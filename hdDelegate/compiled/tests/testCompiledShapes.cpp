@@ -2,9 +2,7 @@
 #include "hdDelegate/compiled/compiledShapes.h"
 #include "hdDelegate/geometry/tests/meshFixtures.h"
 
-#include <gtest/gtest.h>
-
-#include <thread>
+#include "base/tests/testTools.h"
 
 namespace patina {
 namespace {
@@ -53,8 +51,7 @@ TEST_F(Shapes, AreKeptByLevel) {
 
 TEST_F(Shapes, DependOnTimesWherePointsMove) {
     auto moving = cube();
-    moving->points.times = {0.0f, 1.0f};
-    moving->points.values.push_back(moving->points.values[0]);
+    movePoints(*moving, [](const vec3& p) { return p; });
     request.prim = moving;
     const auto still = triangles(request);
     request.options.shutterClose = 1.0f;
@@ -68,28 +65,18 @@ TEST_F(Shapes, AreForgottenWhenNobodyHoldsThem) {
     EXPECT_EQ(shapes.made(), 2u);
     request.prim = cube();
     EXPECT_NE(triangles(request), again) << "an edit makes another prim";
-    std::weak_ptr<const Geometry> prim;
-    {
-        ShapeRequest brief = request;
-        brief.prim = cube();
-        prim = brief.prim;
-        triangles(brief);
-    }
+    request.prim = cube();
+    const std::weak_ptr<const Geometry> prim = request.prim;
     for (int i = 0; i < 200; ++i) {
-        ShapeRequest brief = request;
-        brief.prim = cube();
-        triangles(brief);
+        triangles(request);
+        request.prim = cube();
     }
     EXPECT_TRUE(prim.expired()) << "requests are forgotten too";
 }
 
 TEST_F(Shapes, AreMadeOnceForThreadsThatAskTogether) {
     std::vector<std::shared_ptr<const TriangleMesh>> found(8);
-    std::vector<std::thread> threads;
-    for (auto& mesh : found)
-        threads.emplace_back([&] { mesh = triangles(request); });
-    for (std::thread& thread : threads)
-        thread.join();
+    onThreads(8, [&](int i) { found[size_t(i)] = triangles(request); });
     for (const auto& mesh : found)
         EXPECT_EQ(mesh, found[0]);
     EXPECT_EQ(shapes.made(), 1u);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/compiled/compiledScene.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <gtest/gtest.h>
 
@@ -8,24 +9,14 @@ namespace {
 
 std::shared_ptr<const Geometry> mesh(const std::string& path, const std::string& material,
                                      const std::string& ofSubset = "") {
-    auto prim = std::make_shared<Mesh>();
-    prim->path = path;
+    auto prim = makePrim<Mesh>(path);
     prim->material = material;
     if (!ofSubset.empty()) prim->subsets.push_back({path + "/subset", ofSubset, {0}});
     return prim;
 }
 
 std::shared_ptr<const MaterialPrim> material(const std::string& path) {
-    auto prim = std::make_shared<MaterialPrim>();
-    prim->path = path;
-    return prim;
-}
-
-std::shared_ptr<Light> light(const std::string& path, LightType type) {
-    auto prim = std::make_shared<Light>();
-    prim->path = path;
-    prim->type = type;
-    return prim;
+    return makePrim<MaterialPrim>(path);
 }
 
 struct CompiledEdits : ::testing::Test {
@@ -35,14 +26,9 @@ struct CompiledEdits : ::testing::Test {
     uint64_t version = 0;
 
     CompiledEdits() {
-        SceneEdit edit = scene->edit();
-        edit.set(mesh("/red", "/m/red"));
-        edit.set(mesh("/blue", "/m/blue"));
-        edit.set(mesh("/both", "/m/blue", "/m/red"));
-        edit.set(mesh("/plain", ""));
-        for (const char* path : {"/m/red", "/m/blue"})
-            edit.set(material(path));
-        edit.commit();
+        setPrims(*scene, mesh("/red", "/m/red"), mesh("/blue", "/m/blue"),
+                 mesh("/both", "/m/blue", "/m/red"), mesh("/plain", ""), material("/m/red"),
+                 material("/m/blue"));
         version = scene->snapshot()->version;
     }
 
@@ -87,25 +73,24 @@ TEST_F(CompiledEdits, KeepThePartsThatTheyDoNotTouch) {
     const CompiledState before = parts();
     scene->edit().set(material("/m/red"));
     scene->edit().set(mesh("/plain", ""));
-    auto key = light("/key", LightType::Sphere);
-    scene->edit().set(std::shared_ptr<const Light>(key));
+    scene->edit().set(makeLight("/key", LightType::Sphere));
     const CompiledState after = parts();
     EXPECT_EQ(after.placements, before.placements);
     EXPECT_EQ(after.links, before.links);
     EXPECT_EQ(after.meshLights, before.meshLights);
 
-    auto linked = light("/key", LightType::Sphere);
+    auto linked = makeLight("/key", LightType::Sphere);
     linked->lightLink = "these";
-    scene->edit().set(std::shared_ptr<const Light>(linked));
+    scene->edit().set(linked);
     const CompiledState withLink = parts();
     EXPECT_NE(withLink.links, before.links);
     EXPECT_EQ(withLink.links->of("these"), 0);
     EXPECT_EQ(withLink.links->of("those"), -1);
     EXPECT_EQ(withLink.meshLights, before.meshLights);
 
-    auto glow = light("/glow", LightType::Mesh);
+    auto glow = makeLight("/glow", LightType::Mesh);
     glow->geometry = "/red";
-    scene->edit().set(std::shared_ptr<const Light>(glow));
+    scene->edit().set(glow);
     EXPECT_TRUE(parts().meshLights->names("/red"));
     EXPECT_EQ(parts().meshLights->of("/red", settings), scene->snapshot()->lights.at("/glow"));
     EXPECT_EQ(parts().placements, before.placements);
@@ -119,15 +104,15 @@ TEST_F(CompiledEdits, KeepThePartsThatTheyDoNotTouch) {
 }
 
 TEST_F(CompiledEdits, MeshLightsThatAreOffGiveNoLight) {
-    auto glow = light("/glow", LightType::Mesh);
+    auto glow = makeLight("/glow", LightType::Mesh);
     glow->geometry = "/red";
     glow->visible = false;
-    scene->edit().set(std::shared_ptr<const Light>(glow));
+    scene->edit().set(glow);
     EXPECT_TRUE(parts().meshLights->names("/red"));
     EXPECT_EQ(parts().meshLights->of("/red", settings), nullptr);
-    auto on = light("/glow2", LightType::Mesh);
+    auto on = makeLight("/glow2", LightType::Mesh);
     on->geometry = "/red";
-    scene->edit().set(std::shared_ptr<const Light>(on));
+    scene->edit().set(on);
     EXPECT_EQ(parts().meshLights->of("/red", settings), on);
     settings.enableSceneLights = false;
     EXPECT_EQ(parts().meshLights->of("/red", settings), nullptr);

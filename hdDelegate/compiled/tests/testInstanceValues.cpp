@@ -2,6 +2,8 @@
 // Primvars of instances: what is read, of which instance, and what is reported.
 #include "hdDelegate/compiled/instanceValues.h"
 
+#include "hdDelegate/scene/tests/prims.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,16 +14,6 @@ namespace {
 
 using Read = std::array<float, 4>;
 constexpr Read untouched{-1, -1, -1, -1};
-
-Primvar primvar(const std::string& name, Interpolation interpolation, int components,
-                std::vector<float> values) {
-    Primvar out;
-    out.name = name;
-    out.interpolation = interpolation;
-    out.components = components;
-    out.values = std::move(values);
-    return out;
-}
 
 Instancer ofThree(std::vector<Primvar> primvars) {
     Instancer prim;
@@ -42,9 +34,9 @@ Read valueOf(const InstanceValues& values, const std::string& name, int instance
 
 TEST(InstanceValues, AreOnePerInstanceOrOneForAll) {
     const Instancer prim =
-        ofThree({primvar("tint", Interpolation::Varying, 3, {0, 1, 2, 10, 11, 12, 20, 21, 22}),
-                 primvar("size", Interpolation::Constant, 1, {7}),
-                 primvar("st", Interpolation::Vertex, 2, {0, 1, 2, 3, 4, 5})});
+        ofThree({makePrimvar("tint", Interpolation::Varying, 3, {0, 1, 2, 10, 11, 12, 20, 21, 22}),
+                 makePrimvar("size", Interpolation::Constant, 1, {7}),
+                 makePrimvar("st", Interpolation::Vertex, 2, {0, 1, 2, 3, 4, 5})});
     Diagnostics diagnostics;
     const InstanceValues values(prim, diagnostics);
     EXPECT_EQ(valueOf(values, "tint", 0), (Read{0, 1, 2, 0}));
@@ -57,7 +49,7 @@ TEST(InstanceValues, AreOnePerInstanceOrOneForAll) {
 }
 
 TEST(InstanceValues, OfOtherNamesAndInstancesAreNone) {
-    const Instancer prim = ofThree({primvar("size", Interpolation::Constant, 1, {7})});
+    const Instancer prim = ofThree({makePrimvar("size", Interpolation::Constant, 1, {7})});
     Diagnostics diagnostics;
     const InstanceValues values(prim, diagnostics);
     EXPECT_EQ(valueOf(values, "sizes", 0), untouched);
@@ -74,13 +66,14 @@ TEST(InstanceValues, HaveIdsUnlessTheseAreAuthored) {
     const InstanceValues values(prim, diagnostics);
     EXPECT_EQ(valueOf(values, "instanceId", 1), (Read{43, 0, 0, 0}));
     EXPECT_EQ(valueOf(values, "instanceId", 2), (Read{2, 0, 0, 0}));
-    const Instancer own = ofThree({primvar("instanceId", Interpolation::Varying, 1, {5, 6, 7})});
+    const Instancer own =
+        ofThree({makePrimvar("instanceId", Interpolation::Varying, 1, {5, 6, 7})});
     EXPECT_EQ(valueOf(InstanceValues(own, diagnostics), "instanceId", 2), (Read{7, 0, 0, 0}));
 }
 
 TEST(InstanceValues, OfTheWrongNumberOrNoNumbersAreReported) {
-    const Instancer prim = ofThree({primvar("few", Interpolation::Varying, 1, {1, 2}),
-                                    primvar("odd", Interpolation::Varying, 1, {1, NAN, 3})});
+    const Instancer prim = ofThree({makePrimvar("few", Interpolation::Varying, 1, {1, 2}),
+                                    makePrimvar("odd", Interpolation::Varying, 1, {1, NAN, 3})});
     Diagnostics diagnostics;
     const InstanceValues values(prim, diagnostics);
     EXPECT_EQ(valueOf(values, "few", 0), untouched);
@@ -93,9 +86,9 @@ TEST(InstanceValues, OfTheWrongNumberOrNoNumbersAreReported) {
 
 TEST(InstanceValues, OfTheInnermostInstanceThatHasThemAreRead) {
     Diagnostics diagnostics;
-    const Instancer outer = ofThree({primvar("tint", Interpolation::Constant, 1, {1}),
-                                     primvar("size", Interpolation::Constant, 1, {2})});
-    const Instancer inner = ofThree({primvar("tint", Interpolation::Varying, 1, {3, 4, 5})});
+    const Instancer outer = ofThree({makePrimvar("tint", Interpolation::Constant, 1, {1}),
+                                     makePrimvar("size", Interpolation::Constant, 1, {2})});
+    const Instancer inner = ofThree({makePrimvar("tint", Interpolation::Varying, 1, {3, 4, 5})});
     const InstanceValues ofOuter(outer, diagnostics), ofInner(inner, diagnostics);
     const InstanceStep steps[] = {{&ofOuter, 0}, {nullptr, 0}, {&ofInner, 1}};
     Read out = untouched;

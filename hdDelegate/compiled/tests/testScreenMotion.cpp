@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/compiled/screenMotion.h"
+#include "hdDelegate/scene/tests/prims.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 namespace patina {
@@ -16,9 +16,7 @@ Camera square() {
 }
 
 RenderSettings pixels() {
-    RenderSettings settings;
-    settings.width = settings.height = 32;
-    return settings;
+    return imageOf(32, 32);
 }
 
 ScreenMotion motionOf(const Camera& camera) {

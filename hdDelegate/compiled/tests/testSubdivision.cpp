@@ -2,8 +2,6 @@
 #include "hdDelegate/compiled/compiledScene.h"
 #include "hdDelegate/geometry/tests/meshFixtures.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 namespace patina {
@@ -15,11 +13,7 @@ std::shared_ptr<Mesh> cube() {
 }
 
 Camera cameraAt(float z) {
-    Camera camera;
-    camera.path = "/camera";
-    camera.transform = dmat4(1.0);
-    camera.transform.values[0][3] = glm::dvec4(0.0, 0.0, z, 1.0);
-    return camera;
+    return *makePrim<Camera>("/camera", translate(0, 0, z));
 }
 
 struct Subdivisions : ::testing::Test {
@@ -28,7 +22,7 @@ struct Subdivisions : ::testing::Test {
     RenderSettings settings;
 
     Subdivisions() {
-        scene->edit().set(std::shared_ptr<const Geometry>(cube()));
+        scene->edit().set(cube());
         settings.width = settings.height = 400;
     }
     Subdivision choice(float distance) {
@@ -52,7 +46,7 @@ TEST_F(Subdivisions, AreChosenOnceForAllRenderers) {
     choice(9.0f);
     EXPECT_EQ(compiled->subdivision().planned(), 3u);
     EXPECT_EQ(compiled->extents().measured(), 1u) << "the prim is as it was";
-    scene->edit().set(std::shared_ptr<const Geometry>(cube()));
+    scene->edit().set(cube());
     choice(9.0f);
     EXPECT_EQ(compiled->subdivision().planned(), 4u);
     EXPECT_EQ(compiled->extents().measured(), 2u);
@@ -69,9 +63,10 @@ TEST_F(Subdivisions, ArePlannedWhereverTheSceneIs) {
     settings.tolerance = 0.01;
     const float here = choice(8.0f).edgeLength;
     auto far = cube();
-    far->transform = dmat4(1.0);
-    far->transform.values[0][3] = glm::dvec4(3e8, 0.0, 0.0, 1.0); // floats are 32 units apart there
-    scene->edit().set(std::shared_ptr<const Geometry>(far));
+    dmat4 place(1.0);
+    place[3].x = 3e8; // floats are 32 units apart there
+    far->transform = place;
+    scene->edit().set(far);
     Camera camera = cameraAt(8.0f);
     camera.transform.values[0][3].x = 3e8;
     const auto state = scene->snapshot();
@@ -131,10 +126,7 @@ TEST(PrimExtent, OfImplicitPrims) {
 TEST(PrimExtent, OfPointsHasTheirWidths) {
     Points points;
     points.points = std::vector<vec3>{{1, 2, 3}};
-    Primvar widths;
-    widths.name = "widths";
-    widths.values = {4.0f, NAN};
-    points.primvars.push_back(widths);
+    points.primvars = {makePrimvar("widths", Interpolation::Vertex, 1, {4.0f, NAN})};
     const PrimExtent extent(points);
     EXPECT_EQ(extent.low, vec3(-1, 0, 1));
     EXPECT_EQ(extent.high, vec3(3, 4, 5));

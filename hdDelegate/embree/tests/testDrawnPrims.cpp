@@ -3,24 +3,14 @@
 
 #include "hdDelegate/compiled/drawFilter.h"
 
-#include <gtest/gtest.h>
-
 using namespace patina;
 using namespace patina::test;
 
 namespace {
 
 struct Built : BuiltScene {
-    Hit hit;
-
-    template <class T> void set(const std::shared_ptr<T>& prim) {
-        scene.edit().set(std::shared_ptr<const T>(prim));
-    }
-    void setMesh(const std::shared_ptr<Mesh>& prim) {
-        scene.edit().set(std::shared_ptr<const Geometry>(prim));
-    }
-    bool seen(float x, unsigned mask = RayCamera) {
-        return embree.intersect({x, 0.1f, 5}, {0, 0, -1}, 0, INFINITY, 0, mask, hit);
+    bool seen(float x, unsigned rays = RayCamera) {
+        return meets({x, 0.1f, 5}, {0, 0, -1}, 0, rays);
     }
 };
 
@@ -58,11 +48,8 @@ TEST(DrawnPrims, ASceneChangesWithTheSettings) {
     left->transform = translate(-2, 0, 0);
     left->renderTag = "guide";
     right->transform = translate(2, 0, 0);
-    built.setMesh(left);
-    built.setMesh(right);
-    built.setMesh(makeQuad("/protos/leaf", "P"));
-    built.set(makeInstancer("/many", "", "P", {translate(6, 0, 0)}));
-    built.update();
+    built.set(left, right, makeQuad("/protos/leaf", "P"),
+              makeInstancer("/many", "", "P", {translate(6, 0, 0)}));
     EXPECT_TRUE(built.seen(-2) && built.seen(2) && built.seen(6));
     built.settings.renderTags = {"geometry"};
     built.update();
@@ -86,11 +73,7 @@ TEST(DrawnPrims, IdsOfTheHost) {
     Built built;
     auto quad = makeQuad("/b");
     quad->id = 42;
-    built.setMesh(quad);
-    auto other = makeQuad("/c");
-    other->transform = translate(4, 0, 0);
-    built.setMesh(other);
-    built.update();
+    built.set(quad, makeQuad("/c", "", vec2(4, 0)));
     ASSERT_TRUE(built.seen(0));
     EXPECT_EQ(built.hit.surface->primId, 42);
     ASSERT_TRUE(built.seen(4));
@@ -100,7 +83,6 @@ TEST(DrawnPrims, IdsOfTheHost) {
 TEST(DrawnPrims, IdCountsJoinTheLevelsOfNesting) {
     for (const bool counts : {false, true}) {
         Built built;
-        built.setMesh(makeQuad("/leaf", "A"));
         auto inner = makeInstancer("/i1", "B", "A",
                                    {translate(0, 0, 0), translate(3, 0, 0), translate(6, 0, 0)});
         auto outer = makeInstancer("/i2", "", "B", {translate(0, 0, 0), translate(20, 0, 0)});
@@ -109,9 +91,7 @@ TEST(DrawnPrims, IdCountsJoinTheLevelsOfNesting) {
             inner->idCounts = {3};
             outer->idCounts = {2};
         }
-        built.set(inner);
-        built.set(outer);
-        built.update();
+        built.set(makeQuad("/leaf", "A"), inner, outer);
         ASSERT_TRUE(built.seen(26));
         EXPECT_EQ(built.hit.instanceId, counts ? 7 * 3 + 2 : 2);
         ASSERT_TRUE(built.seen(3));
@@ -122,18 +102,14 @@ TEST(DrawnPrims, IdCountsJoinTheLevelsOfNesting) {
 TEST(DrawnPrims, InstancerVisibilityHoldsAtEveryLevel) {
     for (const bool nested : {false, true}) {
         Built built;
-        built.setMesh(makeQuad("/leaf", "A"));
-        built.set(makeInstancer("/i1", "B", "A", {mat4(1.0f)}));
         auto outer = makeInstancer("/i2", "", nested ? "B" : "A", {mat4(1.0f)});
         outer->visibility.camera = false;
-        built.set(outer);
-        built.update();
+        built.set(makeQuad("/leaf", "A"), makeInstancer("/i1", "B", "A", {mat4(1.0f)}), outer);
         EXPECT_FALSE(built.seen(0));
         EXPECT_TRUE(built.seen(0, RayShadow));
         auto hidden = std::make_shared<Instancer>(*outer);
         hidden->visibility = Visibility::all(false);
         built.set(hidden);
-        built.update();
         EXPECT_FALSE(built.seen(0, RayShadow));
         EXPECT_TRUE(built.embree.places().transforms("A").empty()) << "nor does it glow";
     }
@@ -142,15 +118,13 @@ TEST(DrawnPrims, InstancerVisibilityHoldsAtEveryLevel) {
 TEST(DrawnPrims, InstancesWithoutAnInverseAreSkipped) {
     for (const bool nested : {false, true}) {
         Built built;
-        built.setMesh(makeQuad("/leaf", "A"));
-        built.set(makeInstancer("/i1", "B", "A", {mat4(1.0f)}));
         mat4 nan(1.0f), far(1.0f);
         nan[3][0] = NAN;
         far[3][1] = INFINITY;
-        built.set(makeInstancer(
-            "/i2", "", nested ? "B" : "A",
-            {mat4(0.0f), nan, far, glm::scale(mat4(1.0f), vec3(1, 1, 0)), translate(4, 0, 0)}));
-        built.update();
+        built.set(makeQuad("/leaf", "A"), makeInstancer("/i1", "B", "A", {mat4(1.0f)}),
+                  makeInstancer("/i2", "", nested ? "B" : "A",
+                                {mat4(0.0f), nan, far, glm::scale(mat4(1.0f), vec3(1, 1, 0)),
+                                 translate(4, 0, 0)}));
         EXPECT_FALSE(built.seen(0));
         ASSERT_TRUE(built.seen(4));
         EXPECT_EQ(built.hit.instanceId, nested ? 0 : 4) << "the innermost";

@@ -3,18 +3,15 @@
 // them makes, PATINA_EDITS_SEED which; testenv/sanitizers/racingEdits.py runs it for long under
 // ThreadSanitizer.
 #include "hdDelegate/geometry/tests/meshFixtures.h"
-#include "hdDelegate/renderer/renderer.h"
-
-#include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
+#include "hdDelegate/renderer/tests/rendering.h"
+#include "hdDelegate/scene/tests/prims.h"
+#include "base/tests/testTools.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <random>
-#include <thread>
 
 using namespace patina;
 
@@ -52,7 +49,7 @@ private:
         return (below(2) ? _own : std::string("/shared")) + "/" + kind + std::to_string(below(3));
     }
     mat4 place() {
-        return glm::translate(mat4(1.0f), vec3(number(-3, 3), number(-2, 2), number(-3, 0))) *
+        return translate(number(-3, 3), number(-2, 2), number(-3, 0)) *
                glm::scale(mat4(1.0f), vec3(number(0.2f, 1.0f)));
     }
 
@@ -75,57 +72,42 @@ private:
         mesh->material = path("material");
         if (below(4) == 0) mesh->group = "prototype";
         if (below(3) == 0) mesh->scheme = SubdivisionScheme::CatmullClark;
-        edit.set(std::shared_ptr<const Geometry>(mesh));
+        edit.set(mesh);
     }
 
     void setBall(SceneEdit& edit) {
-        auto ball = std::make_shared<Implicit>();
-        ball->path = path("ball");
-        ball->transform = place();
-        edit.set(std::shared_ptr<const Geometry>(ball));
+        auto ball = makePrim<Implicit>(path("ball"), place());
+        edit.set(ball);
     }
 
     void setMaterial(SceneEdit& edit) {
-        auto material = std::make_shared<MaterialPrim>();
-        material->path = material->network.path = path("material");
-        NetworkNode node;
-        node.path = material->path + "/surface";
-        node.id = "UsdPreviewSurface";
-        node.inputs["diffuseColor"] = Value::makeColor3(number(0, 1), 0.5f, 0.2f);
-        if (below(3) == 0) node.inputs["emissiveColor"] = Value::makeColor3(number(0, 4), 1, 1);
-        if (below(3) == 0) node.inputs["clearcoat"] = Value::makeFloat(number(0, 1));
-        material->network.nodes.push_back(node);
-        material->network.terminals["surface"] = {node.path, ""};
-        edit.set(std::shared_ptr<const MaterialPrim>(material));
+        Inputs inputs = {{"diffuseColor", color(number(0, 1), 0.5f, 0.2f)}};
+        if (below(3) == 0) inputs["emissiveColor"] = color(number(0, 4), 1, 1);
+        if (below(3) == 0) inputs["clearcoat"] = patina::number(number(0, 1));
+        edit.set(
+            makeMaterial(path("material"), {makeNode("surface", "UsdPreviewSurface", inputs)}));
     }
 
     void setLight(SceneEdit& edit) {
-        auto light = std::make_shared<Light>();
-        light->path = path("light");
+        auto light = makePrim<Light>(path("light"));
         const LightType types[] = {LightType::Dome, LightType::Distant, LightType::Rect,
                                    LightType::Sphere};
         light->type = types[below(4)];
         light->intensity = number(0, 3);
         light->transform = place();
-        edit.set(std::shared_ptr<const Light>(light));
+        edit.set(light);
     }
 
     void setInstancer(SceneEdit& edit) {
-        auto instancer = std::make_shared<Instancer>();
-        instancer->path = path("instancer");
-        instancer->prototypes = {"prototype"};
-        for (int i = below(4); i >= 0; --i) {
-            instancer->transforms.push_back(place());
-            instancer->prototypeIndices.push_back(0);
-        }
-        edit.set(std::shared_ptr<const Instancer>(instancer));
+        const std::string at = path("instancer");
+        std::vector<mat4> places;
+        for (int i = below(4); i >= 0; --i)
+            places.push_back(place());
+        edit.set(makeInstancer(at, "", "prototype", places));
     }
 
     void setCamera(SceneEdit& edit) {
-        auto camera = std::make_shared<Camera>();
-        camera->path = "/camera";
-        camera->transform = glm::translate(mat4(1.0f), vec3(number(-1, 1), 0.5f, number(6, 9)));
-        edit.set(std::shared_ptr<const Camera>(camera));
+        edit.set(makePrim<Camera>("/camera", translate(number(-1, 1), 0.5f, number(6, 9))));
     }
 
     Scene& _scene;
@@ -134,27 +116,13 @@ private:
 };
 
 RenderSettings small(int samples) {
-    RenderSettings settings;
-    settings.width = 24;
-    settings.height = 16;
-    settings.samples = samples;
+    RenderSettings settings = imageOf(24, 16, samples);
     settings.threads = 3;
     return settings;
 }
 
-std::shared_ptr<Scene> seenByACamera() {
-    auto scene = std::make_shared<Scene>();
-    auto camera = std::make_shared<Camera>();
-    camera->path = "/camera";
-    camera->transform = glm::translate(mat4(1.0f), vec3(0, 0.5f, 8));
-    scene->edit().set(std::shared_ptr<const Camera>(camera));
-    return scene;
-}
-
-std::vector<float> rendered(Renderer& renderer, const std::shared_ptr<Scene>& scene) {
-    auto film = std::make_shared<Film>();
-    renderer.start(scene, "/camera", small(2), film);
-    renderer.wait();
+std::vector<float> colorOf(Renderer& renderer, const std::shared_ptr<Scene>& scene) {
+    const auto film = rendered(renderer, scene, small(2));
     EXPECT_FALSE(renderer.progress().failed) << renderer.progress().error;
     return film->resolve("color");
 }
@@ -162,7 +130,7 @@ std::vector<float> rendered(Renderer& renderer, const std::shared_ptr<Scene>& sc
 } // namespace
 
 TEST(EditsWhileRendering, EndWithTheImageOfAFreshRenderer) {
-    auto scene = seenByACamera();
+    auto scene = sceneOf(makePrim<Camera>("/camera", translate(0, 0.5f, 8)));
     auto renderer = makeRenderer("embree");
     std::atomic<int> working{editors}, starts{0};
     std::vector<std::thread> threads;
@@ -199,9 +167,8 @@ TEST(EditsWhileRendering, EndWithTheImageOfAFreshRenderer) {
         thread.join();
     renderer->stop();
     auto fresh = makeRenderer("embree");
-    const auto edited = rendered(*renderer, scene), other = rendered(*fresh, scene);
-    ASSERT_EQ(edited.size(), other.size());
-    EXPECT_EQ(std::memcmp(edited.data(), other.data(), edited.size() * sizeof(float)), 0);
+    const auto edited = colorOf(*renderer, scene);
+    EXPECT_TRUE(sameBits(edited, colorOf(*fresh, scene)));
     for (float value : edited)
         ASSERT_TRUE(std::isfinite(value));
     EXPECT_GE(starts, edits / editsPerStart - 1);

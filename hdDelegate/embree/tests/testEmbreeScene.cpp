@@ -1,126 +1,88 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/tests/builtScene.h"
 
-#include <gtest/gtest.h>
-
 using namespace patina;
 using namespace patina::test;
 
-namespace {
-
-struct Built : BuiltScene {
-    bool hit(const vec3& origin, const vec3& direction, Hit& out, float time = 0.0f) {
-        return embree.intersect(origin, direction, 0, INFINITY, time, RayCamera, out);
-    }
-};
-
-} // namespace
-
 TEST(EmbreeScene, HitOfAPrimInTheWorld) {
-    Built built;
+    BuiltScene built;
     auto quad = makeQuad("/quad");
     quad->transform = translate(0, 0, -5);
-    built.scene.edit().set(std::shared_ptr<const Geometry>(quad));
-    built.update();
-    Hit hit;
-    ASSERT_TRUE(built.hit({0.25f, 0.5f, 0}, {0, 0, -1}, hit));
-    EXPECT_NEAR(hit.distance, 5.0f, 1e-5f);
+    built.set(quad);
+    const vec3 origin(0.25f, 0.5f, 0), direction(0, 0, -1);
+    ASSERT_TRUE(built.meets(origin));
+    EXPECT_NEAR(built.hit.distance, 5.0f, 1e-5f);
     SurfacePoint point;
-    computeSurfacePoint(hit, {0.25f, 0.5f, 0}, {0, 0, -1}, 0, point);
+    computeSurfacePoint(built.hit, origin, direction, 0, point);
     EXPECT_NEAR(point.shading.geometricNormal.z, 1.0f, 1e-6f);
     EXPECT_NEAR(point.shading.objectPosition.z, 0.0f, 1e-5f);
-    EXPECT_FALSE(built.hit({1.5f, 0, 0}, {0, 0, -1}, hit));
-    EXPECT_EQ(hit.instanceId, -1);
+    EXPECT_EQ(built.hit.instanceId, -1);
+    EXPECT_FALSE(built.meets({1.5f, 0, 0}));
 }
 
 TEST(EmbreeScene, MirroringTransformKeepsTheFrontSide) {
-    Built built;
+    BuiltScene built;
     auto quad = makeQuad("/quad");
     quad->transform = glm::scale(mat4(1.0f), vec3(-1, 1, 1));
-    built.scene.edit().set(std::shared_ptr<const Geometry>(quad));
-    built.update();
-    Hit hit;
-    ASSERT_TRUE(built.hit({0, 0.1f, 3}, {0, 0, -1}, hit));
+    built.set(quad);
+    ASSERT_TRUE(built.meets({0, 0.1f, 3}));
     SurfacePoint point;
-    computeSurfacePoint(hit, {0, 0.1f, 3}, {0, 0, -1}, 0, point);
+    computeSurfacePoint(built.hit, {0, 0.1f, 3}, {0, 0, -1}, 0, point);
     EXPECT_NEAR(point.shading.geometricNormal.z, 1.0f, 1e-6f);
 }
 
 TEST(EmbreeScene, InstancesOfThreeLevelsLandWhereTheirTransformsSay) {
-    Built built;
-    SceneEdit edit = built.scene.edit();
-    edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
-    edit.set(std::shared_ptr<const Instancer>(
-        makeInstancer("/i1", "B", "A", {translate(10, 0, 0), translate(20, 0, 0)})));
-    edit.set(std::shared_ptr<const Instancer>(makeInstancer(
-        "/i2", "C", "B", {translate(0, 100, 0), glm::scale(mat4(1.0f), vec3(2.0f))})));
-    edit.set(std::shared_ptr<const Instancer>(
-        makeInstancer("/i3", "", "C", {translate(0, 0, -7), translate(1000, 0, 0)})));
-    edit.commit();
-    built.update();
-    Hit hit;
-    ASSERT_TRUE(built.hit({20.5f, 100.25f, 0}, {0, 0, -1}, hit));
+    BuiltScene built;
+    built.set(makeQuad("/leaf", "A"),
+              makeInstancer("/i1", "B", "A", {translate(10, 0, 0), translate(20, 0, 0)}),
+              makeInstancer("/i2", "C", "B", {translate(0, 100, 0), scaled(2.0f)}),
+              makeInstancer("/i3", "", "C", {translate(0, 0, -7), translate(1000, 0, 0)}));
+    const Hit& hit = built.hit;
+    ASSERT_TRUE(built.meets({20.5f, 100.25f, 0}));
     EXPECT_NEAR(hit.distance, 7.0f, 1e-4f);
     EXPECT_EQ(hit.surface->prim->path, "/leaf");
     EXPECT_NEAR(hit.groupToWorld[3].x, 20.0f, 1e-4f);
     EXPECT_NEAR(hit.groupToWorld[3].y, 100.0f, 1e-4f);
     EXPECT_EQ(hit.instanceId, 1);
     // The scaled copy reaches from 18 to 22 around x = 20.
-    ASSERT_TRUE(built.hit({1021.5f, 1.5f, 3}, {0, 0, -1}, hit));
+    ASSERT_TRUE(built.meets({1021.5f, 1.5f, 3}));
     EXPECT_NEAR(hit.distance, 3.0f, 1e-4f);
-    EXPECT_FALSE(built.hit({1023.0f, 1.5f, 3}, {0, 0, -1}, hit));
+    EXPECT_FALSE(built.meets({1023.0f, 1.5f, 3}));
     EXPECT_TRUE(built.embree.occluded({1021.5f, 1.5f, 3}, {0, 0, -1}, 0, 10, 0, RayShadow));
     EXPECT_FALSE(built.embree.occluded({1023.0f, 1.5f, 3}, {0, 0, -1}, 0, 10, 0, RayShadow));
     EXPECT_EQ(built.embree.places().transforms("A").size(), 8u);
 }
 
 TEST(EmbreeScene, ANearerPlainHitIsNotMistakenForAnInstance) {
-    Built built;
-    SceneEdit edit = built.scene.edit();
+    BuiltScene built;
     auto front = makeQuad("/front");
     front->transform = translate(0, 0, -2);
-    edit.set(std::shared_ptr<const Geometry>(front));
-    edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
-    edit.set(std::shared_ptr<const Instancer>(makeInstancer("/i1", "B", "A", {mat4(1.0f)})));
-    edit.set(
-        std::shared_ptr<const Instancer>(makeInstancer("/i2", "", "B", {translate(0, 0, -4)})));
-    edit.commit();
-    built.update();
-    Hit hit;
-    ASSERT_TRUE(built.hit({0, 0, 0}, {0, 0, -1}, hit));
-    EXPECT_EQ(hit.surface->prim->path, "/front");
-    EXPECT_FALSE(hit.instanced);
+    built.set(front, makeQuad("/leaf", "A"), makeInstancer("/i1", "B", "A", {mat4(1.0f)}),
+              makeInstancer("/i2", "", "B", {translate(0, 0, -4)}));
+    ASSERT_TRUE(built.meets({0, 0, 0}));
+    EXPECT_EQ(built.hit.surface->prim->path, "/front");
+    EXPECT_FALSE(built.hit.instanced);
 }
 
 TEST(EmbreeScene, CyclesOfInstancersAreReportedAndLeftOut) {
-    Built built;
-    SceneEdit edit = built.scene.edit();
-    edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
-    edit.set(std::shared_ptr<const Instancer>(makeInstancer("/i1", "A", "A", {mat4(1.0f)})));
-    edit.set(std::shared_ptr<const Instancer>(makeInstancer("/i2", "", "A", {mat4(1.0f)})));
-    edit.commit();
-    built.update();
+    BuiltScene built;
+    built.set(makeQuad("/leaf", "A"), makeInstancer("/i1", "A", "A", {mat4(1.0f)}),
+              makeInstancer("/i2", "", "A", {mat4(1.0f)}));
     EXPECT_GE(built.scene.diagnostics().count(), 1);
-    Hit hit;
-    EXPECT_TRUE(built.hit({0, 0, 1}, {0, 0, -1}, hit));
+    EXPECT_TRUE(built.meets({0, 0, 1}));
 }
 
 TEST(EmbreeScene, SingularInstanceIsReportedAndLeftOut) {
-    Built built;
-    SceneEdit edit = built.scene.edit();
-    edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
-    edit.set(std::shared_ptr<const Instancer>(
-        makeInstancer("/i", "", "A", {mat4(0.0f), translate(0, 0, -1)})));
-    edit.commit();
-    built.update();
-    Hit hit;
-    ASSERT_TRUE(built.hit({0, 0, 0}, {0, 0, -1}, hit));
-    EXPECT_EQ(hit.instanceId, 1);
+    BuiltScene built;
+    built.set(makeQuad("/leaf", "A"),
+              makeInstancer("/i", "", "A", {mat4(0.0f), translate(0, 0, -1)}));
+    ASSERT_TRUE(built.meets({0, 0, 0}));
+    EXPECT_EQ(built.hit.instanceId, 1);
     EXPECT_EQ(built.scene.diagnostics().count(), 1);
 }
 
 TEST(EmbreeScene, MotionOfTransformAndInstance) {
-    Built built;
+    BuiltScene built;
     built.camera.shutterOpen = 0.0;
     built.camera.shutterClose = 1.0;
     MotionTransform motion;
@@ -128,70 +90,51 @@ TEST(EmbreeScene, MotionOfTransformAndInstance) {
     motion.values = {mat4(1.0f), translate(4, 0, 0)};
     auto moving = makeQuad("/moving");
     moving->transform = motion;
-    SceneEdit edit = built.scene.edit();
-    edit.set(std::shared_ptr<const Geometry>(moving));
-    edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
     auto instancer = makeInstancer("/i", "", "A", {mat4(1.0f)});
     MotionTransform far = motion;
     for (dmat4& m : far.values)
         m = dmat4(translate(0, 50, 0)) * m;
     instancer->transforms[0] = far;
-    edit.set(std::shared_ptr<const Instancer>(instancer));
-    edit.commit();
-    built.update();
-    Hit hit;
+    built.set(moving, makeQuad("/leaf", "A"), instancer);
     for (float y : {0.0f, 50.0f}) {
-        EXPECT_TRUE(built.hit({0, y, 1}, {0, 0, -1}, hit, 0.0f));
-        EXPECT_FALSE(built.hit({2, y, 1}, {0, 0, -1}, hit, 0.0f));
-        EXPECT_TRUE(built.hit({2, y, 1}, {0, 0, -1}, hit, 0.5f));
-        EXPECT_FALSE(built.hit({0, y, 1}, {0, 0, -1}, hit, 0.75f));
+        EXPECT_TRUE(built.meets({0, y, 1}, {0, 0, -1}, 0.0f));
+        EXPECT_FALSE(built.meets({2, y, 1}, {0, 0, -1}, 0.0f));
+        EXPECT_TRUE(built.meets({2, y, 1}, {0, 0, -1}, 0.5f));
+        EXPECT_FALSE(built.meets({0, y, 1}, {0, 0, -1}, 0.75f));
     }
 }
 
 TEST(EmbreeScene, UnchangedPrimsKeepTheirSurfaces) {
-    Built built;
-    SceneEdit edit = built.scene.edit();
-    edit.set(std::shared_ptr<const Geometry>(makeQuad("/a")));
-    edit.set(std::shared_ptr<const Geometry>(makeQuad("/b")));
-    edit.commit();
-    built.update();
+    BuiltScene built;
+    built.set(makeQuad("/a"), makeQuad("/b"));
     const auto a = built.embree.surfaces().find("/a");
     const auto b = built.embree.surfaces().find("/b");
-    built.scene.edit().set(std::shared_ptr<const Geometry>(makeQuad("/b")));
-    built.update();
+    built.set(makeQuad("/b"));
     EXPECT_EQ(built.embree.surfaces().find("/b"), b) << "another object of equal contents";
     auto changed = makeQuad("/b");
     changed->points.values[0][0].x = -2;
-    built.scene.edit().set(std::shared_ptr<const Geometry>(changed));
-    built.update();
+    built.set(changed);
     EXPECT_EQ(built.embree.surfaces().find("/a"), a);
     EXPECT_NE(built.embree.surfaces().find("/b"), b);
 }
 
 TEST(EmbreeScene, VisibilityMasksRays) {
-    Built built;
+    BuiltScene built;
     auto quad = makeQuad("/quad");
     quad->visibility = {false, true, true};
-    built.scene.edit().set(std::shared_ptr<const Geometry>(quad));
-    built.update();
-    Hit hit;
-    EXPECT_FALSE(built.hit({0, 0, 1}, {0, 0, -1}, hit));
-    EXPECT_TRUE(built.embree.intersect({0, 0, 1}, {0, 0, -1}, 0, 10, 0, RayIndirect, hit));
+    built.set(quad);
+    EXPECT_FALSE(built.meets({0, 0, 1}));
+    EXPECT_TRUE(built.meets({0, 0, 1}, {0, 0, -1}, 0, RayIndirect));
 }
 
 TEST(EmbreeScene, PacketsMeetWhatEachOfTheirRaysMeets) {
     for (const bool nested : {false, true}) {
-        Built built;
-        SceneEdit edit = built.scene.edit();
-        edit.set(std::shared_ptr<const Geometry>(makeQuad("/wall")));
-        edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
-        edit.set(std::shared_ptr<const Instancer>(makeInstancer(
-            "/i1", nested ? "B" : "", "A", {translate(4, 0, 0), translate(8, 0, -1)})));
+        BuiltScene built;
+        built.set(makeQuad("/wall"), makeQuad("/leaf", "A"),
+                  makeInstancer("/i1", nested ? "B" : "", "A",
+                                {translate(4, 0, 0), translate(8, 0, -1)}));
         if (nested)
-            edit.set(std::shared_ptr<const Instancer>(
-                makeInstancer("/i2", "", "B", {translate(0, 0.3f, 0), translate(12, 0, 0)})));
-        edit.commit();
-        built.update();
+            built.set(makeInstancer("/i2", "", "B", {translate(0, 0.3f, 0), translate(12, 0, 0)}));
         const vec3 origin(4, 0.1f, 3);
         for (const int count : {1, 7, EmbreeScene::packet}) {
             vec3 directions[EmbreeScene::packet];

@@ -5,8 +5,6 @@
 #include "hdDelegate/embree/tests/builtScene.h"
 #include "hdDelegate/renderer/renderLoop.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <new>
@@ -34,9 +32,7 @@ using namespace patina;
 namespace {
 
 std::shared_ptr<Mesh> square(const std::string& path, float x, const std::string& group = "") {
-    auto mesh = test::makeQuad(path, group);
-    mesh->transform = test::translate(x, 0, 0);
-    return mesh;
+    return makeQuad(path, group, vec2(x, 0));
 }
 
 /// The path of the prim that rays along a line meet, or nothing.
@@ -56,29 +52,19 @@ class OutOfMemory : public testing::TestWithParam<bool> {};
 } // namespace
 
 TEST_P(OutOfMemory, TheNextUpdateMakesWholeWhatAnEditDidNot) {
-    auto scene = std::make_shared<Scene>();
-    {
-        SceneEdit edit = scene->edit();
-        for (int i = 0; i < 4; ++i)
-            edit.set(std::shared_ptr<const Geometry>(
-                square("/prim" + std::to_string(i), 3.0f * float(i))));
-        edit.set(std::shared_ptr<const Geometry>(square("/leaf", 0.0f, "leaves")));
-        auto instancer = std::make_shared<Instancer>();
-        instancer->path = "/leaves";
-        instancer->prototypes = {"leaves"};
-        for (int i = 1; i < 4; ++i) {
-            instancer->transforms.push_back(glm::translate(mat4(1.0f), vec3(-3.0f * i, 0, 0)));
-            instancer->prototypeIndices.push_back(0);
-        }
-        edit.set(std::shared_ptr<const Instancer>(instancer));
-    }
+    const auto scene =
+        sceneOf(square("/leaf", 0.0f, "leaves"),
+                makeInstancer("/leaves", "", "leaves",
+                              {translate(-3, 0, 0), translate(-6, 0, 0), translate(-9, 0, 0)}));
+    for (int i = 0; i < 4; ++i)
+        scene->edit().set(square("/prim" + std::to_string(i), 3.0f * float(i)));
     const auto before = scene->snapshot();
     {
         SceneEdit edit = scene->edit();
-        edit.set(std::shared_ptr<const Geometry>(square("/prim1", 1.5f)));
-        edit.set(std::shared_ptr<const Geometry>(square("/leaf", 0.7f, "leaves")));
+        for (const auto& prim :
+             {square("/prim1", 1.5f), square("/leaf", 0.7f, "leaves"), square("/prim9", 7.5f)})
+            edit.set(prim);
         edit.remove("/prim2");
-        edit.set(std::shared_ptr<const Geometry>(square("/prim9", 7.5f)));
     }
     const auto after = scene->snapshot();
     const auto compiled = CompiledScene::of(scene);
@@ -141,10 +127,7 @@ private:
 } // namespace
 
 TEST(RenderWithoutMemory, ItsEndTellsOfIt) {
-    auto scene = std::make_shared<Scene>();
-    auto camera = std::make_shared<Camera>();
-    camera->path = "/camera";
-    scene->edit().set(std::shared_ptr<const Camera>(camera));
+    const auto scene = sceneOf(makePrim<Camera>("/camera"));
     for (const long at : {0L, 1L, 100L}) {
         LoopWithoutMemory loop(at);
         loop.start(scene, "/camera", RenderSettings(), std::make_shared<Film>());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/vertex.h"
-#include "hdDelegate/renderer/renderer.h"
+#include "hdDelegate/renderer/tests/rendering.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <gtest/gtest.h>
 
@@ -14,28 +15,12 @@ using namespace patina;
 namespace {
 
 std::shared_ptr<Scene> furnaceScene() {
-    auto scene = std::make_shared<Scene>();
-    SceneEdit edit = scene->edit();
-    auto ball = std::make_shared<Implicit>();
-    ball->path = "/ball";
-    edit.set(std::shared_ptr<const Geometry>(ball));
-    auto dome = std::make_shared<Light>();
-    dome->path = "/dome";
-    dome->type = LightType::Dome;
-    edit.set(std::shared_ptr<const Light>(dome));
-    auto camera = std::make_shared<Camera>();
-    camera->path = "/camera";
-    camera->transform.values[0][3] = glm::vec4(0, 0, 5, 1);
-    edit.set(std::shared_ptr<const Camera>(camera));
-    return scene;
+    return sceneOf(makePrim<Implicit>("/ball"), makeLight("/dome", LightType::Dome),
+                   makePrim<Camera>("/camera", translate(0, 0, 5)));
 }
 
 RenderSettings smallImage(int samples) {
-    RenderSettings settings;
-    settings.width = 64;
-    settings.height = 36;
-    settings.samples = samples;
-    return settings;
+    return imageOf(64, 36, samples);
 }
 
 } // namespace
@@ -51,23 +36,18 @@ TEST(EmbreeRenderer, UnknownCameraFailsAndConverges) {
 TEST(EmbreeRenderer, SingularCameraFails) {
     auto scene = furnaceScene();
     for (float broken : {0.0f, NAN}) {
-        auto camera = std::make_shared<Camera>();
-        camera->path = "/camera";
+        auto camera = makePrim<Camera>("/camera");
         camera->transform.values[0][0][0] = broken;
-        scene->edit().set(std::shared_ptr<const Camera>(camera));
+        scene->edit().set(camera);
         auto renderer = makeRenderer("embree");
-        renderer->start(scene, "/camera", smallImage(1), std::make_shared<Film>());
-        renderer->wait();
+        rendered(*renderer, scene, smallImage(1));
         EXPECT_TRUE(renderer->progress().failed);
     }
 }
 
 TEST(EmbreeRenderer, EmptyImageFails) {
     auto renderer = makeRenderer("embree");
-    RenderSettings settings = smallImage(1);
-    settings.height = 0;
-    renderer->start(furnaceScene(), "/camera", settings, std::make_shared<Film>());
-    renderer->wait();
+    rendered(*renderer, furnaceScene(), imageOf(64, 0, 1));
     EXPECT_TRUE(renderer->progress().failed);
 }
 
@@ -105,9 +85,7 @@ TEST(EmbreeRenderer, PauseStopsTheSamplesAndResumeGoesOn) {
 }
 
 TEST(EmbreeRenderer, ASlowFirstPassShowsBlocksAndEndsWithTheSameBits) {
-    RenderSettings settings = smallImage(1);
-    settings.width = 65; // so that blocks are cut off at the edges
-    settings.height = 41;
+    RenderSettings settings = imageOf(65, 41, 1); // so that blocks are cut off at the edges
     settings.integrator = "ambientOcclusion";
     settings.threads = 1; // so that a pass is slow on any machine
     settings.ambientOcclusionSamples = 1 << 14;
@@ -118,7 +96,6 @@ TEST(EmbreeRenderer, ASlowFirstPassShowsBlocksAndEndsWithTheSameBits) {
     for (const bool blocks : {false, true}) {
         settings.firstBlockSize = blocks ? 8 : 1;
         auto renderer = makeRenderer("embree");
-        auto film = std::make_shared<Film>();
         renderer->setListener([&](const Film& shown, const RenderProgress& progress) {
             if (progress.converged) return;
             ++coarse[blocks];
@@ -131,8 +108,7 @@ TEST(EmbreeRenderer, ASlowFirstPassShowsBlocksAndEndsWithTheSameBits) {
                     EXPECT_EQ(alpha[size_t(y * 65 + x)], 1.0f) << x << " " << y;
             EXPECT_LE(std::accumulate(counts.begin(), counts.end(), 0.0f), 33 * 21);
         });
-        renderer->start(furnaceScene(), "/camera", settings, film);
-        renderer->wait();
+        const auto film = rendered(*renderer, furnaceScene(), settings);
         EXPECT_EQ(film->resolve("sampleCount"), std::vector<float>(65 * 41, 1.0f));
         images[blocks] = film->resolve("color");
     }
@@ -143,14 +119,12 @@ TEST(EmbreeRenderer, ASlowFirstPassShowsBlocksAndEndsWithTheSameBits) {
 
 TEST(EmbreeRenderer, AListenerThatThrowsAtTheEndFailsTheRender) {
     auto renderer = makeRenderer("embree");
-    auto film = std::make_shared<Film>();
     int failures = 0;
     renderer->setListener([&](const Film&, const RenderProgress& progress) {
         failures += progress.failed;
         if (progress.converged || progress.failed) throw std::bad_alloc();
     });
-    renderer->start(furnaceScene(), "/camera", smallImage(1), film);
-    renderer->wait();
+    rendered(*renderer, furnaceScene(), smallImage(1));
     const RenderProgress progress = renderer->progress();
     EXPECT_TRUE(progress.failed && progress.temporary && !progress.converged);
     EXPECT_EQ(progress.error, "out of memory");
@@ -158,48 +132,16 @@ TEST(EmbreeRenderer, AListenerThatThrowsAtTheEndFailsTheRender) {
 }
 
 TEST(EmbreeRenderer, PausedStoppedAndResumedGivesTheSameBits) {
-    auto whole = std::make_shared<Film>(), cut = std::make_shared<Film>();
     auto renderer = makeRenderer("embree");
-    renderer->start(furnaceScene(), "/camera", smallImage(40), whole);
-    renderer->wait();
+    const auto whole = rendered(*renderer, furnaceScene(), smallImage(40)),
+               cut = std::make_shared<Film>();
     cut->resumeToken = "the same render";
     renderer->start(furnaceScene(), "/camera", smallImage(40), cut);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     renderer->pause();
     renderer->resume();
     renderer->stop();
-    renderer->start(furnaceScene(), "/camera", smallImage(40), cut);
-    renderer->wait();
+    rendered(*renderer, furnaceScene(), smallImage(40), cut);
     EXPECT_TRUE(renderer->progress().converged);
     EXPECT_EQ(whole->resolve("color"), cut->resolve("color"));
-}
-
-TEST(EmbreeRenderer, EditsBetweenRendersGiveTheImageOfAFreshOne) {
-    auto scene = furnaceScene();
-    auto renderer = makeRenderer("embree");
-    renderer->start(scene, "/camera", smallImage(4), std::make_shared<Film>());
-    renderer->wait();
-    auto second = std::make_shared<Implicit>();
-    second->path = "/second";
-    second->transform.values[0][3] = glm::vec4(0.5f, 0.5f, 1, 1);
-    scene->edit().set(std::shared_ptr<const Geometry>(second));
-    auto edited = std::make_shared<Film>(), fresh = std::make_shared<Film>();
-    renderer->start(scene, "/camera", smallImage(4), edited);
-    renderer->wait();
-    auto other = makeRenderer("embree");
-    other->start(scene, "/camera", smallImage(4), fresh);
-    other->wait();
-    EXPECT_EQ(edited->resolve("color"), fresh->resolve("color"));
-}
-
-TEST(EmbreeRenderer, ManyStartsAndStopsAreSafe) {
-    auto scene = furnaceScene();
-    auto renderer = makeRenderer("embree");
-    auto film = std::make_shared<Film>();
-    for (int i = 0; i < 20; ++i) {
-        renderer->start(scene, "/camera", smallImage(1 << 16), film);
-        std::this_thread::sleep_for(std::chrono::milliseconds(i));
-    }
-    renderer->stop();
-    SUCCEED();
 }

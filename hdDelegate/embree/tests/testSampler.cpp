@@ -4,31 +4,36 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
 using namespace patina;
 
 namespace {
 
-/// Counts points of every pair drawn per sample in a grid of 16x16 cells.
-std::vector<int> cells(int samples, int pair) {
-    std::vector<int> count(256, 0);
-    for (int i = 0; i < samples; ++i) {
-        Sampler sampler(3, 7, 1, uint32_t(i));
-        glm::vec2 p(0.0f);
-        for (int k = 0; k <= pair; ++k)
-            p = sampler.next2();
-        ++count[size_t(p.x * 16) * 16 + size_t(p.y * 16)];
+/// Points of pairs in a grid of 16 by 16 cells.
+struct Cells {
+    std::vector<int> count = std::vector<int>(256, 0);
+    void add(const glm::vec2& p) { ++count[size_t(p.x * 16) * 16 + size_t(p.y * 16)]; }
+    void expectOneEach(const std::string& what) {
+        for (int n : count)
+            ASSERT_EQ(n, 1) << what;
     }
-    return count;
-}
+};
 
 } // namespace
 
 TEST(Sampler, EveryPairOf256SamplesFillsA16x16GridOnce) {
-    for (int pair = 0; pair < 6; ++pair)
-        for (int count : cells(256, pair))
-            ASSERT_EQ(count, 1) << "pair " << pair;
+    for (int pair = 0; pair < 6; ++pair) {
+        Cells cells;
+        for (uint32_t i = 0; i < 256; ++i) {
+            Sampler sampler(3, 7, 1, i);
+            for (int k = 0; k < pair; ++k)
+                sampler.next2();
+            cells.add(sampler.next2());
+        }
+        cells.expectOneEach("pair " + std::to_string(pair));
+    }
 }
 
 TEST(Sampler, EveryNumberOfAQuadrupleFallsOnceInEach256th) {
@@ -43,7 +48,7 @@ TEST(Sampler, EveryNumberOfAQuadrupleFallsOnceInEach256th) {
 
 TEST(Sampler, PointsOfASetAreStratifiedAllTogether) {
     // 64 samples of 4 points each: 256 points of one (0,2) sequence.
-    std::vector<int> count(256, 0);
+    Cells cells;
     for (uint32_t i = 0; i < 64; ++i) {
         Sampler sampler(3, 7, 1, i);
         sampler.next2();
@@ -51,11 +56,10 @@ TEST(Sampler, PointsOfASetAreStratifiedAllTogether) {
         for (uint32_t k = 0; k < 4; ++k) {
             const glm::vec4 p = set.point4(k);
             ASSERT_EQ(glm::vec2(p), set.point2(k));
-            ++count[size_t(p.x * 16) * 16 + size_t(p.y * 16)];
+            cells.add(glm::vec2(p));
         }
     }
-    for (int n : count)
-        ASSERT_EQ(n, 1);
+    cells.expectOneEach("set");
 }
 
 TEST(Sampler, NumbersStayBelowOne) {

@@ -2,8 +2,6 @@
 #include "hdDelegate/embree/cameraRays.h"
 #include "hdDelegate/embree/tests/builtScene.h"
 
-#include <gtest/gtest.h>
-
 using namespace patina;
 using namespace patina::test;
 
@@ -12,26 +10,21 @@ namespace {
 constexpr size_t trianglesOfSphere = 2 * 128 * 63; // 64 rings of 128 cells, those at the poles half
 
 mat4 placeOf(int i) {
-    const mat4 moved = glm::translate(mat4(1.0f), vec3(float(i) - 10.0f, 0.1f * float(i % 3), -6));
+    const mat4 moved = translate(float(i) - 10.0f, 0.1f * float(i % 3), -6);
     const mat4 turned = glm::rotate(moved, 0.3f * float(i), glm::normalize(vec3(1, 2, 3)));
     return glm::scale(turned, vec3(1.0f, i % 4 == 3 ? -0.8f : 0.8f, 1.1f));
 }
 
-std::shared_ptr<Implicit> makePrim(int i, ImplicitShape shape, bool shrinks) {
-    auto prim = std::make_shared<Implicit>();
-    prim->path = "/prim" + std::to_string(100 + i);
+std::shared_ptr<Implicit> shapeOf(int i, ImplicitShape shape, bool shrinks) {
+    auto prim = makePrim<Implicit>("/prim" + std::to_string(100 + i), placeOf(i));
     prim->shape = shape;
     const bool scales = shape == ImplicitShape::Sphere || shape == ImplicitShape::Cube;
     prim->radius = scales ? 0.3f + 0.01f * float(i) : 0.4f;
     prim->size = scales ? 0.5f + 0.01f * float(i) : 0.6f;
     prim->height = 0.7f;
     prim->leftHanded = i % 2 == 1;
-    prim->transform = placeOf(i);
-    Primvar color;
-    color.name = "displayColor";
-    color.components = 3;
-    color.values = {0.1f * float(i), 0.5f, 0.2f};
-    prim->primvars.push_back(color);
+    prim->primvars = {
+        makePrimvar("displayColor", Interpolation::Constant, 3, {0.1f * float(i), 0.5f, 0.2f})};
     // What shrinks to a thousandth while the shutter is open is drawn alone.
     if (shrinks) {
         prim->transform.times.push_back(1.0f);
@@ -44,7 +37,7 @@ std::shared_ptr<Implicit> makePrim(int i, ImplicitShape shape, bool shrinks) {
 void fill(BuiltScene& built, ImplicitShape shape, bool shrinks) {
     SceneEdit edit = built.scene.edit();
     for (int i = 0; i < 40; ++i)
-        edit.set(std::shared_ptr<const Geometry>(makePrim(i, shape, shrinks)));
+        edit.set(shapeOf(i, shape, shrinks));
     edit.commit();
     built.update();
 }
@@ -66,11 +59,9 @@ TEST(SharedShapes, HitsAreThoseOfPrimsThatAreDrawnAlone) {
         for (int i = 0; i < 200; ++i) {
             const vec3 origin(0.11f * float(i) - 10.5f, 0.02f * float(i % 7), 2.0f);
             const vec3 direction = glm::normalize(vec3(0.01f * float(i % 5), 0.01f, -1.0f));
-            Hit a, b;
-            const bool found =
-                together.embree.intersect(origin, direction, 0.0f, INFINITY, 0.0f, RayCamera, a);
-            ASSERT_EQ(found, alone.embree.intersect(origin, direction, 0.0f, INFINITY, 0.0f,
-                                                    RayCamera, b));
+            const bool found = together.meets(origin, direction);
+            ASSERT_EQ(found, alone.meets(origin, direction));
+            const Hit &a = together.hit, &b = alone.hit;
             if (!found) continue;
             ++hits;
             EXPECT_NEAR(a.distance, b.distance, 1e-4f);
@@ -106,16 +97,15 @@ TEST(SharedShapes, ThousandsOfSpheresAreTheTrianglesOfOne) {
     SceneEdit edit = built.scene.edit();
     constexpr int count = 3000;
     for (int i = 0; i < count; ++i) {
-        auto prim = std::make_shared<Implicit>();
-        prim->path = "/ball" + std::to_string(i);
+        auto prim = makePrim<Implicit>("/ball" + std::to_string(i),
+                                       translate(0.1f * float(i % 50), 0.1f * float(i / 50), -8));
         prim->radius = 0.01f + 1e-5f * float(i);
-        prim->transform =
-            glm::translate(mat4(1.0f), vec3(0.1f * float(i % 50), 0.1f * float(i / 50), -8));
-        edit.set(std::shared_ptr<const Geometry>(prim));
+        edit.set(prim);
     }
     edit.commit();
     built.update();
-    EXPECT_LE(built.embree.surfaces().triangles(), 4 * trianglesOfSphere); // one per fineness at most
+    EXPECT_LE(built.embree.surfaces().triangles(),
+              4 * trianglesOfSphere); // one per fineness at most
     // Embree keeps less than 4 kB per instance; a sphere of its own takes more than 600 kB.
     EXPECT_LT(built.embree.bytes(), size_t(count) * 4096 + (8u << 20));
 }
@@ -123,11 +113,7 @@ TEST(SharedShapes, ThousandsOfSpheresAreTheTrianglesOfOne) {
 TEST(SharedShapes, ShapesAreAsFineAsTheirSizeOnScreen) {
     const auto stored = [](float away) {
         BuiltScene built;
-        auto prim = std::make_shared<Implicit>();
-        prim->path = "/ball";
-        prim->transform = glm::translate(mat4(1.0f), vec3(0, 0, -away));
-        built.scene.edit().set(std::shared_ptr<const Geometry>(prim));
-        built.update();
+        built.set(makePrim<Implicit>("/ball", translate(0, 0, -away)));
         return built.embree.surfaces().triangles();
     };
     EXPECT_EQ(stored(5.0f), trianglesOfSphere);
@@ -143,13 +129,11 @@ TEST(SharedShapes, DistinctShapesAreAsCoarseAsPixelsAllow) {
     constexpr int count = 1000;
     constexpr float away = 100.0f;
     for (int i = 0; i < count; ++i) {
-        auto prim = std::make_shared<Implicit>();
-        prim->path = "/pill" + std::to_string(i);
+        auto prim = makePrim<Implicit>("/pill" + std::to_string(i), translate(0, 0, -away));
         prim->shape = ImplicitShape::Capsule;
         prim->radius = away * pixel * (1.0f + 1e-3f * float(i)); // one to two pixels
         prim->height = 2.0f * prim->radius;
-        prim->transform = glm::translate(mat4(1.0f), vec3(0, 0, -away));
-        edit.set(std::shared_ptr<const Geometry>(prim));
+        edit.set(prim);
     }
     edit.commit();
     built.update();
@@ -161,19 +145,15 @@ TEST(SharedShapes, PrimsThatMoveBetweenBothWaysOfBeingDrawn) {
     BuiltScene built;
     const auto hits = [&](int prims) {
         int found = 0;
-        for (int i = 0; i < prims; ++i) {
-            Hit hit;
-            const vec3 origin(float(i) - 10.0f, 0.1f * float(i % 3), 2.0f);
-            found += built.embree.intersect(origin, vec3(0, 0, -1), 0.0f, INFINITY, 0.0f, RayCamera,
-                                            hit);
-        }
+        for (int i = 0; i < prims; ++i)
+            found += built.meets({float(i) - 10.0f, 0.1f * float(i % 3), 2.0f});
         return found;
     };
     for (const int prims : {10, 20, 12, 30}) {
         SceneEdit edit = built.scene.edit();
         edit.clear();
         for (int i = 0; i < prims; ++i)
-            edit.set(std::shared_ptr<const Geometry>(makePrim(i, ImplicitShape::Sphere, false)));
+            edit.set(shapeOf(i, ImplicitShape::Sphere, false));
         edit.commit();
         built.update();
         EXPECT_EQ(hits(prims), prims);
@@ -184,14 +164,12 @@ TEST(SharedShapes, FlatPrimsAreDrawnAlone) {
     BuiltScene built;
     SceneEdit edit = built.scene.edit();
     for (int i = 0; i < 20; ++i) {
-        auto prim = makePrim(i, ImplicitShape::Sphere, false);
+        auto prim = shapeOf(i, ImplicitShape::Sphere, false);
         prim->transform = glm::scale(mat4(1.0f), vec3(1, 1, 0));
-        edit.set(std::shared_ptr<const Geometry>(prim));
+        edit.set(prim);
     }
     edit.commit();
     built.update();
-    Hit hit;
-    EXPECT_TRUE(built.embree.intersect(vec3(0.01f, 0.02f, 3), vec3(0, 0, -1), 0.0f, INFINITY, 0.0f,
-                                       RayCamera, hit));
-    EXPECT_FALSE(hit.instanced);
+    EXPECT_TRUE(built.meets({0.01f, 0.02f, 3}));
+    EXPECT_FALSE(built.hit.instanced);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/tileSchedule.h"
 
-#include <gtest/gtest.h>
+#include "hdDelegate/film/tests/filmFixtures.h"
 
 #include <cmath>
 #include <random>
@@ -11,10 +11,10 @@ using namespace patina;
 namespace {
 
 void fill(Film& film, const Tile& tile, int samples, bool noisy) {
-    for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x)
-            for (int i = int(film.sampleCount(x, y)); i < samples; ++i)
-                film.addColor(x, y, glm::vec3(noisy && i % 3 == 0 ? 0.0f : 1.0f), 1.0f);
+    forTile(tile, [&](int x, int y) {
+        for (int i = int(film.sampleCount(x, y)); i < samples; ++i)
+            film.addColor(x, y, glm::vec3(noisy && i % 3 == 0 ? 0.0f : 1.0f), 1.0f);
+    });
 }
 
 /// As many samples as the error asks for, from 16 on.
@@ -30,8 +30,7 @@ RenderSettings adaptive(double tolerance, int samples = 1024) {
 using Targets = std::vector<std::pair<int, int>>;
 void expectTargets(const RenderSettings& settings, const Targets& targets) {
     for (const auto& [samples, target] : targets) {
-        Film film;
-        film.reset(4, 4, {});
+        TestFilm film(4, 4);
         const TileSchedule schedule(film, settings);
         fill(film, schedule.tiles()[0], samples, false);
         EXPECT_EQ(schedule.target(0), target) << samples;
@@ -41,21 +40,16 @@ void expectTargets(const RenderSettings& settings, const Targets& targets) {
 } // namespace
 
 TEST(TileSchedule, TilesCoverTheImageOnce) {
-    Film film;
-    film.reset(50, 35, {});
+    TestFilm film(50, 35);
     const TileSchedule schedule(film, RenderSettings());
     std::vector<int> covered(50 * 35, 0);
     for (const Tile& t : schedule.tiles())
-        for (int y = t.y0; y < t.y1; ++y)
-            for (int x = t.x0; x < t.x1; ++x)
-                ++covered[y * 50 + x];
-    for (int c : covered)
-        EXPECT_EQ(c, 1);
+        forTile(t, [&](int x, int y) { ++covered[y * 50 + x]; });
+    EXPECT_EQ(covered, std::vector<int>(50 * 35, 1));
 }
 
 TEST(TileSchedule, DataWindowLimitsTheTiles) {
-    Film film;
-    film.reset(50, 35, {});
+    TestFilm film(50, 35);
     RenderSettings settings;
     settings.dataWindow[0] = 10, settings.dataWindow[1] = 5;
     settings.dataWindow[2] = 12, settings.dataWindow[3] = 5;
@@ -67,8 +61,7 @@ TEST(TileSchedule, DataWindowLimitsTheTiles) {
 }
 
 TEST(TileSchedule, OnlyTheSlowestTilesArePending) {
-    Film film;
-    film.reset(32, 16, {});
+    TestFilm film(32, 16);
     RenderSettings settings;
     settings.samples = 4;
     TileSchedule schedule(film, settings);
@@ -83,8 +76,7 @@ TEST(TileSchedule, OnlyTheSlowestTilesArePending) {
 }
 
 TEST(TileSchedule, QuietTilesStopAtTheToleranceAndNoisyOnesDoNot) {
-    Film film;
-    film.reset(32, 16, {});
+    TestFilm film(32, 16);
     TileSchedule schedule(film, adaptive(0.05));
     fill(film, schedule.tiles()[0], 16, false);
     fill(film, schedule.tiles()[1], 16, true);
@@ -103,8 +95,7 @@ TEST(TileSchedule, WithoutAToleranceStepsAreLong) {
 }
 
 TEST(TileSchedule, ATileThatWasBrokenOffGoesOn) {
-    Film film;
-    film.reset(4, 4, {});
+    TestFilm film(4, 4);
     TileSchedule schedule(film, adaptive(0.05));
     fill(film, schedule.tiles()[0], 32, false); // would be enough
     fill(film, {0, 0, 4, 1}, 48, false);        // but its first row has gone on
@@ -116,20 +107,19 @@ namespace {
 /// Samples of luminance 1 with noise that is independent and uniform, +- `noise`.
 void fillRandomly(Film& film, const Tile& tile, int samples, float noise, std::mt19937& random) {
     std::uniform_real_distribution<float> u(-1.0f, 1.0f);
-    for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x)
-            for (int i = int(film.sampleCount(x, y)); i < samples; ++i)
-                film.addColor(x, y, glm::vec3(1.0f + noise * u(random)), 1.0f);
+    forTile(tile, [&](int x, int y) {
+        for (int i = int(film.sampleCount(x, y)); i < samples; ++i)
+            film.addColor(x, y, glm::vec3(1.0f + noise * u(random)), 1.0f);
+    });
 }
 
 /// Two tiles, of which the right one has all the noise: 0.9 / sqrt(3 n), times 0.8 as the mean of
 /// absolute values: 0.104 after 16 samples.
 struct HalfNoisy : testing::Test {
-    Film film;
+    TestFilm film{32, 16};
     RenderSettings settings = adaptive(0.08); // the tile has more, both together half
     std::mt19937 random{5};
 
-    HalfNoisy() { film.reset(32, 16, {}); }
     void fill(int samples) {
         const TileSchedule tiles(film, settings);
         fillRandomly(film, tiles.tiles()[0], 16, 0.0f, random);
@@ -188,28 +178,26 @@ TEST(TileSchedule, AToleranceTakesTheSamplesThatItsNoiseNeeds) {
     double over = 0.0, error = 0.0;
     for (const double tolerance : {0.1, 0.08, 0.06})
         for (unsigned seed = 0; seed < 3; ++seed) {
-            Film film;
-            film.reset(width, height, {});
+            TestFilm film(width, height);
             std::mt19937 random(seed);
             std::uniform_real_distribution<double> u;
             const TileSchedule schedule(film, adaptive(tolerance, 1 << 16));
             for (auto tiles = schedule.pending(); !tiles.empty(); tiles = schedule.pending())
                 for (const int tile : tiles) {
-                    const Tile& t = schedule.tiles()[size_t(tile)];
                     const int target = schedule.target(tile);
-                    for (int y = t.y0; y < t.y1; ++y)
-                        for (int x = t.x0; x < t.x1; ++x)
-                            while (int(film.sampleCount(x, y)) < target) {
-                                const double rare = u(random) < 0.02 ? 5.0 : 0.0;
-                                const double l = limit(x, y) * (1.8 * u(random) + rare);
-                                film.addColor(x, y, glm::vec3(float(l)), 1.0f);
-                            }
+                    forTile(schedule.tiles()[size_t(tile)], [&](int x, int y) {
+                        while (int(film.sampleCount(x, y)) < target) {
+                            const double rare = u(random) < 0.02 ? 5.0 : 0.0;
+                            const double l = limit(x, y) * (1.8 * u(random) + rare);
+                            film.addColor(x, y, glm::vec3(float(l)), 1.0f);
+                        }
+                    });
                 }
             double found = 0.0;
-            for (int y = 0; y < height; ++y)
-                for (int x = 0; x < width; ++x)
-                    found += std::abs(film.luminance(x, y) - limit(x, y)) / (limit(x, y) + 0.01) /
-                             (width * height);
+            forPixels(film, [&](int x, int y) {
+                found += std::abs(film.luminance(x, y) - limit(x, y)) / (limit(x, y) + 0.01) /
+                         (width * height);
+            });
             error += found / tolerance / 9.0;
             over += std::pow(tolerance / found, 2.0) / 9.0; // samples taken over those needed
         }

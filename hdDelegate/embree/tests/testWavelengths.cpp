@@ -4,8 +4,6 @@
 #include "hdDelegate/embree/wavelengths.h"
 #include "materialNetwork/tests/materialFixture.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 namespace patina {

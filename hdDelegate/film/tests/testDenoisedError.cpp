@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/denoiser.h"
 
-#include <gtest/gtest.h>
+#include "hdDelegate/film/tests/filmFixtures.h"
 
 #include <cmath>
 #include <memory>
 #include <random>
-#include <string>
 
 namespace patina {
 
@@ -16,42 +15,39 @@ constexpr int side = 96;
 using Picture = float (*)(int x, int y);
 
 std::unique_ptr<Film> noisy(Picture truth, int samples, uint32_t seed) {
-    auto held = std::make_unique<Film>();
-    Film& film = *held;
     std::vector<AovSpec> aovs;
     for (const char* name : {denoisingAlbedoAov, denoisingNormalAov, denoisingHalfColorAov,
                              denoisingHalfAlbedoAov, denoisingHalfNormalAov})
         aovs.push_back(standardAov(name));
-    film.reset(side, side, aovs);
+    auto film = std::make_unique<TestFilm>(side, side, aovs);
     std::mt19937 random(seed);
     std::exponential_distribution<float> noise(1.0f);
     const glm::vec3 albedo(0.5f), normal(0.0f, 0.0f, 1.0f);
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            for (int i = 0; i < samples; ++i) {
-                const glm::vec3 color(truth(x, y) * noise(random));
-                film.addAov(0, x, y, &albedo.x, 0.0f);
-                film.addAov(1, x, y, &normal.x, 0.0f);
-                if (i % 2 == 0) {
-                    film.addAov(2, x, y, &color.x, 0.0f);
-                    film.addAov(3, x, y, &albedo.x, 0.0f);
-                    film.addAov(4, x, y, &normal.x, 0.0f);
-                }
-                film.addColor(x, y, color, 1.0f);
+    forPixels(*film, [&](int x, int y) {
+        for (int i = 0; i < samples; ++i) {
+            const glm::vec3 color(truth(x, y) * noise(random));
+            film->addAov(0, x, y, &albedo.x, 0.0f);
+            film->addAov(1, x, y, &normal.x, 0.0f);
+            if (i % 2 == 0) {
+                film->addAov(2, x, y, &color.x, 0.0f);
+                film->addAov(3, x, y, &albedo.x, 0.0f);
+                film->addAov(4, x, y, &normal.x, 0.0f);
             }
-    return held;
+            film->addColor(x, y, color, 1.0f);
+        }
+    });
+    return film;
 }
 
 double trueError(const Film& film, Picture truth) {
     const std::vector<float> color = film.resolve("color");
     double sum = 0.0;
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-            const size_t i = 3 * size_t(y * side + x);
-            const double shown = 0.2126 * double(color[i]) + 0.7152 * double(color[i + 1]) +
-                                 0.0722 * double(color[i + 2]);
-            sum += std::abs(shown - double(truth(x, y))) / (double(truth(x, y)) + 0.01);
-        }
+    forPixels(film, [&](int x, int y) {
+        const size_t i = 3 * size_t(y * side + x);
+        const double shown = 0.2126 * double(color[i]) + 0.7152 * double(color[i + 1]) +
+                             0.0722 * double(color[i + 2]);
+        sum += std::abs(shown - double(truth(x, y))) / (double(truth(x, y)) + 0.01);
+    });
     return sum / (side * side);
 }
 
@@ -67,8 +63,7 @@ float fine(int x, int y) {
 } // namespace
 
 TEST(DenoisedError, FilmsWithoutHalvesTellNothing) {
-    Film film;
-    film.reset(2, 2, {standardAov(denoisingAlbedoAov), standardAov(denoisingNormalAov)});
+    TestFilm film(2, 2, {standardAov(denoisingAlbedoAov), standardAov(denoisingNormalAov)});
     EXPECT_FALSE(hasHalves(film));
     EXPECT_LT(denoisedError(film), 0.0);
     EXPECT_LT(denoisedError(*noisy(smooth, 1, 1)), 0.0) << "one sample has no second half";

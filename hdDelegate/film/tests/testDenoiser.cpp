@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/denoiser.h"
 
-#include <gtest/gtest.h>
+#include "hdDelegate/film/tests/filmFixtures.h"
 
 #include <random>
-#include <stdexcept>
 
 namespace patina {
 
 namespace {
 
 /// A grey film of independent exponential samples: mean 1, deviation 1.
-void fillWithNoise(Film& film, int side) {
+void fillWithNoise(Film& film) {
     std::mt19937 random(7);
     std::exponential_distribution<float> noise(1.0f);
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            film.addColor(x, y, glm::vec3(noise(random)), 0.5f);
+    forPixels(film, [&](int x, int y) { film.addColor(x, y, glm::vec3(noise(random)), 0.5f); });
 }
 
 double variance(const std::vector<float>& values) {
@@ -30,8 +27,7 @@ double variance(const std::vector<float>& values) {
 } // namespace
 
 TEST(Denoiser, TheNoisyColourStaysBesideWhatReplacesIt) {
-    Film film;
-    film.reset(2, 1, {});
+    TestFilm film(2, 1);
     film.addColor(0, 0, {1, 2, 3}, 1.0f);
     film.addColor(1, 0, {4, 5, 6}, 1.0f);
     EXPECT_TRUE(film.resolve("color.noisy").empty());
@@ -48,10 +44,8 @@ TEST(Denoiser, TheNoisyColourStaysBesideWhatReplacesIt) {
 
 TEST(Denoiser, FlatNoiseBecomesFlatterAndKeepsItsAlpha) {
     if (!denoiserMissing().empty()) GTEST_SKIP() << denoiserMissing();
-    constexpr int side = 64;
-    Film film;
-    film.reset(side, side, {});
-    fillWithNoise(film, side);
+    TestFilm film(64, 64);
+    fillWithNoise(film);
     const std::vector<float> noisy = film.resolve("color"), alpha = film.resolve("alpha");
     denoise(film);
     // A filter that averages four pixels would reach a quarter.
@@ -65,19 +59,18 @@ TEST(Denoiser, FlatNoiseBecomesFlatterAndKeepsItsAlpha) {
 
 TEST(Denoiser, AovsOfLightAreDenoisedOnRequest) {
     if (!denoiserMissing().empty()) GTEST_SKIP() << denoiserMissing();
-    constexpr int side = 64;
-    Film film;
-    film.reset(side, side,
-               {standardAov("diffuse"), standardAov("key=lpe:C.*<L.'key'>"), standardAov("normal")});
-    fillWithNoise(film, side);
+    TestFilm film(
+        64, 64,
+        {standardAov("diffuse"), standardAov("key=lpe:C.*<L.'key'>"), standardAov("normal")});
+    fillWithNoise(film);
     std::mt19937 random(8);
     std::exponential_distribution<float> noise(1.0f);
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            for (int aov = 0; aov < 3; ++aov) {
-                const float values[3] = {noise(random), noise(random), noise(random)};
-                film.addAov(aov, x, y, values, 0.0f);
-            }
+    forPixels(film, [&](int x, int y) {
+        for (int aov = 0; aov < 3; ++aov) {
+            const float values[3] = {noise(random), noise(random), noise(random)};
+            film.addAov(aov, x, y, values, 0.0f);
+        }
+    });
     const std::vector<float> diffuse = film.resolve("diffuse"), normal = film.resolve("normal");
     denoise(film);
     EXPECT_EQ(film.resolve("diffuse"), diffuse);

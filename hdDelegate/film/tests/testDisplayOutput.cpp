@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/imageFile.h"
-#include "hdDelegate/film/tests/tempFolder.h"
+#include "hdDelegate/film/tests/filmFixtures.h"
 
 #include <OpenImageIO/imageio.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -17,13 +15,11 @@ float encoded(float v) {
     return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
 }
 
-Film& ramp(Film& film, int width = 256) {
-    film.reset(width, 2, {});
-    for (int x = 0; x < width; ++x)
-        for (int y = 0; y < 2; ++y)
-            film.addColor(x, y, glm::vec3(float(x) / float(width - 1)), 1);
-    return film;
-}
+struct Ramp : TestFilm {
+    Ramp() : TestFilm(256, 2) {
+        addColors(*this, [](int x, int) { return glm::vec3(float(x) / 255.0f); });
+    }
+};
 
 ImageData written(const Film& film, const std::string& file, const ImageOptions& options = {}) {
     writeImage(film, file, options);
@@ -34,8 +30,7 @@ ImageData written(const Film& film, const std::string& file, const ImageOptions&
 
 TEST(DisplayOutput, PngIsTheSrgbFormulaRounded) {
     TempFolder temp;
-    Film film;
-    ImageData image = written(ramp(film), temp.file("a.png"));
+    ImageData image = written(Ramp(), temp.file("a.png"));
     EXPECT_EQ(image.channels, (std::vector<std::string>{"R", "G", "B", "A"}));
     for (int x = 0; x < 256; ++x) {
         float expected = encoded(float(x) / 255.0f) * 255.0f;
@@ -46,11 +41,10 @@ TEST(DisplayOutput, PngIsTheSrgbFormulaRounded) {
 
 TEST(DisplayOutput, SixteenBits) {
     TempFolder temp;
-    Film film;
     ImageOptions options;
     options.bits = 16;
     for (const char* name : {"a.png", "a.tif"}) {
-        ImageData image = written(ramp(film), temp.file(name), options);
+        ImageData image = written(Ramp(), temp.file(name), options);
         EXPECT_EQ(OIIO::ImageInput::open(temp.file(name))->spec().format, OIIO::TypeUInt16);
         for (int x = 0; x < 256; ++x)
             EXPECT_NEAR(image.pixels[size_t(x) * 4], encoded(float(x) / 255.0f), 3e-5f) << name;
@@ -59,8 +53,7 @@ TEST(DisplayOutput, SixteenBits) {
 
 TEST(DisplayOutput, BrightAndRaw) {
     TempFolder temp;
-    Film film;
-    film.reset(2, 1, {});
+    TestFilm film(2, 1);
     film.addColor(0, 0, {40, 0.5f, 0.25f}, 1);
     ImageOptions raw;
     raw.raw = true;
@@ -72,8 +65,7 @@ TEST(DisplayOutput, BrightAndRaw) {
 
 TEST(DisplayOutput, AlphaIsStraightOnScreensAndPremultipliedInExr) {
     TempFolder temp;
-    Film film;
-    film.reset(2, 1, {});
+    TestFilm film(2, 1);
     film.addColor(0, 0, glm::vec3(0.8f), 1);
     film.addColor(0, 0, glm::vec3(0.0f), 0);
     for (const char* name : {"a.png", "a.tif", "a.tga"}) {
@@ -96,11 +88,8 @@ TEST(DisplayOutput, AlphaIsStraightOnScreensAndPremultipliedInExr) {
 
 TEST(DisplayOutput, FloatFormatsAreLinear) {
     TempFolder temp;
-    Film film;
-    film.reset(16, 8, {});
-    for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 16; ++x)
-            film.addColor(x, y, {3, 0.5f, 12}, 1);
+    TestFilm film(16, 8);
+    addColors(film, [](int, int) { return glm::vec3(3, 0.5f, 12); });
     ImageData hdr = written(film, temp.file("a.hdr"));
     EXPECT_NEAR(hdr.pixels[0], 3, 0.05f);
     EXPECT_NEAR(hdr.pixels[2], 12, 0.05f);
@@ -112,8 +101,7 @@ TEST(DisplayOutput, FloatFormatsAreLinear) {
 
 TEST(DisplayOutput, OtherDisplaysAndUnknownOnes) {
     TempFolder temp;
-    Film film;
-    ramp(film);
+    const Ramp film;
     ImageOptions options;
     options.display = "Rec.1886 Rec.709";
     ImageData image = written(film, temp.file("a.png"), options);
@@ -125,12 +113,9 @@ TEST(DisplayOutput, OtherDisplaysAndUnknownOnes) {
 
 TEST(DisplayOutput, DitherKeepsTheMeanAndIsTheSameEachTime) {
     TempFolder temp;
-    Film film;
-    film.reset(128, 128, {});
+    TestFilm film(128, 128);
     const float level = 100.3f / 255.0f; // between two steps
-    for (int y = 0; y < 128; ++y)
-        for (int x = 0; x < 128; ++x)
-            film.addColor(x, y, glm::vec3(level), 1);
+    addColors(film, [&](int, int) { return glm::vec3(level); });
     ImageOptions options;
     options.raw = options.dither = true;
     options.aovs = {"color"};
@@ -150,14 +135,8 @@ TEST(DisplayOutput, DitherKeepsTheMeanAndIsTheSameEachTime) {
 
 TEST(DisplayOutput, MetadataAndCropOfPng) {
     TempFolder temp;
-    Film film;
-    ramp(film);
-    ImageOptions options;
-    options.dataWindow[0] = 10;
-    options.dataWindow[1] = 0;
-    options.dataWindow[2] = 19;
-    options.dataWindow[3] = 1;
-    writeImage(film, temp.file("a.png"), options, {{"patina:stage", std::string("a.usda")}});
+    ImageOptions options = windowed(10, 0, 19, 1);
+    writeImage(Ramp(), temp.file("a.png"), options, {{"patina:stage", std::string("a.usda")}});
     ImageData image = readImage(temp.file("a.png"));
     EXPECT_EQ(image.width, 10);
     EXPECT_EQ(image.x, 0);

@@ -1,41 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/imageFile.h"
-#include "hdDelegate/film/tests/tempFolder.h"
+#include "hdDelegate/film/tests/filmFixtures.h"
 
 #include <OpenImageIO/imageio.h>
-#include <gtest/gtest.h>
-
-#include <cstring>
 
 namespace patina {
 
 namespace {
 
-float bitsOf(int32_t value) {
-    float f;
-    std::memcpy(&f, &value, sizeof f);
-    return f;
-}
-
 /// 3x2 pixels whose values tell where they are.
-void fill(Film& film) {
-    film.reset(3, 2,
-               {standardAov("depth"), standardAov("normal"), standardAov("albedo"),
-                standardAov("primvars:st"), standardAov("primId"), standardAov("sampleCount"),
-                standardAov("variance")});
-    for (int y = 0; y < 2; ++y)
-        for (int x = 0; x < 3; ++x) {
+struct FullFilm : TestFilm {
+    FullFilm()
+        : TestFilm(3, 2,
+                   {standardAov("depth"), standardAov("normal"), standardAov("albedo"),
+                    standardAov("primvars:st"), standardAov("primId"), standardAov("sampleCount"),
+                    standardAov("variance")}) {
+        forPixels(*this, [&](int x, int y) {
             float base = float(y * 3 + x);
-            film.addColor(x, y, {base + 0.1f, base + 0.2f, base + 0.3f}, 0.75f);
-            float depth = 0.01f * base, id = bitsOf(int32_t(base) - 1);
+            addColor(x, y, {base + 0.1f, base + 0.2f, base + 0.3f}, 0.75f);
+            float depth = 0.01f * base, id = floatOfBits(int32_t(base) - 1);
             glm::vec3 normal(-base, 1, base), albedo(0.1f * base);
-            film.addAov(0, x, y, &depth, 0);
-            film.addAov(1, x, y, &normal.x, 0);
-            film.addAov(2, x, y, &albedo.x, 0);
-            film.addAov(3, x, y, &normal.x, 0);
-            film.addAov(4, x, y, &id, 0);
-        }
-}
+            addAov(0, x, y, &depth, 0);
+            addAov(1, x, y, &normal.x, 0);
+            addAov(2, x, y, &albedo.x, 0);
+            addAov(3, x, y, &normal.x, 0);
+            addAov(4, x, y, &id, 0);
+        });
+    }
+};
 
 float value(const ImageData& image, const std::string& channel, int x, int y) {
     for (size_t c = 0; c < image.channels.size(); ++c)
@@ -55,36 +47,33 @@ OIIO::TypeDesc formatOf(const std::string& file, const std::string& channel) {
 
 TEST(ExrOutput, EveryAovIsALayerWithItsOwnValues) {
     TempFolder temp;
-    Film film;
-    fill(film);
+    FullFilm film;
     std::string file = temp.file("all.exr");
     writeImage(film, file);
     ImageData image = readImage(file);
     EXPECT_EQ(image.width, 3);
     EXPECT_EQ(image.height, 2);
     EXPECT_EQ(image.channels.size(), 16u);
-    for (int y = 0; y < 2; ++y)
-        for (int x = 0; x < 3; ++x) {
-            float base = float(y * 3 + x);
-            EXPECT_EQ(value(image, "R", x, y), base + 0.1f);
-            EXPECT_EQ(value(image, "B", x, y), base + 0.3f);
-            EXPECT_EQ(value(image, "A", x, y), 0.75f);
-            EXPECT_EQ(value(image, "depth.Z", x, y), 0.01f * base);
-            EXPECT_EQ(value(image, "normal.X", x, y), -base);
-            EXPECT_EQ(value(image, "normal.Z", x, y), base);
-            EXPECT_EQ(value(image, "albedo.G", x, y), 0.1f * base);
-            EXPECT_EQ(value(image, "primvars:st.Y", x, y), 1.0f);
-            EXPECT_EQ(value(image, "primId", x, y), base - 1);
-            EXPECT_EQ(value(image, "sampleCount", x, y), 1.0f);
-            EXPECT_EQ(value(image, "variance", x, y), 0.0f);
-        }
+    forPixels(film, [&](int x, int y) {
+        float base = float(y * 3 + x);
+        EXPECT_EQ(value(image, "R", x, y), base + 0.1f);
+        EXPECT_EQ(value(image, "B", x, y), base + 0.3f);
+        EXPECT_EQ(value(image, "A", x, y), 0.75f);
+        EXPECT_EQ(value(image, "depth.Z", x, y), 0.01f * base);
+        EXPECT_EQ(value(image, "normal.X", x, y), -base);
+        EXPECT_EQ(value(image, "normal.Z", x, y), base);
+        EXPECT_EQ(value(image, "albedo.G", x, y), 0.1f * base);
+        EXPECT_EQ(value(image, "primvars:st.Y", x, y), 1.0f);
+        EXPECT_EQ(value(image, "primId", x, y), base - 1);
+        EXPECT_EQ(value(image, "sampleCount", x, y), 1.0f);
+        EXPECT_EQ(value(image, "variance", x, y), 0.0f);
+    });
     EXPECT_EQ(temp.fileCount(), 1u);
 }
 
 TEST(ExrOutput, HalfIsForThePictureAndIdsMayBeIntegers) {
     TempFolder temp;
-    Film film;
-    fill(film);
+    FullFilm film;
     film.addColor(0, 0, glm::vec3(1e9f), 1);
     ImageOptions options;
     options.half = options.integerIds = true;
@@ -104,8 +93,7 @@ TEST(ExrOutput, HalfIsForThePictureAndIdsMayBeIntegers) {
 
 TEST(ExrOutput, ChosenAovsOnly) {
     TempFolder temp;
-    Film film;
-    fill(film);
+    const FullFilm film;
     ImageOptions options;
     options.aovs = {"depth", "color"};
     writeImage(film, temp.file("a.exr"), options);
@@ -117,11 +105,8 @@ TEST(ExrOutput, ChosenAovsOnly) {
 
 TEST(ExrOutput, CropIsTheDataWindowInTheWholeImage) {
     TempFolder temp;
-    Film film;
-    fill(film);
-    ImageOptions options;
-    int window[4] = {1, 1, 2, 1};
-    std::copy(window, window + 4, options.dataWindow);
+    const FullFilm film;
+    ImageOptions options = windowed(1, 1, 2, 1);
     writeImage(film, temp.file("crop.exr"), options);
     ImageData image = readImage(temp.file("crop.exr"));
     EXPECT_EQ(image.width, 2);
@@ -133,25 +118,21 @@ TEST(ExrOutput, CropIsTheDataWindowInTheWholeImage) {
     EXPECT_EQ(value(image, "R", 0, 0), 4.1f);
     EXPECT_EQ(value(image, "R", 1, 0), 5.1f);
     // a film that holds only the window is placed
+    options = windowed(4, 5, 6, 6);
     options.displayWidth = options.displayHeight = 10;
-    int placed[4] = {4, 5, 6, 6};
-    std::copy(placed, placed + 4, options.dataWindow);
     writeImage(film, temp.file("placed.exr"), options);
     image = readImage(temp.file("placed.exr"));
     EXPECT_EQ(image.x * 100 + image.y, 405);
     EXPECT_EQ(image.displayWidth, 10);
     EXPECT_EQ(value(image, "R", 0, 0), 0.1f);
     // beyond the image
-    int outside[4] = {20, 20, 21, 22};
-    options = {};
-    std::copy(outside, outside + 4, options.dataWindow);
-    EXPECT_THROW(writeImage(film, temp.file("no.exr"), options), std::runtime_error);
+    EXPECT_THROW(writeImage(film, temp.file("no.exr"), windowed(20, 20, 21, 22)),
+                 std::runtime_error);
 }
 
 TEST(ExrOutput, MetadataComesBackWithItsType) {
     TempFolder temp;
-    Film film;
-    fill(film);
+    const FullFilm film;
     ImageOptions options;
     options.pixelAspectRatio = 2.0;
     Metadata metadata = {{"patina:stage", std::string("shaderball.usda")},
@@ -171,11 +152,8 @@ TEST(ExrOutput, MetadataComesBackWithItsType) {
 
 TEST(ExrOutput, ManyRowsKeepTheirOrder) {
     TempFolder temp;
-    Film film;
-    film.reset(5, 333, {});
-    for (int y = 0; y < 333; ++y)
-        for (int x = 0; x < 5; ++x)
-            film.addColor(x, y, glm::vec3(float(y), float(x), 0), 1);
+    TestFilm film(5, 333);
+    addColors(film, [](int x, int y) { return glm::vec3(float(y), float(x), 0); });
     for (const char* compression : {"none", "zip", "zips", "piz", "rle"}) {
         ImageOptions options;
         options.compression = compression;

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/film/film.h"
+#include "hdDelegate/film/tests/filmFixtures.h"
 #include "hdDelegate/parallel.h"
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
-#include <cstring>
 #include <limits>
-#include <stdexcept>
 
 namespace patina {
 
@@ -23,17 +19,10 @@ int32_t bitsOf(float value) {
     return bits;
 }
 
-float floatOf(int32_t value) {
-    float bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
 } // namespace
 
 TEST(Film, MeanColourAlphaAndVarianceAreThoseOfTheSamples) {
-    Film film;
-    film.reset(3, 2, {});
+    TestFilm film(3, 2);
     film.addColor(2, 1, {1, 2, 3}, 1.0f);
     film.addColor(2, 1, {3, 2, 1}, 0.5f);
     EXPECT_EQ(film.color(2, 1), glm::vec3(2, 2, 2));
@@ -48,8 +37,7 @@ TEST(Film, MeanColourAlphaAndVarianceAreThoseOfTheSamples) {
 }
 
 TEST(Film, VarianceOfEqualSamplesIsZeroAndNeverNegative) {
-    Film film;
-    film.reset(1, 1, {});
+    TestFilm film(1, 1);
     for (int i = 0; i < 1000; ++i)
         film.addColor(0, 0, glm::vec3(0.1f, 0.7f, 12345.6f), 1);
     EXPECT_GE(film.varianceOfMean(0, 0), 0.0f);
@@ -57,8 +45,7 @@ TEST(Film, VarianceOfEqualSamplesIsZeroAndNeverNegative) {
 }
 
 TEST(Film, DeviationComparesPartsOfTheSequence) {
-    Film film;
-    film.reset(1, 1, {});
+    TestFilm film(1, 1);
     const auto add = [&](float v) { film.addColor(0, 0, glm::vec3(v), 1.0f); };
     add(1.0f);
     EXPECT_EQ(film.deviationOfMean(0, 0), 0.0f);
@@ -79,8 +66,7 @@ TEST(Film, DeviationComparesPartsOfTheSequence) {
 }
 
 TEST(Film, BadSamplesAreDroppedCountedAndBlack) {
-    Film film;
-    film.reset(2, 1, {});
+    TestFilm film(2, 1);
     for (glm::vec3 bad : {glm::vec3(nan, 0, 0), glm::vec3(0, inf, 0), glm::vec3(0, 0, -1)})
         EXPECT_FALSE(film.addColor(0, 0, bad, 1.0f));
     EXPECT_FALSE(film.addColor(0, 0, {1, 1, 1}, nan));
@@ -92,8 +78,7 @@ TEST(Film, BadSamplesAreDroppedCountedAndBlack) {
 }
 
 TEST(Film, NegativeSamplesCountWhereLightsTakeLightAway) {
-    Film film, copy;
-    film.reset(1, 1, {});
+    TestFilm film(1, 1), copy(0, 0);
     film.allowNegative(true);
     EXPECT_TRUE(film.addColor(0, 0, {-3, 1, 0}, 1.0f));
     EXPECT_FALSE(film.addColor(0, 0, {-inf, 0, 0}, 1.0f));
@@ -106,8 +91,7 @@ TEST(Film, NegativeSamplesCountWhereLightsTakeLightAway) {
 }
 
 TEST(Film, DroppedSamplesAreCountedWithoutRaces) {
-    Film film;
-    film.reset(64, 64, {});
+    TestFilm film(64, 64);
     parallelFor(0, 64 * 64, [&](int i) {
         for (int s = 0; s < 50; ++s)
             film.addColor(i % 64, i / 64, glm::vec3(nan), 1);
@@ -116,8 +100,7 @@ TEST(Film, DroppedSamplesAreCountedWithoutRaces) {
 }
 
 TEST(Film, FirstKeepsTheSampleNearestTheCentre) {
-    Film film;
-    film.reset(2, 2, {standardAov("position"), standardAov("depth")});
+    TestFilm film(2, 2, {standardAov("position"), standardAov("depth")});
     glm::vec3 far(9), near(1), middle(5), late(7);
     film.addAov(0, 1, 0, &far.x, 0.5f);
     film.addAov(0, 1, 0, &near.x, 0.1f);
@@ -129,8 +112,7 @@ TEST(Film, FirstKeepsTheSampleNearestTheCentre) {
 }
 
 TEST(Film, PixelsWithoutSamplesShowTheirBlock) {
-    Film film;
-    film.reset(7, 4, {standardAov("depth"), standardAov("primId")});
+    TestFilm film(7, 4, {standardAov("depth"), standardAov("primId")});
     film.showBlocks(2, {1, 0, 6, 3}); // block corners at x 1, 3, 5 and y 0, 2
     const auto add = [&](int x, int y, float value) {
         film.addColor(x, y, glm::vec3(value), 1.0f);
@@ -156,8 +138,7 @@ TEST(Film, PixelsWithoutSamplesShowTheirBlock) {
 }
 
 TEST(Film, MeanAovsAverageWhatWasAdded) {
-    Film film;
-    film.reset(1, 1, {standardAov("albedo")});
+    TestFilm film(1, 1, {standardAov("albedo")});
     glm::vec3 a(0.2f, 0.4f, 0.6f), b(0.4f, 0.6f, 0.8f), bad(nan, 0, 0);
     film.addAov(0, 0, 0, &a.x, 0);
     film.addAov(0, 0, 0, &b.x, 0);
@@ -170,11 +151,10 @@ TEST(Film, MeanAovsAverageWhatWasAdded) {
 }
 
 TEST(Film, IdsKeepTheirBitsThoughTheyAreNoNumbers) {
-    Film film;
-    film.reset(2, 1, {standardAov("primId")});
-    float id = floatOf(-1);
+    TestFilm film(2, 1, {standardAov("primId")});
+    float id = floatOfBits(-1);
     film.addAov(0, 0, 0, &id, 0.2f);
-    id = floatOf(0x7f800001); // a signalling NaN when seen as a float
+    id = floatOfBits(0x7f800001); // a signalling NaN when seen as a float
     film.addAov(0, 0, 0, &id, 0.1f);
     std::vector<float> v = film.resolve("primId");
     EXPECT_EQ(bitsOf(v[0]), 0x7f800001);
@@ -183,8 +163,7 @@ TEST(Film, IdsKeepTheirBitsThoughTheyAreNoNumbers) {
 }
 
 TEST(Film, NamesThatAlwaysExistResolveWithAndWithoutBeingListed) {
-    Film film;
-    film.reset(1, 1, {standardAov("variance"), standardAov("sampleCount")});
+    TestFilm film(1, 1, {standardAov("variance"), standardAov("sampleCount")});
     film.addColor(0, 0, {1, 1, 1}, 1);
     film.addColor(0, 0, {3, 3, 3}, 1);
     float ignored = 77;
@@ -197,9 +176,8 @@ TEST(Film, NamesThatAlwaysExistResolveWithAndWithoutBeingListed) {
 }
 
 TEST(Film, ResetKeepsOnlyWhenAskedAndWhenNothingChanged) {
-    Film film;
-    std::vector<AovSpec> aovs = {standardAov("primId"), standardAov("normal")};
-    film.reset(4, 4, aovs);
+    const std::vector<AovSpec> aovs = {standardAov("primId"), standardAov("normal")};
+    TestFilm film(4, 4, aovs);
     film.addColor(1, 1, {1, 1, 1}, 1);
     film.reset(4, 4, aovs, true);
     EXPECT_EQ(film.sampleCount(1, 1), 1u);
@@ -232,20 +210,14 @@ TEST(Film, WrongRequestsAreRefusedByName) {
         EXPECT_THROW(film.reset(1, 1, {spec}), std::invalid_argument) << spec.name;
     film.reset(1, 1, {{"color", 3, AovKind::Mean, 0, false}, {"mine", 2, AovKind::Mean, 0, false}});
     EXPECT_EQ(film.resolve("color").size(), 3u);
-    try {
-        standardAov("shininess");
-        FAIL();
-    } catch (const std::invalid_argument& e) {
-        EXPECT_NE(std::string(e.what()).find("shininess"), std::string::npos);
-    }
+    EXPECT_TRUE(has(reasonOf([] { standardAov("shininess"); }), "shininess"));
     EXPECT_THROW(standardAov("primvars:"), std::invalid_argument);
     EXPECT_EQ(standardAov("primvars:st").components, 2);
     EXPECT_EQ(standardAov("primvars:displayColor").components, 3);
 }
 
 TEST(Film, MeansAreReplacedToTheBit) {
-    Film film;
-    film.reset(2, 1, {});
+    TestFilm film(2, 1);
     for (int i = 0; i < 7; ++i)
         film.addColor(0, 0, glm::vec3(0.1f * float(i), 0.3f, 1.0f), 0.5f);
     const float variance = film.varianceOfMean(0, 0);
@@ -260,8 +232,7 @@ TEST(Film, MeansAreReplacedToTheBit) {
 }
 
 TEST(Film, CopiesAreEqualAndApart) {
-    Film film, copy;
-    film.reset(2, 2, {standardAov("depth")});
+    TestFilm film(2, 2, {standardAov("depth")}), copy(0, 0);
     const float depth = 3.0f;
     film.addColor(1, 1, glm::vec3(0.25f), 1.0f);
     film.addAov(0, 1, 1, &depth, 0.1f);

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/film/film.h"
 #include "hdDelegate/film/lightPaths/lightPathAutomaton.h"
-
-#include <gtest/gtest.h>
-
-#include <stdexcept>
+#include "hdDelegate/film/tests/filmFixtures.h"
 
 namespace patina {
 
@@ -40,12 +36,7 @@ std::vector<std::string> lightGroups(int groups, int orders) {
 }
 
 std::string problemOf(const std::vector<std::string>& expressions) {
-    try {
-        const LightPathSet set(expressions);
-        return "";
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
+    return reasonOf([&] { LightPathSet{expressions}; });
 }
 
 } // namespace
@@ -65,13 +56,11 @@ TEST(LightPaths, EveryLabelOfAnotherExpressionIsAnyOther) {
         const LightEvent light{EventType::Light, EventScatter::None, set.labels().of(label)};
         return a.accepts(a.next(camera, set.symbol(light)));
     };
-    EXPECT_TRUE(accepted(0, "a"));
-    EXPECT_FALSE(accepted(0, "b"));
-    EXPECT_TRUE(accepted(1, "a"));
-    EXPECT_FALSE(accepted(1, "b"));
-    EXPECT_TRUE(accepted(1, "c"));
-    EXPECT_TRUE(accepted(1, ""));
-    EXPECT_FALSE(accepted(2, "a"));
+    const std::tuple<size_t, const char*, bool> cases[] = {
+        {0, "a", true}, {0, "b", false}, {1, "a", true}, {1, "b", false},
+        {1, "c", true}, {1, "", true},   {2, "a", false}};
+    for (const auto& [expression, label, accepts] : cases)
+        EXPECT_EQ(accepted(expression, label), accepts) << expression << " " << label;
 }
 
 TEST(LightPaths, WhatAllExpressionsTakeIsBounded) {

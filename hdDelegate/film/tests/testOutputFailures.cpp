@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/atomicFile.h"
-#include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/film/temporaryFailure.h"
-#include "hdDelegate/film/tests/tempFolder.h"
-
-#include <gtest/gtest.h>
+#include "hdDelegate/film/tests/filmFixtures.h"
 
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <iterator>
 
 #include <csignal>
 
@@ -25,37 +19,35 @@ namespace patina {
 
 namespace {
 
-std::string reasonOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const std::runtime_error& e) {
-        return e.what();
+struct SmallFilm : TestFilm {
+    SmallFilm() : TestFilm(4, 4, {standardAov("depth")}) { addColor(0, 0, {1, 1, 1}, 1); }
+};
+
+/// Beyond a size writing fails, as it does on a disk that is full.
+class FullDisk {
+public:
+    explicit FullDisk(size_t room) : _handler(std::signal(SIGXFSZ, SIG_IGN)) {
+        EXPECT_EQ(::getrlimit(RLIMIT_FSIZE, &_before), 0);
+        rlimit full = _before;
+        full.rlim_cur = rlim_t(room);
+        EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
     }
-    return "";
-}
+    ~FullDisk() {
+        EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &_before), 0);
+        std::signal(SIGXFSZ, _handler);
+    }
 
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-std::string contentOf(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
-Film& smallFilm(Film& film) {
-    film.reset(4, 4, {standardAov("depth")});
-    film.addColor(0, 0, {1, 1, 1}, 1);
-    return film;
-}
+private:
+    void (*_handler)(int);
+    rlimit _before;
+};
 
 } // namespace
 
 TEST(OutputFailures, HaveReasonsOfOneLineThatNameThePath) {
     TempFolder temp;
-    Film film, empty;
-    smallFilm(film);
-    empty.reset(0, 0, {});
+    SmallFilm film;
+    TestFilm empty(0, 0);
     struct {
         std::string path, part;
     } cases[] = {{temp.file("a.xyz"), ".xyz"},
@@ -89,28 +81,26 @@ TEST(OutputFailures, HaveReasonsOfOneLineThatNameThePath) {
 
 TEST(OutputFailures, LeaveTheOldImage) {
     TempFolder temp;
-    Film film, empty;
-    smallFilm(film);
-    empty.reset(0, 0, {});
+    SmallFilm film;
+    TestFilm empty(0, 0);
     for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
         std::string file = temp.file(name);
         writeImage(film, file);
-        std::string before = contentOf(file);
+        std::string before = bytesOfFile(file);
         ASSERT_FALSE(before.empty());
         EXPECT_THROW(writeImage(empty, file), std::runtime_error);
         ImageOptions options;
         options.display = "Cinema";
         options.aovs = {"color", "glitter"};
         EXPECT_THROW(writeImage(film, file, options), std::runtime_error);
-        EXPECT_EQ(contentOf(file), before) << name;
+        EXPECT_EQ(bytesOfFile(file), before) << name;
     }
     EXPECT_EQ(temp.fileCount(), 3u);
 }
 
 TEST(OutputFailures, ReplacedImagesKeepTheirPermissionsAndLinks) {
     TempFolder temp;
-    Film film;
-    smallFilm(film);
+    const SmallFilm film;
     writeImage(film, temp.file("real.png"));
     std::filesystem::permissions(temp.file("real.png"), std::filesystem::perms(0640));
     std::filesystem::create_symlink("real.png", temp.file("link.png"));
@@ -122,8 +112,7 @@ TEST(OutputFailures, ReplacedImagesKeepTheirPermissionsAndLinks) {
 
 TEST(OutputFailures, WhatIsNoRegularFileStaysAsItIs) {
     TempFolder temp;
-    Film film;
-    smallFilm(film);
+    const SmallFilm film;
     namespace fs = std::filesystem;
     ASSERT_EQ(::mkfifo(temp.file("pipe.png").c_str(), 0600), 0);
     fs::create_symlink("pipe.png", temp.file("toPipe.png"));
@@ -140,25 +129,22 @@ TEST(OutputFailures, WhatIsNoRegularFileStaysAsItIs) {
     temp.file("socket.png").copy(address.sun_path, sizeof address.sun_path - 1);
     ASSERT_EQ(::bind(listener, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
     ++expected;
-    struct Before {
-        std::string file;
-        ino_t number;
-    };
-    std::vector<Before> all;
+    std::map<std::string, ino_t> before;
     for (auto& entry : fs::directory_iterator(temp.path())) {
         struct stat found;
         ASSERT_EQ(::lstat(entry.path().c_str(), &found), 0);
-        all.push_back({entry.path().string(), found.st_ino});
+        before[entry.path().string()] = found.st_ino;
     }
-    ASSERT_EQ(all.size(), expected);
-    for (const Before& before : all) {
-        for (const std::string& reason : {reasonOf([&] { checkImagePath(before.file); }),
-                                          reasonOf([&] { writeImage(film, before.file); })})
-            EXPECT_TRUE(has(reason, before.file + "': it is a ")) << reason;
-        EXPECT_THROW(film.saveCheckpoint(before.file), std::runtime_error);
+    ASSERT_EQ(before.size(), expected);
+    for (const auto& [file, number] : before) {
+        const std::string name = file;
+        for (const std::string& reason :
+             {reasonOf([&] { checkImagePath(name); }), reasonOf([&] { writeImage(film, name); })})
+            EXPECT_TRUE(has(reason, name + "': it is a ")) << reason;
+        EXPECT_THROW(film.saveCheckpoint(name), std::runtime_error);
         struct stat found;
-        ASSERT_EQ(::lstat(before.file.c_str(), &found), 0);
-        EXPECT_EQ(found.st_ino, before.number) << before.file << " was replaced";
+        ASSERT_EQ(::lstat(name.c_str(), &found), 0);
+        EXPECT_EQ(found.st_ino, number) << name << " was replaced";
     }
     EXPECT_EQ(temp.fileCount(), expected);
     ::close(listener);
@@ -166,24 +152,17 @@ TEST(OutputFailures, WhatIsNoRegularFileStaysAsItIs) {
 
 TEST(OutputFailures, AFullDiskKeepsTheOldImage) {
     TempFolder temp;
-    Film film;
-    film.reset(64, 64, {});
+    TestFilm film(64, 64);
     ImageOptions options;
     options.compression = "none";
     const std::string file = temp.file("a.exr");
     std::ofstream(file) << "old";
-    // Beyond this size writing fails, as it does on a disk that is full.
-    rlimit before;
-    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-    rlimit full = before;
-    full.rlim_cur = 4096;
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
-    EXPECT_THROW(writeImage(film, file, options), std::runtime_error);
-    EXPECT_THROW(film.saveCheckpoint(file), std::runtime_error);
-    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
-    std::signal(SIGXFSZ, handler);
-    EXPECT_EQ(contentOf(file), "old");
+    {
+        const FullDisk full(4096);
+        EXPECT_THROW(writeImage(film, file, options), std::runtime_error);
+        EXPECT_THROW(film.saveCheckpoint(file), std::runtime_error);
+    }
+    EXPECT_EQ(bytesOfFile(file), "old");
     EXPECT_EQ(temp.fileCount(), 1u);
     writeImage(film, file, options);
     EXPECT_GT(std::filesystem::file_size(file), 4096u) << "the size that was too large";
@@ -211,27 +190,23 @@ void everyFormatTellsOfAFullDisk(int side) {
     image.channels = {"R", "G", "B"};
     for (int i = 0; i < side * side * 3; ++i) // noise: nothing that packs well
         image.pixels.push_back(float((i * 7919) % 1009) / 1009.0f);
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     for (const char* format : {"exr", "png", "jpg", "tif", "hdr", "bmp", "tga", "webp", "gif",
                                "jp2", "ppm", "sgi", "rla"}) {
         const std::string file = temp.file(std::string("a.") + format);
         writePixels(image, file);
-        const std::string whole = contentOf(file);
+        const std::string whole = bytesOfFile(file);
         ASSERT_GT(whole.size(), 64u) << format;
-        rlimit before;
-        ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
         for (const size_t room : {size_t(16), whole.size() / 2}) {
-            rlimit full = before;
-            full.rlim_cur = rlim_t(room);
-            ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
-            const std::string reason = reasonOf([&] { writePixels(image, file); });
-            ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+            std::string reason;
+            {
+                const FullDisk full(room);
+                reason = reasonOf([&] { writePixels(image, file); });
+            }
             EXPECT_TRUE(has(reason, file)) << format << " " << room << " " << reason;
-            EXPECT_EQ(contentOf(file), whole) << format;
+            EXPECT_EQ(bytesOfFile(file), whole) << format;
         }
         std::filesystem::remove(file);
     }
-    std::signal(SIGXFSZ, handler);
     EXPECT_EQ(temp.fileCount(), 0u);
 }
 
@@ -268,11 +243,10 @@ TEST(OutputFailures, TemporariesOfKilledProcessesAreRemoved) {
 
 TEST(OutputFailures, LongNamesAreWritten) {
     TempFolder temp;
-    Film film;
-    smallFilm(film);
+    const SmallFilm film;
     const std::string file = temp.file(std::string(251, 'n') + ".png"); // 255: the longest
     writeImage(film, file);
-    EXPECT_FALSE(contentOf(file).empty());
+    EXPECT_FALSE(bytesOfFile(file).empty());
     EXPECT_EQ(temp.fileCount(), 1u);
 }
 
@@ -291,8 +265,7 @@ TEST(OutputFailures, OnlyRegularFilesAreRead) {
 TEST(OutputFailures, UnwritableFolder) {
     if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
     TempFolder temp;
-    Film film;
-    smallFilm(film);
+    const SmallFilm film;
     std::filesystem::create_directory(temp.file("locked"));
     std::filesystem::permissions(temp.file("locked"), std::filesystem::perms(0555));
     EXPECT_THROW(writeImage(film, temp.file("locked/a.exr")), std::runtime_error);
@@ -300,10 +273,9 @@ TEST(OutputFailures, UnwritableFolder) {
 
 TEST(OutputFailures, ReadingNamesWhatIsWrong) {
     TempFolder temp;
-    Film film;
-    film.reset(64, 64, {});
+    TestFilm film(64, 64);
     writeImage(film, temp.file("good.exr"));
-    std::string good = contentOf(temp.file("good.exr"));
+    std::string good = bytesOfFile(temp.file("good.exr"));
     std::ofstream(temp.file("cut.exr"), std::ios::binary) << good.substr(0, good.size() / 2);
     std::ofstream(temp.file("text.png")) << "hello";
     for (const char* name : {"cut.exr", "text.png", "absent.png"}) {

@@ -6,9 +6,8 @@
 #include "hdDelegate/film/relativeError.h"
 #include "hdDelegate/film/sampler.h"
 
-#include <gtest/gtest.h>
+#include "hdDelegate/film/tests/filmFixtures.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -30,18 +29,16 @@ struct Found {
 Found find(int samples, float limit, const Sample& sample) {
     Found found;
     for (int image = 0; image < images; ++image) {
-        Film film;
-        film.reset(width, height, {});
+        TestFilm film(width, height);
         double error = 0.0, plain = 0.0;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                for (int i = 0; i < samples; ++i) {
-                    Sampler sampler{uint32_t(x), uint32_t(y), uint32_t(image), uint32_t(i)};
-                    film.addColor(x, y, glm::vec3(sample(sampler, x)), 1.0f);
-                }
-                error += std::abs(double(film.luminance(x, y)) - limit) / (limit + 0.01);
-                plain += 0.7979 * std::sqrt(double(film.varianceOfMean(x, y))) / (limit + 0.01);
+        forPixels(film, [&](int x, int y) {
+            for (int i = 0; i < samples; ++i) {
+                Sampler sampler{uint32_t(x), uint32_t(y), uint32_t(image), uint32_t(i)};
+                film.addColor(x, y, glm::vec3(sample(sampler, x)), 1.0f);
             }
+            error += std::abs(double(film.luminance(x, y)) - limit) / (limit + 0.01);
+            plain += 0.7979 * std::sqrt(double(film.varianceOfMean(x, y))) / (limit + 0.01);
+        });
         const double pixels = width * height;
         const double expected = relativeError(film, 0, 0, width, height);
         found.ratio += expected * pixels / error / images;
@@ -94,20 +91,18 @@ TEST(RelativeError, OfFewFindsFollowsFromPoissonsLaw) {
     // tell a ratio to 0.014: 0.055 is four standard errors.
     constexpr int side = 64, rows = 60, samples = 256;
     for (const auto& [finds, byHalves] : {std::pair{1, 0.77}, {5, 0.93}, {16, 0.97}}) {
-        Film film;
-        film.reset(side, rows, {});
+        TestFilm film(side, rows);
         const float chance = float(finds) / samples;
         double error = 0.0, halves = 0.0;
-        for (int y = 0; y < rows; ++y)
-            for (int x = 0; x < side; ++x) {
-                for (uint32_t i = 0; i < samples; ++i) {
-                    Sampler sampler{uint32_t(x), uint32_t(y), 7u, i};
-                    const float found = sampler.random() < chance ? 1.0f / chance : 0.0f;
-                    film.addColor(x, y, glm::vec3(found), 1.0f);
-                }
-                error += std::abs(double(film.luminance(x, y)) - 1.0);
-                halves += double(film.deviationOfMean(x, y));
+        forPixels(film, [&](int x, int y) {
+            for (uint32_t i = 0; i < samples; ++i) {
+                Sampler sampler{uint32_t(x), uint32_t(y), 7u, i};
+                const float found = sampler.random() < chance ? 1.0f / chance : 0.0f;
+                film.addColor(x, y, glm::vec3(found), 1.0f);
             }
+            error += std::abs(double(film.luminance(x, y)) - 1.0);
+            halves += double(film.deviationOfMean(x, y));
+        });
         EXPECT_NEAR(halves / error, byHalves, 0.055) << finds;
         // The estimate takes the standard deviation where halves tell less than 0.93.
         EXPECT_GT(relativeError(film, 0, 0, side, rows) * 1.01 * side * rows / error, 0.93 - 0.055)
@@ -116,12 +111,9 @@ TEST(RelativeError, OfFewFindsFollowsFromPoissonsLaw) {
 }
 
 TEST(RelativeError, IsThatOfTheRectangleAlone) {
-    Film film;
-    film.reset(8, 4, {});
+    TestFilm film(8, 4);
     for (int i = 0; i < 64; ++i)
-        for (int y = 0; y < 4; ++y)
-            for (int x = 0; x < 8; ++x)
-                film.addColor(x, y, glm::vec3(x < 4 || i % 3 ? 1.0f : 0.0f), 1.0f);
+        addColors(film, [&](int x, int) { return glm::vec3(x < 4 || i % 3 ? 1.0f : 0.0f); });
     EXPECT_EQ(relativeError(film, 0, 0, 4, 4), 0.0);
     EXPECT_GT(relativeError(film, 4, 0, 8, 4), 0.001);
     EXPECT_EQ(relativeError(film, 3, 2, 3, 4), 0.0) << "no pixels";
@@ -130,11 +122,9 @@ TEST(RelativeError, IsThatOfTheRectangleAlone) {
 
 TEST(RelativeError, OfPixelsThatShareTheirNumbersIsNeverFarBelowThatOfTheirVariance) {
     // Pairs of samples that agree by chance whenever the film compares.
-    Film film;
-    film.reset(8, 8, {});
+    TestFilm film(8, 8);
     for (int i = 0; i < 64; ++i)
-        for (int p = 0; p < 64; ++p)
-            film.addColor(p % 8, p / 8, glm::vec3(i == 0 || i % 4 == 1 || i % 4 == 2), 1.0f);
+        addColors(film, [&](int, int) { return glm::vec3(i == 0 || i % 4 == 1 || i % 4 == 2); });
     const double plain =
         0.7979 * std::sqrt(double(film.varianceOfMean(1, 1))) / (film.luminance(1, 1) + 0.01);
     EXPECT_LT(relativeError(film, 0, 0, 8, 8), 0.45 * plain);
@@ -156,8 +146,7 @@ TEST(RelativeError, StepsDoubleAndThenGrowByAShareOfWhatIsThere) {
 
 TEST(RelativeError, SumsOfRectanglesMakeThatOfAll) {
     // Without borders between pixels that are averaged: columns of one pixel's width each.
-    Film film;
-    film.reset(4, 1, {});
+    TestFilm film(4, 1);
     for (int i = 0; i < 48; ++i)
         for (int x = 0; x < 3; ++x) // the last has no samples
             film.addColor(x, 0, glm::vec3(float((i * 7 + x * 5) % 11)), 1.0f);

@@ -2,14 +2,22 @@
 #pragma once
 
 #include "hdDelegate/geometry/curveSegments.h"
+#include "hdDelegate/geometry/primvarEval.h"
 #include "hdDelegate/geometry/tessellate.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <string>
 
 namespace patina {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float inf = std::numeric_limits<float>::infinity();
 
 /// Whether some warning concerns this prim and input.
 inline bool warned(const Diagnostics& diagnostics, const std::string& prim,
@@ -33,7 +41,7 @@ template <class Prim> TriangleMesh draw(const Prim& prim, const TessellationOpti
     return mesh;
 }
 
-/// The same with edges of that length. @param edge 0: as it is
+/// @param edge of that length; 0: as it is
 inline TriangleMesh draw(const Mesh& mesh, float edge) {
     TessellationOptions options;
     options.targetEdge = edge;
@@ -47,7 +55,24 @@ inline TriangleMesh draw(const Implicit& prim, float roundEdge) {
     return draw(prim, options);
 }
 
-/// Segments of curves of which there is nothing to say.
+/// Options of a shutter from open to close.
+inline TessellationOptions shutter(float open, float close) {
+    TessellationOptions options;
+    options.shutterOpen = open;
+    options.shutterClose = close;
+    return options;
+}
+
+/// Gives a prim a second place for its points, at time 1.
+template <class Prim, class Move> void movePoints(Prim& prim, Move move) {
+    std::vector<vec3> moved = prim.points.first();
+    for (vec3& p : moved)
+        p = move(p);
+    prim.points.times = {0.0f, 1.0f};
+    prim.points.values.push_back(moved);
+}
+
+/// Segments of curves of which
 inline CurveSet build(const Curves& curves) {
     Diagnostics diagnostics;
     CurveSet set = buildCurves(curves, {}, diagnostics);
@@ -101,15 +126,42 @@ inline Mesh gridMesh(int n, SubdivisionScheme scheme = SubdivisionScheme::None) 
     return mesh;
 }
 
-inline Primvar makePrimvar(const std::string& name, Interpolation interpolation, int components,
-                           std::vector<float> values, std::vector<int> indices = {}) {
-    Primvar primvar;
-    primvar.name = name;
-    primvar.interpolation = interpolation;
-    primvar.components = components;
-    primvar.values = std::move(values);
-    primvar.indices = std::move(indices);
-    return primvar;
+/// Coordinates one after the other, as a primvar holds them.
+inline std::vector<float> numbersOf(const std::vector<vec3>& vectors) {
+    std::vector<float> numbers;
+    for (const vec3& v : vectors)
+        numbers.insert(numbers.end(), {v.x, v.y, v.z});
+    return numbers;
+}
+
+inline Implicit makeImplicit(ImplicitShape shape, int axis = 2) {
+    Implicit prim;
+    prim.path = "/prim";
+    prim.shape = shape;
+    prim.axis = axis;
+    return prim;
+}
+
+constexpr ImplicitShape implicitShapes[] = {ImplicitShape::Sphere,  ImplicitShape::Cube,
+                                            ImplicitShape::Cone,    ImplicitShape::Cylinder,
+                                            ImplicitShape::Capsule, ImplicitShape::Plane};
+
+/// Position and radius on a segment, by the basis that the set says.
+inline vec4 evaluate(const CurveSet& set, size_t segment, float u, size_t step = 0) {
+    const vec4 w = basisWeights(set.basis, u);
+    vec4 sum(0.0f);
+    for (int k = 0; k < (set.basis == CurveBasis::Linear ? 2 : 4); ++k)
+        sum += w[k] * set.controlPoints[step][set.segments[segment] + uint32_t(k)];
+    return sum;
+}
+
+/// Value of an attribute that has to be there. @param where as of evalAttribute()
+template <class Set, class... Where>
+vec4 valueOf(const Set& set, const std::string& name, Where... where) {
+    vec4 out(NAN);
+    const MeshAttribute* attribute = set.attribute(name);
+    EXPECT_TRUE(attribute && evalAttribute(set, *attribute, where..., &out.x)) << name;
+    return out;
 }
 
 inline vec3 triangleCross(const TriangleMesh& mesh, size_t t, size_t step = 0) {
@@ -139,6 +191,32 @@ inline vec3 cornerNormal(const TriangleMesh& mesh, size_t t, int corner, size_t 
     case MeshAttribute::Rate::PerFace: return mesh.normals[step][mesh.triangleFace[t]];
     case MeshAttribute::Rate::PerCorner: return mesh.normals[step][3 * t + corner];
     default: return mesh.normals[step][mesh.triangles[t][corner]];
+    }
+}
+
+/// Normals of corners are about those of their triangles. @param cosine of the largest angle
+inline void expectNormalsAlongTriangles(const TriangleMesh& mesh, float cosine) {
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const vec3 n = cornerNormal(mesh, t, k);
+            EXPECT_NEAR(glm::length(n), 1.0f, 1e-5f);
+            EXPECT_GT(glm::dot(n, glm::normalize(triangleCross(mesh, t))), cosine);
+        }
+}
+
+/// Every edge is shared by exactly two triangles, once in each direction (by position).
+inline void expectClosed(const TriangleMesh& mesh) {
+    std::map<std::array<float, 6>, int> edges;
+    for (const uvec3& t : mesh.triangles)
+        for (int k = 0; k < 3; ++k) {
+            // -0 and 0 are one point
+            const vec3 a = mesh.positions[0][t[k]] + vec3(0),
+                       b = mesh.positions[0][t[(k + 1) % 3]] + vec3(0);
+            ++edges[{a.x, a.y, a.z, b.x, b.y, b.z}];
+        }
+    for (const auto& [e, count] : edges) {
+        EXPECT_EQ(count, 1);
+        EXPECT_EQ(edges.count({e[3], e[4], e[5], e[0], e[1], e[2]}), 1u);
     }
 }
 

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/geometry/tests/meshFixtures.h"
 
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <random>
 
 namespace patina {
 namespace {
-
-const float nan = std::numeric_limits<float>::quiet_NaN();
-const float inf = std::numeric_limits<float>::infinity();
 
 /// Every number in range and finite.
 void expectSane(const TriangleMesh& mesh) {
@@ -54,13 +48,37 @@ protected:
     Diagnostics diagnostics;
 };
 
-TEST_P(BadMesh, indicesOutOfRangeDropTheFace) {
-    Mesh mesh = cube();
-    mesh.faceVertexIndices[1] = 8;
-    mesh.faceVertexIndices[6] = -1;
-    EXPECT_EQ(facesOf(drawBad(mesh, diagnostics)), 4u);
-    EXPECT_TRUE(warned(diagnostics, "/cube", "faceVertexIndices"));
-    EXPECT_NE(diagnostics.all()[0].message.find("2 faces"), std::string::npos);
+TEST_P(BadMesh, facesThatDoNotFitAreDropped) {
+    const struct {
+        const char* input;
+        size_t left;
+        void (*change)(Mesh&);
+    } cases[] = {
+        {"faceVertexIndices", 4,
+         [](Mesh& m) { m.faceVertexIndices[1] = 8, m.faceVertexIndices[6] = -1; }},
+        {"faceVertexIndices", 5, [](Mesh& m) { m.faceVertexIndices.resize(22); }},
+        {"faceVertexIndices", 6, [](Mesh& m) { m.faceVertexIndices.push_back(0); }},
+        {"faceVertexCounts", 5,
+         [](Mesh& m) {
+             m.faceVertexCounts = {2, 2, 4, 4, 4, 4, 4, 0, -5, 1};
+             m.faceVertexIndices.push_back(3);
+         }},
+        {"points", 0, [](Mesh& m) { m.points = Sampled<std::vector<vec3>>(); }},
+        {"points", 0, [](Mesh& m) { m.points = std::vector<vec3>(); }},
+        {"faceVertexCounts", 0,
+         [](Mesh& m) { m.faceVertexCounts.clear(), m.faceVertexIndices.clear(); }},
+    };
+    for (const auto& c : cases) {
+        SCOPED_TRACE(std::string(c.input) + " leaves " + std::to_string(c.left));
+        Mesh mesh = cube();
+        c.change(mesh);
+        diagnostics.clear();
+        EXPECT_EQ(facesOf(drawBad(mesh, diagnostics)), c.left);
+        EXPECT_TRUE(warned(diagnostics, "/cube", c.input));
+        if (c.left == 4) {
+            EXPECT_NE(diagnostics.all()[0].message.find("2 faces"), std::string::npos);
+        }
+    }
 }
 
 TEST_P(BadMesh, pointsThatAreNotFiniteDropTheirFaces) {
@@ -73,49 +91,10 @@ TEST_P(BadMesh, pointsThatAreNotFiniteDropTheirFaces) {
     }
 }
 
-TEST_P(BadMesh, countsBeyondTheIndices) {
-    Mesh mesh = cube();
-    mesh.faceVertexIndices.resize(22);
-    EXPECT_EQ(facesOf(drawBad(mesh, diagnostics)), 5u);
-    EXPECT_TRUE(warned(diagnostics, "/cube", "faceVertexIndices"));
-}
-
-TEST_P(BadMesh, indicesBeyondTheCounts) {
-    Mesh mesh = cube();
-    mesh.faceVertexIndices.push_back(0);
-    EXPECT_EQ(facesOf(drawBad(mesh, diagnostics)), 6u);
-    EXPECT_TRUE(warned(diagnostics, "/cube", "faceVertexIndices"));
-}
-
-TEST_P(BadMesh, facesOfFewerThanThreeVertices) {
-    Mesh mesh = cube();
-    mesh.faceVertexCounts = {2, 2, 4, 4, 4, 4, 4, 0, -5, 1};
-    mesh.faceVertexIndices.push_back(3);
-    EXPECT_EQ(facesOf(drawBad(mesh, diagnostics)), 5u);
-    EXPECT_TRUE(warned(diagnostics, "/cube", "faceVertexCounts"));
-}
-
-TEST_P(BadMesh, emptyMeshes) {
-    Mesh mesh = cube();
-    mesh.points = Sampled<std::vector<vec3>>();
-    EXPECT_TRUE(drawBad(mesh, diagnostics).triangles.empty());
-    EXPECT_TRUE(warned(diagnostics, "/cube", "points"));
-    mesh = cube();
-    mesh.points = std::vector<vec3>();
-    EXPECT_TRUE(drawBad(mesh, diagnostics).triangles.empty());
-    mesh = cube();
-    mesh.faceVertexCounts.clear();
-    mesh.faceVertexIndices.clear();
-    diagnostics.clear();
-    EXPECT_TRUE(drawBad(mesh, diagnostics).triangles.empty());
-    EXPECT_TRUE(warned(diagnostics, "/cube", "faceVertexCounts"));
-}
-
 TEST_P(BadMesh, primvarsThatDoNotFitAreIgnoredByName) {
-    const Interpolation all[] = {Interpolation::Constant, Interpolation::Uniform,
-                                 Interpolation::Varying, Interpolation::Vertex,
-                                 Interpolation::FaceVarying};
-    for (Interpolation interpolation : all) {
+    for (auto interpolation :
+         {Interpolation::Constant, Interpolation::Uniform, Interpolation::Varying,
+          Interpolation::Vertex, Interpolation::FaceVarying}) {
         Mesh mesh = cube();
         mesh.primvars = {makePrimvar("empty", interpolation, 2, {}),
                          makePrimvar("odd", interpolation, 17, std::vector<float>(17 * 24)),
@@ -159,8 +138,7 @@ TEST_P(BadMesh, motionSamplesThatDoNotFit) {
     Mesh mesh = cube();
     mesh.points.times = {0, 1};
     mesh.points.values.push_back({vec3(0)});
-    TessellationOptions options;
-    options.shutterClose = 1.0f;
+    const TessellationOptions options = shutter(0, 1);
     const TriangleMesh result = tessellate(mesh, options, diagnostics);
     expectSane(result);
     EXPECT_EQ(facesOf(result), 6u);
@@ -175,11 +153,9 @@ TEST_P(BadMesh, motionSamplesThatDoNotFit) {
 TEST_P(BadMesh, zeroNormalsAreRepaired) {
     Mesh mesh = cube();
     mesh.scheme = SubdivisionScheme::None;
-    for (auto interpolation :
-         {Interpolation::Vertex, Interpolation::Uniform, Interpolation::FaceVarying}) {
-        const size_t n = interpolation == Interpolation::Vertex    ? 8
-                         : interpolation == Interpolation::Uniform ? 6
-                                                                   : 24;
+    for (const auto& [interpolation, n] : {std::pair{Interpolation::Vertex, 8},
+                                           {Interpolation::Uniform, 6},
+                                           {Interpolation::FaceVarying, 24}}) {
         mesh.primvars = {makePrimvar("normals", interpolation, 3, std::vector<float>(3 * n, 0.0f))};
         diagnostics.clear();
         const TriangleMesh result = drawBad(mesh, diagnostics);
@@ -236,44 +212,31 @@ INSTANTIATE_TEST_SUITE_P(Schemes, BadMesh,
                                          SubdivisionScheme::Bilinear, SubdivisionScheme::Loop));
 
 TEST(BadSubdivision, creasesThatDoNotFit) {
-    Diagnostics diagnostics;
-    Mesh mesh = cubeMesh(SubdivisionScheme::CatmullClark);
-    mesh.refineLevel = 2;
-    const double plain = volume(drawBad(mesh, diagnostics));
-    EXPECT_EQ(diagnostics.count(), 0);
-
-    mesh.creaseIndices = {0, 1, 3};
-    mesh.creaseLengths = {2};
-    mesh.creaseSharpnesses = {10};
-    EXPECT_NEAR(volume(drawBad(mesh, diagnostics)), plain, 1e-6);
-    EXPECT_TRUE(warned(diagnostics, "/cube", "creaseIndices"));
-
-    mesh.creaseIndices = {0, 99, 3, 3};
-    mesh.creaseLengths = {4};
-    diagnostics.clear();
-    EXPECT_NEAR(volume(drawBad(mesh, diagnostics)), plain, 1e-6);
-    EXPECT_TRUE(warned(diagnostics, "/cube", "creaseIndices"));
-
-    // Points 0 and 7 exist, but no edge joins them.
-    mesh.creaseIndices = {0, 7};
-    mesh.creaseLengths = {2};
-    diagnostics.clear();
-    EXPECT_NEAR(volume(drawBad(mesh, diagnostics)), plain, 1e-6);
-    EXPECT_GT(diagnostics.count(), 0);
-
-    mesh.creaseIndices = {0, 1};
-    mesh.creaseSharpnesses = {nan};
-    EXPECT_NEAR(volume(drawBad(mesh, diagnostics)), plain, 1e-6);
-    EXPECT_TRUE(warned(diagnostics, "/cube", "creaseSharpnesses"));
-
-    mesh.creaseIndices.clear();
-    mesh.creaseLengths.clear();
-    mesh.creaseSharpnesses.clear();
-    mesh.cornerIndices = {0, 1};
-    mesh.cornerSharpnesses = {10};
-    diagnostics.clear();
-    EXPECT_NEAR(volume(drawBad(mesh, diagnostics)), plain, 1e-6);
-    EXPECT_TRUE(warned(diagnostics, "/cube", "cornerIndices"));
+    Mesh cube = cubeMesh(SubdivisionScheme::CatmullClark);
+    cube.refineLevel = 2;
+    const double plain = volume(draw(cube));
+    const struct {
+        const char* input;
+        std::vector<int> indices, lengths;
+        float sharpness;
+        std::vector<int> corners;
+    } cases[] = {{"creaseIndices", {0, 1, 3}, {2}, 10, {}},
+                 {"creaseIndices", {0, 99, 3, 3}, {4}, 10, {}},
+                 {"subdivisionScheme", {0, 7}, {2}, 10, {}}, // no edge joins these points
+                 {"creaseSharpnesses", {0, 1}, {2}, nan, {}},
+                 {"cornerIndices", {}, {}, 0, {0, 1}}};
+    for (const auto& c : cases) {
+        SCOPED_TRACE(c.input + std::to_string(c.indices.size()));
+        Mesh mesh = cube;
+        mesh.creaseIndices = c.indices;
+        mesh.creaseLengths = c.lengths;
+        mesh.creaseSharpnesses.assign(c.lengths.size(), c.sharpness);
+        mesh.cornerIndices = c.corners;
+        if (!c.corners.empty()) mesh.cornerSharpnesses = {10};
+        Diagnostics diagnostics;
+        EXPECT_NEAR(volume(drawBad(mesh, diagnostics)), plain, 1e-6);
+        EXPECT_TRUE(warned(diagnostics, "/cube", c.input));
+    }
 }
 
 TEST(BadSubdivision, nonManifoldMeshesAreDrawn) {
@@ -283,17 +246,14 @@ TEST(BadSubdivision, nonManifoldMeshesAreDrawn) {
     mesh.scheme = SubdivisionScheme::CatmullClark;
     mesh.refineLevel = 2;
     std::vector<vec3> points = {{0, 0, 0}, {0, 0, 1}};
+    mesh.faceVertexCounts.assign(6, 4);
     for (int i = 0; i < 5; ++i) {
         const vec3 side(std::cos(1.2f * i), std::sin(1.2f * i), 0);
-        points.push_back(side);
-        points.push_back(side + vec3(0, 0, 1));
-        mesh.faceVertexCounts.push_back(4);
+        points.insert(points.end(), {side, side + vec3(0, 0, 1)});
         for (int index : {0, 1, 3 + 2 * i, 2 + 2 * i})
             mesh.faceVertexIndices.push_back(index);
     }
-    mesh.faceVertexCounts.push_back(4);
-    for (int index : {0, 1, 3, 2})
-        mesh.faceVertexIndices.push_back(index);
+    mesh.faceVertexIndices.insert(mesh.faceVertexIndices.end(), {0, 1, 3, 2});
     mesh.points = points;
     Diagnostics diagnostics;
     const TriangleMesh result = drawBad(mesh, diagnostics);

@@ -5,10 +5,6 @@
 #include "hdDelegate/geometry/curveSegments.h"
 #include "hdDelegate/geometry/tests/meshFixtures.h"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-
 namespace patina {
 namespace {
 
@@ -20,13 +16,13 @@ template <class T> CurveSet drawn(const T& curves) {
     return build(*bezier);
 }
 
-/// Position and radius.
-vec4 at(const CurveSet& set, size_t segment, float u, size_t step = 0) {
-    const vec4 w = basisWeights(set.basis, u);
-    vec4 sum(0.0f);
-    for (int k = 0; k < 4; ++k)
-        sum += w[k] * set.controlPoints[step][set.segments[segment] + uint32_t(k)];
-    return sum;
+/// The Bezier curves of ones that something is said of.
+template <class T>
+std::shared_ptr<const Curves> warnedOf(const T& curves, const std::string& input) {
+    Diagnostics diagnostics;
+    const auto bezier = toBezier(curves, diagnostics);
+    EXPECT_TRUE(warned(diagnostics, "/curves", input)) << input;
+    return bezier;
 }
 
 HermiteCurves hermite() {
@@ -44,26 +40,25 @@ TEST(HermiteCurves, areCubicsWithTheirTangents) {
     const CurveSet set = drawn(curves);
     ASSERT_EQ(set.segments.size(), 3u);
     EXPECT_EQ(set.segmentCurve, (std::vector<int>{0, 0, 1}));
+    const std::vector<vec3>&points = curves.points.first(), &tangents = curves.tangents.first();
     const size_t firsts[] = {0, 1, 3};
     for (size_t s = 0; s < 3; ++s)
         for (float u : {0.0f, 0.25f, 0.5f, 0.9f, 1.0f}) {
-            const vec3 a = curves.points.first()[firsts[s]],
-                       b = curves.points.first()[firsts[s] + 1];
-            const vec3 ta = curves.tangents.first()[firsts[s]],
-                       tb = curves.tangents.first()[firsts[s] + 1];
+            const vec3 a = points[firsts[s]], b = points[firsts[s] + 1];
+            const vec3 ta = tangents[firsts[s]], tb = tangents[firsts[s] + 1];
             const float v = 1.0f - u;
             const vec3 truth =
                 v * v * (1 + 2 * u) * a + u * v * v * ta + u * u * (1 + 2 * v) * b - u * u * v * tb;
-            EXPECT_LT(glm::distance(vec3(at(set, s, u)), truth), 1e-6f) << s << " " << u;
+            EXPECT_LT(glm::distance(vec3(evaluate(set, s, u)), truth), 1e-6f) << s << " " << u;
         }
-    EXPECT_NEAR(at(set, 0, 0.5f).w, 1.5f, 1e-6f); // radii are linear between points
-    EXPECT_NEAR(at(set, 1, 0.25f).w, 2.5f, 1e-6f);
+    EXPECT_NEAR(evaluate(set, 0, 0.5f).w, 1.5f, 1e-6f); // radii are linear between points
+    EXPECT_NEAR(evaluate(set, 1, 0.25f).w, 2.5f, 1e-6f);
 }
 
 TEST(HermiteCurves, valuesPerPointAndPerCurve) {
     HermiteCurves curves = hermite();
-    curves.primvars.push_back(makePrimvar("v", Interpolation::Vertex, 1, {0, 1, 2, 3, 4}));
-    curves.primvars.push_back(makePrimvar("c", Interpolation::Uniform, 1, {10, 20}));
+    curves.primvars = {makePrimvar("v", Interpolation::Vertex, 1, {0, 1, 2, 3, 4}),
+                       makePrimvar("c", Interpolation::Uniform, 1, {10, 20})};
     const CurveSet set = drawn(curves);
     EXPECT_EQ(set.attribute("v")->data, (std::vector<float>{0, 1, 1, 2, 3, 4}));
     EXPECT_EQ(set.attribute("c")->data, (std::vector<float>{10, 20}));
@@ -72,10 +67,7 @@ TEST(HermiteCurves, valuesPerPointAndPerCurve) {
 TEST(HermiteCurves, tangentsThatDoNotFitAreReported) {
     HermiteCurves curves = hermite();
     curves.tangents.values[0].pop_back();
-    Diagnostics diagnostics;
-    const auto bezier = toBezier(curves, diagnostics);
-    EXPECT_TRUE(warned(diagnostics, "/curves", "tangents"));
-    EXPECT_EQ(build(*bezier).segments.size(), 3u);
+    EXPECT_EQ(build(*warnedOf(curves, "tangents")).segments.size(), 3u);
 }
 
 TEST(HermiteCurves, shortCurvesAreLeftOutAndTheRestKeepsItsValues) {
@@ -83,14 +75,11 @@ TEST(HermiteCurves, shortCurvesAreLeftOutAndTheRestKeepsItsValues) {
     curves.curveVertexCounts = {1, 2, 2};
     curves.primvars.push_back(makePrimvar("c", Interpolation::Uniform, 1, {10, 20, 30}));
     curves.subsets = {{"/curves/s", "/m", {0, 2}}};
-    Diagnostics diagnostics;
-    const auto bezier = toBezier(curves, diagnostics);
-    EXPECT_TRUE(warned(diagnostics, "/curves", "curveVertexCounts"));
-    const CurveSet set = build(*bezier);
+    const CurveSet set = build(*warnedOf(curves, "curveVertexCounts"));
     EXPECT_EQ(set.segments.size(), 2u);
     EXPECT_EQ(set.attribute("c")->data, (std::vector<float>{20, 30}));
     EXPECT_EQ(set.segmentSubset, (std::vector<uint16_t>{0, 1}));
-    EXPECT_NEAR(at(set, 0, 0.0f).w, 2.0f, 1e-6f);
+    EXPECT_NEAR(evaluate(set, 0, 0.0f).w, 2.0f, 1e-6f);
 }
 
 TEST(HermiteCurves, countsOfAnySizeAreHarmless) {
@@ -147,7 +136,7 @@ TEST(NurbsCurves, rationalCircleIsRound) {
     // The documented tolerance: 1e-5 of the box's diagonal, 2 sqrt(2).
     for (size_t s = 0; s < set.segments.size(); ++s)
         for (float u : {0.1f, 0.3f, 0.6f, 0.8f})
-            EXPECT_NEAR(glm::length(vec3(at(set, s, u))), 1.0f, 2.9e-5f);
+            EXPECT_NEAR(glm::length(vec3(evaluate(set, s, u))), 1.0f, 2.9e-5f);
 }
 
 TEST(NurbsCurves, primvarsOfEachInterpolation) {
@@ -163,7 +152,8 @@ TEST(NurbsCurves, primvarsOfEachInterpolation) {
     EXPECT_EQ(set.attribute("c")->data, (std::vector<float>{8, 9}));
     for (size_t s = 0; s < 3; ++s)
         for (size_t end = 0; end < 2; ++end)
-            EXPECT_NEAR(set.attribute("x")->data[2 * s + end], at(set, s, float(end)).x, 1e-6f);
+            EXPECT_NEAR(set.attribute("x")->data[2 * s + end], evaluate(set, s, float(end)).x,
+                        1e-6f);
 }
 
 TEST(NurbsCurves, onlyTheRangeIsDrawn) {
@@ -173,8 +163,8 @@ TEST(NurbsCurves, onlyTheRangeIsDrawn) {
     curves.ranges.clear();
     const CurveSet whole = drawn(curves);
     ASSERT_EQ(part.segments.size(), 3u);
-    EXPECT_LT(glm::distance(vec3(at(part, 0, 0.0f)), vec3(at(whole, 0, 0.5f))), 1e-6f);
-    EXPECT_LT(glm::distance(vec3(at(part, 1, 1.0f)), vec3(at(whole, 1, 0.25f))), 1e-6f);
+    EXPECT_LT(glm::distance(vec3(evaluate(part, 0, 0.0f)), vec3(evaluate(whole, 0, 0.5f))), 1e-6f);
+    EXPECT_LT(glm::distance(vec3(evaluate(part, 1, 1.0f)), vec3(evaluate(whole, 1, 0.25f))), 1e-6f);
 }
 
 TEST(NurbsCurves, badCurvesAreReportedAndTheRestIsDrawn) {
@@ -182,8 +172,7 @@ TEST(NurbsCurves, badCurvesAreReportedAndTheRestIsDrawn) {
         NurbsCurves curves = cubic();
         change(curves);
         Diagnostics diagnostics;
-        const auto bezier = toBezier(curves, diagnostics);
-        EXPECT_TRUE(warned(diagnostics, "/curves", input)) << input;
+        const auto bezier = warnedOf(curves, input);
         EXPECT_EQ(bezier->curveVertexCounts.size(), 1u) << input;
         EXPECT_EQ(build(*bezier).segments.empty(), false) << input;
     };
@@ -204,9 +193,7 @@ TEST(NurbsCurves, withoutAnOrderAreLines) {
     NurbsCurves curves = cubic();
     curves.orders.clear();
     curves.knots = {0.0, 0.0, 1.0, 1.0};
-    Diagnostics diagnostics;
-    const auto lines = toBezier(curves, diagnostics);
-    EXPECT_TRUE(warned(diagnostics, "/curves", "order"));
+    const auto lines = warnedOf(curves, "order");
     EXPECT_EQ(lines->basis, CurveBasis::Linear);
     EXPECT_EQ(lines->curveVertexCounts, curves.curveVertexCounts);
     EXPECT_EQ(lines->points.first(), curves.points.first());
@@ -215,15 +202,9 @@ TEST(NurbsCurves, withoutAnOrderAreLines) {
 
 TEST(NurbsCurves, moveWithTheirPoints) {
     NurbsCurves curves = cubic();
-    std::vector<vec3> moved = curves.points.first();
-    for (vec3& p : moved)
-        p.z += 3.0f;
-    curves.points.times = {0.0f, 1.0f};
-    curves.points.values.push_back(moved);
+    movePoints(curves, [](const vec3& p) { return p + vec3(0, 0, 3); });
     Diagnostics diagnostics;
-    TessellationOptions options;
-    options.shutterClose = 1.0f;
-    const CurveSet set = buildCurves(*toBezier(curves, diagnostics), options, diagnostics);
+    const CurveSet set = buildCurves(*toBezier(curves, diagnostics), shutter(0, 1), diagnostics);
     ASSERT_EQ(set.controlPoints.size(), 2u);
     EXPECT_NEAR(set.controlPoints[1][2].z - set.controlPoints[0][2].z, 3.0f, 1e-5f);
 }

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/geometry/curveSegments.h"
-#include "hdDelegate/geometry/primvarEval.h"
 #include "hdDelegate/geometry/tests/meshFixtures.h"
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <limits>
 #include <numeric>
 #include <set>
 
@@ -22,15 +18,6 @@ Curves makeCurves(CurveBasis basis, CurveWrap wrap, std::vector<int> counts,
     curves.curveVertexCounts = std::move(counts);
     curves.points = std::move(points);
     return curves;
-}
-
-/// Position and radius on a segment, by the basis that the set says.
-vec4 evaluate(const CurveSet& set, size_t segment, float u, size_t step = 0) {
-    const vec4 w = basisWeights(set.basis, u);
-    vec4 sum(0.0f);
-    for (int k = 0; k < (set.basis == CurveBasis::Linear ? 2 : 4); ++k)
-        sum += w[k] * set.controlPoints[step][set.segments[segment] + k];
-    return sum;
 }
 
 std::vector<vec3> line(int n) {
@@ -89,54 +76,57 @@ TEST(CurveBasisWeights, sumToOneAndMatchTheirBezierForm) {
     }
 }
 
-TEST(Curves, linearPassesThroughItsPoints) {
-    const auto points = line(5);
+TEST(Curves, passThroughTheirPoints) {
+    using W = CurveWrap;
+    using B = CurveBasis;
+    const auto p = line(7);
+    const struct {
+        B basis;
+        W wrap;
+        std::vector<int> counts;
+        size_t segments;
+        std::vector<std::tuple<size_t, float, vec3>> places; ///< segment, u, where that is
+    } cases[] = {
+        {B::Linear,
+         W::Nonperiodic,
+         {3, 2},
+         3,
+         {{0, 0, p[0]}, {1, 1, p[2]}, {2, 0.5f, 0.5f * (p[3] + p[4])}}},
+        {B::Bezier, W::Nonperiodic, {7}, 2, {{0, 0, p[0]}, {0, 1, p[3]}, {1, 1, p[6]}}},
+        {B::CatmullRom, W::Nonperiodic, {5}, 2, {{0, 0, p[1]}, {1, 1, p[3]}}},
+        {B::CatmullRom,
+         W::Pinned,
+         {5},
+         4,
+         {{0, 0, p[0]}, {1, 0, p[1]}, {2, 0, p[2]}, {3, 0, p[3]}, {3, 1, p[4]}}},
+        {B::Bspline,
+         W::Nonperiodic,
+         {5},
+         2,
+         {{0, 0, (p[0] + 4.0f * p[1] + p[2]) / 6.0f}, {1, 1, (p[2] + 4.0f * p[3] + p[4]) / 6.0f}}},
+        {B::Bspline,
+         W::Pinned,
+         {2, 3},
+         3,
+         {{0, 0, p[0]}, {0, 1, p[1]}, {1, 0, p[2]}, {2, 1, p[4]}}},
+    };
+    for (const auto& c : cases) {
+        SCOPED_TRACE("basis " + std::to_string(int(c.basis)) + " wrap " +
+                     std::to_string(int(c.wrap)));
+        const int n = std::accumulate(c.counts.begin(), c.counts.end(), 0);
+        const CurveSet set = build(makeCurves(c.basis, c.wrap, c.counts, line(n)));
+        ASSERT_EQ(set.segments.size(), c.segments);
+        for (const auto& [segment, u, place] : c.places)
+            expectNear(evaluate(set, segment, u), place);
+    }
+}
+
+TEST(Curves, segmentsKnowTheirCurve) {
     const CurveSet set =
-        build(makeCurves(CurveBasis::Linear, CurveWrap::Nonperiodic, {3, 2}, points));
-    ASSERT_EQ(set.segments.size(), 3u);
+        build(makeCurves(CurveBasis::Linear, CurveWrap::Nonperiodic, {3, 2}, line(5)));
     EXPECT_EQ(set.segmentCurve, (std::vector<int>{0, 0, 1}));
-    expectNear(evaluate(set, 0, 0.0f), points[0]);
-    expectNear(evaluate(set, 1, 1.0f), points[2]);
-    expectNear(evaluate(set, 2, 0.5f), 0.5f * (points[3] + points[4]));
     EXPECT_EQ(set.segmentU[1], vec2(0.5f, 1.0f));
     EXPECT_EQ(evaluate(set, 0, 0.0f).w, 0.5f) << "width 1 without widths";
-}
-
-TEST(Curves, bezierPassesThroughEveryThirdPoint) {
-    const auto points = line(7);
-    const CurveSet set = build(makeCurves(CurveBasis::Bezier, CurveWrap::Nonperiodic, {7}, points));
-    ASSERT_EQ(set.segments.size(), 2u);
-    expectNear(evaluate(set, 0, 0), points[0]);
-    expectNear(evaluate(set, 0, 1), points[3]);
-    expectNear(evaluate(set, 1, 1), points[6]);
-}
-
-TEST(Curves, catmullRomPassesThroughInnerPointsAndPinnedThroughAll) {
-    const auto points = line(5);
-    const CurveSet open =
-        build(makeCurves(CurveBasis::CatmullRom, CurveWrap::Nonperiodic, {5}, points));
-    ASSERT_EQ(open.segments.size(), 2u);
-    expectNear(evaluate(open, 0, 0), points[1]);
-    expectNear(evaluate(open, 1, 1), points[3]);
-    const CurveSet pinned =
-        build(makeCurves(CurveBasis::CatmullRom, CurveWrap::Pinned, {5}, points));
-    ASSERT_EQ(pinned.segments.size(), 4u);
-    for (int i = 0; i < 4; ++i)
-        expectNear(evaluate(pinned, i, 0), points[i]);
-    expectNear(evaluate(pinned, 3, 1), points[4]);
-}
-
-TEST(Curves, bsplineValuesAndPinnedEnds) {
-    const auto p = line(5);
-    const CurveSet open = build(makeCurves(CurveBasis::Bspline, CurveWrap::Nonperiodic, {5}, p));
-    expectNear(evaluate(open, 0, 0), (p[0] + 4.0f * p[1] + p[2]) / 6.0f);
-    expectNear(evaluate(open, 1, 1), (p[2] + 4.0f * p[3] + p[4]) / 6.0f);
-    const CurveSet pinned = build(makeCurves(CurveBasis::Bspline, CurveWrap::Pinned, {2, 3}, p));
-    ASSERT_EQ(pinned.segments.size(), 3u);
-    expectNear(evaluate(pinned, 0, 0), p[0]);
-    expectNear(evaluate(pinned, 0, 1), p[1]);
-    expectNear(evaluate(pinned, 1, 0), p[2]);
-    expectNear(evaluate(pinned, 2, 1), p[4]);
 }
 
 TEST(Curves, periodicOnesClose) {
@@ -239,9 +229,7 @@ TEST(Curves, ribbonsThatTurnAreSplit) {
             expectNear(evaluate(set, s, u), 3 * w * w * t * vec3(2, 0, 0) +
                                                 3 * w * t * t * vec3(2, 1, 0) +
                                                 t * t * t * vec3(0, 1, 0));
-            float a[4];
-            ASSERT_TRUE(evalAttribute(set, *set.attribute("a"), s, u, a));
-            EXPECT_NEAR(a[0], 10 + 10 * t, 1e-4f);
+            EXPECT_NEAR(valueOf(set, "a", s, u).x, 10 + 10 * t, 1e-4f);
             EXPECT_EQ(set.segmentCurve[s], 0);
         }
     EXPECT_EQ(set.segmentCurve.back(), 1); // straight: one piece
@@ -261,9 +249,7 @@ TEST(Curves, attributesAtSegmentEnds) {
     curves.subsets = {{"/curves/second", "", {1}}};
     const CurveSet set = build(curves);
     const auto value = [&](const char* name, unsigned segment, float u) {
-        float out[4];
-        EXPECT_TRUE(evalAttribute(set, *set.attribute(name), segment, u, out));
-        return out[0];
+        return valueOf(set, name, segment, u).x;
     };
     EXPECT_FLOAT_EQ(value("vertex", 0, 1), 3);
     EXPECT_FLOAT_EQ(value("vertex", 1, 1), 6);
@@ -277,20 +263,14 @@ TEST(Curves, attributesAtSegmentEnds) {
 
 TEST(Curves, motion) {
     Curves curves = makeCurves(CurveBasis::Bspline, CurveWrap::Pinned, {4}, line(4));
-    curves.points.times = {0, 1};
-    curves.points.values.push_back(line(4));
-    for (vec3& p : curves.points.values[1])
-        p.x += 2.0f;
-    TessellationOptions options;
-    options.shutterClose = 0.5f;
+    movePoints(curves, [](const vec3& p) { return p + vec3(2, 0, 0); });
     Diagnostics diagnostics;
-    const CurveSet set = buildCurves(curves, options, diagnostics);
+    const CurveSet set = buildCurves(curves, shutter(0, 0.5f), diagnostics);
     ASSERT_EQ(set.controlPoints.size(), 2u);
     expectNear(evaluate(set, 0, 0, 1), vec3(1, 0, 0));
 }
 
 TEST(BadCurves, areReportedAndLeftOut) {
-    const float nan = std::numeric_limits<float>::quiet_NaN();
     Curves curves =
         makeCurves(CurveBasis::Bezier, CurveWrap::Nonperiodic, {3, 6, 4, -2, 4, 9}, line(20));
     curves.points.values[0][10].y = nan;
@@ -299,10 +279,8 @@ TEST(BadCurves, areReportedAndLeftOut) {
     Diagnostics diagnostics;
     const CurveSet set = buildCurves(curves, {}, diagnostics);
     EXPECT_EQ(set.segmentCurve, (std::vector<int>{1, 4}));
-    EXPECT_TRUE(warned(diagnostics, "/curves", "curveVertexCounts"));
-    EXPECT_TRUE(warned(diagnostics, "/curves", "points"));
-    EXPECT_TRUE(warned(diagnostics, "/curves", "widths"));
-    EXPECT_TRUE(warned(diagnostics, "/curves", "primvars:odd"));
+    for (const char* input : {"curveVertexCounts", "points", "widths", "primvars:odd"})
+        EXPECT_TRUE(warned(diagnostics, "/curves", input)) << input;
     EXPECT_EQ(set.controlPoints[0][0].w, 0.0f);
     for (const auto& p : set.controlPoints[0])
         EXPECT_TRUE(std::isfinite(p.y));
@@ -338,9 +316,7 @@ TEST(Points, widthsNormalsAndPrimvars) {
     EXPECT_EQ(set.points[0][1], vec4(1, 1, 0.5f, 2));
     EXPECT_TRUE(set.normals.empty());
     EXPECT_EQ(set.pointSubset, (std::vector<uint16_t>{0, 0, 1}));
-    float out[4];
-    ASSERT_TRUE(evalAttribute(set, *set.attribute("displayColor"), 2, out));
-    EXPECT_EQ(out[2], 1.0f);
+    EXPECT_EQ(valueOf(set, "displayColor", 2u).z, 1.0f);
     points.primvars = {makePrimvar("normals", Interpolation::Constant, 3, {0, 5, 0}),
                        makePrimvar("widths", Interpolation::Vertex, 1, {3})};
     const PointSet disks = buildPoints(points, {}, diagnostics);
@@ -350,7 +326,7 @@ TEST(Points, widthsNormalsAndPrimvars) {
 
 TEST(Points, badOnesAreLeftOutWithTheirValues) {
     Points points = makePoints(line(3));
-    points.points.values[0][1].x = std::numeric_limits<float>::infinity();
+    points.points.values[0][1].x = inf;
     points.primvars = {makePrimvar("widths", Interpolation::Vertex, 1, {2, 4, -6}),
                        makePrimvar("id", Interpolation::Vertex, 1, {10, 11, 12})};
     Diagnostics diagnostics;

@@ -3,62 +3,32 @@
 
 #include "hdDelegate/geometry/displace.h"
 #include "hdDelegate/geometry/splitTriangles.h"
-#include "hdDelegate/geometry/tessellate.h"
-#include "hdDelegate/geometry/tests/noTextures.h"
+#include "hdDelegate/geometry/tests/meshFixtures.h"
+#include "materialNetwork/tests/materialFixture.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <map>
 
 using namespace patina;
 
 namespace {
 
-NetworkNode node(const std::string& path, const std::string& id,
-                 std::map<std::string, Value> inputs,
-                 std::map<std::string, Connection> connections = {}) {
-    NetworkNode result;
-    result.path = path;
-    result.id = id;
-    result.inputs = std::move(inputs);
-    result.connections = std::move(connections);
-    return result;
-}
-
-std::shared_ptr<const MaterialProgram> program(std::vector<NetworkNode> nodes) {
-    Network network;
-    network.path = "/m";
-    network.terminals["displacement"] = {nodes.at(0).path, ""};
-    network.terminals["surface"] = {"/m/surface", ""};
-    network.nodes = std::move(nodes);
-    network.nodes.push_back(node("/m/surface", "ND_surface", {}));
-    static NoTextures textures;
-    Diagnostics diagnostics;
-    const auto result = compileMaterial(network, textures, diagnostics);
-    return result;
+/// A material that moves surfaces by one node.
+std::shared_ptr<const MaterialProgram> moving(const std::string& id, Inputs inputs) {
+    Network network =
+        makeNetwork({makeNode("d", id, std::move(inputs)), makeNode("surface", "ND_surface")});
+    network.terminals["displacement"] = {"/m/d", ""};
+    return Compiled(network).program;
 }
 
 std::shared_ptr<const MaterialProgram> along(float amount, float scale) {
-    return program(
-        {node("/m/d", "ND_displacement_float",
-              {{"displacement", Value::makeFloat(amount)}, {"scale", Value::makeFloat(scale)}})});
-}
-
-std::shared_ptr<const MaterialProgram> vector(const vec3& v) {
-    return program({node("/m/d", "ND_displacement_vector3",
-                         {{"displacement", Value::makeVec3(v.x, v.y, v.z)}})});
+    return moving("ND_displacement_float",
+                  {{"displacement", number(amount)}, {"scale", number(scale)}});
 }
 
 TriangleMesh made(ImplicitShape shape) {
-    Implicit prim;
-    prim.path = "/shape";
-    prim.shape = shape;
-    Diagnostics diagnostics;
-    return tessellate(prim, {}, diagnostics);
+    return draw(makeImplicit(shape));
 }
 
 } // namespace
@@ -81,18 +51,8 @@ TEST(Displace, ACubeStaysClosedAndKeepsItsEdges) {
     TriangleMesh mesh = made(ImplicitShape::Cube);
     splitTriangles(mesh, 0.3f, 100000);
     displace(mesh, {along(0.1f, 1.0f)}, mat4(1.0f));
-    // Every edge is shared by two triangles that run along it in opposite directions.
-    std::map<std::array<float, 6>, int> edges;
-    for (const uvec3& t : mesh.triangles)
-        for (int k = 0; k < 3; ++k) {
-            const vec3 a = mesh.positions[0][t[k]], b = mesh.positions[0][t[(k + 1) % 3]];
-            ++edges[{a.x, a.y, a.z, b.x, b.y, b.z}];
-        }
-    for (const auto& [e, count] : edges) {
-        EXPECT_EQ(count, 1);
-        EXPECT_EQ(edges.count({e[3], e[4], e[5], e[0], e[1], e[2]}), 1u);
-    }
-    // In the middle of a face the normal is that of the face, right up to the rows next to its
+    expectClosed(mesh);
+    // In the middle of a face
     // edge.
     for (size_t c = 0; c < mesh.normals[0].size(); ++c) {
         const vec3 p = glm::abs(mesh.positions[0][mesh.triangles[c / 3][c % 3]]);
@@ -107,16 +67,16 @@ TEST(Displace, ACubeStaysClosedAndKeepsItsEdges) {
 TEST(Displace, VectorsFollowTheTangentFrame) {
     TriangleMesh mesh = made(ImplicitShape::Plane);
     const std::vector<vec3> before = mesh.positions[0];
-    const vec3 n =
-        glm::normalize(glm::cross(before[mesh.triangles[0].y] - before[mesh.triangles[0].x],
-                                  before[mesh.triangles[0].z] - before[mesh.triangles[0].x]));
-    displace(mesh, {vector(vec3(0.1f, 0.2f, 0.3f))}, mat4(1.0f));
+    const vec3 n = glm::normalize(triangleCross(mesh, 0));
+    displace(
+        mesh,
+        {moving("ND_displacement_vector3", {{"displacement", Value::makeVec3(0.1f, 0.2f, 0.3f)}})},
+        mat4(1.0f));
     for (size_t i = 0; i < before.size(); ++i) {
         const vec3 moved = mesh.positions[0][i] - before[i];
         EXPECT_NEAR(glm::length(moved), std::sqrt(0.14f), 1e-5f);
         EXPECT_NEAR(glm::dot(moved, n), 0.3f, 1e-5f);
-        const MeshAttribute* st = mesh.attribute("st");
-        ASSERT_NE(st, nullptr);
+        ASSERT_NE(mesh.attribute("st"), nullptr);
     }
 }
 
@@ -157,15 +117,13 @@ TEST(SplitTriangles, KeepsSurfaceAndBudget) {
     TriangleMesh mesh = made(ImplicitShape::Cube);
     const size_t before = mesh.triangles.size();
     splitTriangles(mesh, 0.5f, 10000000);
-    float longest = 0.0f, area = 0.0f;
-    for (const uvec3& t : mesh.triangles) {
-        const vec3 a = mesh.positions[0][t.x], b = mesh.positions[0][t.y],
-                   c = mesh.positions[0][t.z];
-        longest = std::max({longest, glm::length(b - a), glm::length(c - b), glm::length(a - c)});
-        area += 0.5f * glm::length(glm::cross(b - a, c - a));
-    }
+    float longest = 0.0f;
+    for (const uvec3& t : mesh.triangles)
+        for (int k = 0; k < 3; ++k)
+            longest = std::max(
+                longest, glm::distance(mesh.positions[0][t[k]], mesh.positions[0][t[(k + 1) % 3]]));
     EXPECT_LE(longest, 0.5f);
-    EXPECT_NEAR(area, 24.0f, 1e-3f);
+    EXPECT_NEAR(surfaceArea(mesh), 24.0, 1e-3);
     EXPECT_EQ(mesh.triangleFace.size(), mesh.triangles.size());
     TriangleMesh small = made(ImplicitShape::Cube);
     splitTriangles(small, 1e-6f, before * 20);

@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Primvars of implicit prims by the faces, points and corners of OpenUSD's meshes of them.
 #include "hdDelegate/geometry/implicitFaces.h"
-#include "hdDelegate/geometry/primvarEval.h"
 #include "hdDelegate/geometry/tests/meshFixtures.h"
 
-#include <gtest/gtest.h>
-
 #include <glm/gtc/constants.hpp>
-
-#include <cmath>
 
 namespace patina {
 namespace {
 
-constexpr ImplicitShape shapes[] = {ImplicitShape::Sphere,  ImplicitShape::Cube,
-                                    ImplicitShape::Cone,    ImplicitShape::Cylinder,
-                                    ImplicitShape::Capsule, ImplicitShape::Plane};
 const float pi = glm::pi<float>();
 
-Implicit makeImplicit(ImplicitShape shape, int axis) {
-    Implicit prim;
-    prim.path = "/prim";
-    prim.shape = shape;
-    prim.axis = axis;
+Implicit longImplicit(ImplicitShape shape, int axis) {
+    Implicit prim = makeImplicit(shape, axis);
     prim.height = 3.0f;
     prim.width = 2.0f;
     prim.length = 5.0f;
@@ -87,41 +76,31 @@ std::vector<vec3> pointsOf(const Implicit& prim) {
     return points;
 }
 
-Primvar where(Interpolation interpolation, const std::vector<vec3>& points) {
-    std::vector<float> values;
-    for (const vec3& p : points)
-        values.insert(values.end(), {p.x, p.y, p.z});
-    return makePrimvar("where", interpolation, 3, values);
-}
-
 /// Values that are the points' places stay at their places: a face of OpenUSD's lies inside of the
 /// round shape by no more than the height of an arc of 36 degrees, along both of its directions.
 void expectInPlace(const TriangleMesh& mesh, bool round) {
-    const MeshAttribute* where = mesh.attribute("where");
-    ASSERT_NE(where, nullptr);
     const float arc = round ? 1.0f - std::cos(pi / 10.0f) : 0.0f;
     for (unsigned t = 0; t < mesh.triangles.size(); ++t)
         for (const vec2 uv : {vec2(0), vec2(1, 0), vec2(0, 1)}) {
-            float out[4];
-            ASSERT_TRUE(evalAttribute(mesh, *where, t, uv.x, uv.y, out));
-            const vec3 place = mesh.positions[0][mesh.triangles[t][uv.x > 0   ? 1
-                                                                   : uv.y > 0 ? 2
-                                                                              : 0]];
-            ASSERT_LT(glm::length(vec3(out[0], out[1], out[2]) - place), 2.0f * arc + 1e-5f) << t;
+            const int corner = uv.x > 0 ? 1 : uv.y > 0 ? 2 : 0;
+            const vec3 place = mesh.positions[0][mesh.triangles[t][corner]];
+            ASSERT_LT(glm::length(vec3(valueOf(mesh, "where", t, uv.x, uv.y)) - place),
+                      2.0f * arc + 1e-5f)
+                << t;
         }
 }
 
 TEST(ImplicitFaces, pointsAreWhereOpenUsdHasThem) {
-    for (ImplicitShape shape : shapes)
+    for (ImplicitShape shape : implicitShapes)
         for (int axis = 0; axis < 3; ++axis)
             for (bool left : {false, true}) {
                 SCOPED_TRACE(std::to_string(int(shape)) + " " + std::to_string(axis));
-                Implicit prim = makeImplicit(shape, axis);
+                Implicit prim = longImplicit(shape, axis);
                 prim.leftHanded = left;
                 const std::vector<vec3> points = pointsOf(prim);
                 const bool flat = shape == ImplicitShape::Cube || shape == ImplicitShape::Plane;
                 for (Interpolation kind : {Interpolation::Vertex, Interpolation::Varying}) {
-                    prim.primvars = {where(kind, points)};
+                    prim.primvars = {makePrimvar("where", kind, 3, numbersOf(points))};
                     expectInPlace(draw(prim), !flat);
                     expectInPlace(draw(prim, 10.0f), !flat);
                 }
@@ -131,15 +110,16 @@ TEST(ImplicitFaces, pointsAreWhereOpenUsdHasThem) {
                 for (const ShapeFace& face : faces.faces)
                     for (int k = 0; k < 4; ++k)
                         corners[size_t(face.corners[k])] = points[size_t(face.points[k])];
-                prim.primvars = {where(Interpolation::FaceVarying, corners)};
+                prim.primvars = {
+                    makePrimvar("where", Interpolation::FaceVarying, 3, numbersOf(corners))};
                 expectInPlace(draw(prim), !flat);
                 expectInPlace(draw(prim, 10.0f), !flat);
             }
 }
 
 TEST(ImplicitFaces, facesAreWhereTheirCornersAre) {
-    for (ImplicitShape shape : shapes) {
-        Implicit prim = makeImplicit(shape, 2);
+    for (ImplicitShape shape : implicitShapes) {
+        Implicit prim = longImplicit(shape, 2);
         const std::vector<vec3> points = pointsOf(prim);
         const ShapeFaces faces = facesOf(prim);
         std::vector<vec3> middles;
@@ -149,15 +129,13 @@ TEST(ImplicitFaces, facesAreWhereTheirCornersAre) {
                 sum += points[size_t(point)];
             middles.push_back(0.25f * sum);
         }
-        prim.primvars = {where(Interpolation::Uniform, middles)};
+        prim.primvars = {makePrimvar("where", Interpolation::Uniform, 3, numbersOf(middles))};
         EXPECT_GE(draw(prim).triangles.size(), draw(prim, 10.0f).triangles.size());
         const TriangleMesh mesh = draw(prim, shape == ImplicitShape::Capsule ? 10.0f : 0.0f);
         std::vector<double> areas(middles.size(), 0.0);
         for (unsigned t = 0; t < mesh.triangles.size(); ++t) {
-            float out[4];
-            ASSERT_TRUE(evalAttribute(mesh, *mesh.attribute("where"), t, 0.3f, 0.3f, out));
             const size_t face = size_t(mesh.triangleFace[t]);
-            EXPECT_EQ(vec3(out[0], out[1], out[2]), middles[face]);
+            EXPECT_EQ(vec3(valueOf(mesh, "where", t, 0.3f, 0.3f)), middles[face]);
             // No face of these shapes has a diagonal above that of the plane, 2 by 5.
             for (int k = 0; k < 3; ++k)
                 ASSERT_LT(glm::length(mesh.positions[0][mesh.triangles[t][k]] - middles[face]),
@@ -176,12 +154,12 @@ TEST(ImplicitFaces, facesAreWhereTheirCornersAre) {
 TEST(ImplicitFaces, wrongNumbersAreToldWithWhatIsNeeded) {
     const size_t points[] = {92, 8, 31, 42, 82, 4}, faces[] = {100, 6, 20, 30, 90, 1},
                  corners[] = {380, 24, 70, 100, 340, 4};
-    for (size_t i = 0; i < std::size(shapes); ++i)
+    for (size_t i = 0; i < std::size(implicitShapes); ++i)
         for (const auto& [kind, needed] : {std::pair{Interpolation::Vertex, points[i]},
                                            {Interpolation::Varying, points[i]},
                                            {Interpolation::Uniform, faces[i]},
                                            {Interpolation::FaceVarying, corners[i]}}) {
-            Implicit prim = makeImplicit(shapes[i], 2);
+            Implicit prim = longImplicit(implicitShapes[i], 2);
             prim.primvars = {makePrimvar("displayOpacity", kind, 1, std::vector<float>(7, 0.5f))};
             Diagnostics diagnostics;
             const TriangleMesh mesh = tessellate(prim, {}, diagnostics);
@@ -195,7 +173,7 @@ TEST(ImplicitFaces, wrongNumbersAreToldWithWhatIsNeeded) {
 }
 
 TEST(ImplicitFaces, subsetsCountThem) {
-    Implicit prim = makeImplicit(ImplicitShape::Cube, 2);
+    Implicit prim = longImplicit(ImplicitShape::Cube, 2);
     prim.subsets.push_back({"/prim/top", "", {0}}); // +z
     const TriangleMesh mesh = draw(prim);
     for (size_t t = 0; t < mesh.triangles.size(); ++t)

@@ -1,55 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/geometry/primvarEval.h"
 #include "hdDelegate/geometry/tangentFrames.h"
 #include "hdDelegate/geometry/tests/meshFixtures.h"
-
-#include <gtest/gtest.h>
 
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
-#include <limits>
-#include <map>
 
 namespace patina {
 namespace {
 
-Implicit makeImplicit(ImplicitShape shape, int axis = 2) {
-    Implicit prim;
-    prim.path = "/prim";
-    prim.shape = shape;
-    prim.axis = axis;
-    return prim;
-}
-
-/// Volume and area within the error that the segments allow, normals along the triangles.
+/// Volume and area within the error that the segments allow, normals along the triangles; closed.
 void expectSolid(const TriangleMesh& mesh, double wantedVolume, double wantedArea) {
     EXPECT_NEAR(volume(mesh), wantedVolume, 2e-3 * wantedVolume);
     EXPECT_NEAR(surfaceArea(mesh), wantedArea, 2e-3 * wantedArea);
     EXPECT_LE(surfaceArea(mesh), wantedArea * (1 + 1e-5)) << "vertices lie on the surface";
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            const vec3 n = cornerNormal(mesh, t, k);
-            EXPECT_NEAR(glm::length(n), 1.0f, 1e-5f);
-            EXPECT_GT(glm::dot(n, glm::normalize(triangleCross(mesh, t))), 0.99f);
-        }
-}
-
-/// Every edge is shared by exactly two triangles, once in each direction (by position).
-void expectClosed(const TriangleMesh& mesh) {
-    std::map<std::vector<float>, int> ids;
-    const auto id = [&](uint32_t v) {
-        const vec3 p = mesh.positions[0][v] + vec3(0.0f); // -0 and 0 are one point
-        return ids.emplace(std::vector<float>{p.x, p.y, p.z}, int(ids.size())).first->second;
-    };
-    std::map<std::pair<int, int>, int> edges;
-    for (const uvec3& t : mesh.triangles)
-        for (int k = 0; k < 3; ++k)
-            ++edges[{id(t[k]), id(t[(k + 1) % 3])}];
-    for (const auto& edge : edges) {
-        EXPECT_EQ(edge.second, 1);
-        EXPECT_EQ(edges.count({edge.first.second, edge.first.first}), 1u);
-    }
+    expectClosed(mesh);
+    expectNormalsAlongTriangles(mesh, 0.99f);
 }
 
 const double pi = glm::pi<double>();
@@ -59,7 +25,6 @@ TEST(Implicits, sphere) {
     prim.radius = 2.0f;
     const TriangleMesh mesh = draw(prim);
     expectSolid(mesh, 4.0 / 3.0 * pi * 8, 4 * pi * 4);
-    expectClosed(mesh);
     for (size_t i = 0; i < mesh.positions[0].size(); ++i) {
         EXPECT_NEAR(glm::length(mesh.positions[0][i]), 2.0f, 1e-5f);
         EXPECT_LT(glm::length(mesh.normals[0][i] - 0.5f * mesh.positions[0][i]), 1e-5f);
@@ -72,7 +37,6 @@ TEST(Implicits, cubeHasItsSize) {
     prim.size = 3.0f;
     const TriangleMesh mesh = draw(prim);
     expectSolid(mesh, 27, 54);
-    expectClosed(mesh);
     EXPECT_EQ(mesh.triangles.size(), 12u);
     EXPECT_EQ(mesh.triangleFace.back(), 5);
 }
@@ -83,7 +47,6 @@ TEST(Implicits, roundShapesAlongEveryAxis) {
         prim.height = 5.0f;
         const TriangleMesh cylinder = draw(prim);
         expectSolid(cylinder, 5 * pi, 2 * pi + 10 * pi);
-        expectClosed(cylinder);
         vec3 extent(1.0f), unit(0.0f);
         extent[axis] = 2.5f;
         unit[axis] = 1.0f;
@@ -92,7 +55,6 @@ TEST(Implicits, roundShapesAlongEveryAxis) {
         prim.shape = ImplicitShape::Cone;
         const TriangleMesh cone = draw(prim);
         expectSolid(cone, 5 * pi / 3, pi + pi * std::sqrt(26.0));
-        expectClosed(cone);
         for (const vec3& p : cone.positions[0])
             EXPECT_LE(glm::length(p - p[axis] * unit), (2.5f - p[axis]) / 5.0f + 1e-5f)
                 << "the tip is at +axis";
@@ -100,7 +62,6 @@ TEST(Implicits, roundShapesAlongEveryAxis) {
         prim.shape = ImplicitShape::Capsule;
         const TriangleMesh capsule = draw(prim);
         expectSolid(capsule, 5 * pi + 4 * pi / 3, 10 * pi + 4 * pi);
-        expectClosed(capsule);
         EXPECT_NEAR(capsule.boundsMax[axis], 3.5f, 1e-5f);
     }
 }
@@ -111,7 +72,6 @@ TEST(Implicits, topRadius) {
     prim.radiusTop = 1.0f;
     const TriangleMesh frustum = draw(prim);
     expectSolid(frustum, pi * 2 / 3 * (4 + 2 + 1), pi * 4 + pi + pi * 3 * std::sqrt(5.0));
-    expectClosed(frustum);
     prim.radiusTop = 0.0f;
     expectClosed(draw(prim));
     prim.shape = ImplicitShape::Capsule;
@@ -138,8 +98,7 @@ TEST(Implicits, planeLiesAsUsdSays) {
 }
 
 TEST(Implicits, stCoversTheUnitSquareAndTurnsTheRightWay) {
-    for (auto shape : {ImplicitShape::Sphere, ImplicitShape::Cube, ImplicitShape::Cone,
-                       ImplicitShape::Cylinder, ImplicitShape::Capsule, ImplicitShape::Plane}) {
+    for (const ImplicitShape shape : implicitShapes) {
         const TriangleMesh mesh = draw(makeImplicit(shape));
         const MeshAttribute* st = mesh.attribute("st");
         ASSERT_NE(st, nullptr);
@@ -163,25 +122,15 @@ TEST(Implicits, leftHandedFacesIn) {
     EXPECT_GT(glm::dot(cornerNormal(mesh, 300, 0), triangleCross(mesh, 300)), 0.0f);
 }
 
-TEST(Implicits, primvars) {
+TEST(Implicits, constantPrimvars) {
     Implicit prim = makeImplicit(ImplicitShape::Cube);
-    prim.primvars = {makePrimvar("displayColor", Interpolation::Constant, 3, {1, 2, 3}),
-                     makePrimvar("vertexColor", Interpolation::Vertex, 3, {1, 2, 3, 4, 5, 6})};
-    Diagnostics diagnostics;
-    const TriangleMesh mesh = tessellate(prim, {}, diagnostics);
-    float out[4];
-    ASSERT_TRUE(evalAttribute(mesh, *mesh.attribute("displayColor"), 3, 0.2f, 0.3f, out));
-    EXPECT_EQ(out[1], 2.0f);
-    EXPECT_EQ(out[3], 0.0f);
-    EXPECT_EQ(mesh.attribute("vertexColor"), nullptr);
-    EXPECT_TRUE(warned(diagnostics, "/prim", "primvars:vertexColor"));
+    prim.primvars = {makePrimvar("displayColor", Interpolation::Constant, 3, {1, 2, 3})};
+    EXPECT_EQ(valueOf(draw(prim), "displayColor", 3u, 0.2f, 0.3f), vec4(1, 2, 3, 0));
 }
 
 TEST(BadImplicits, sizesAndAxes) {
-    for (auto shape : {ImplicitShape::Sphere, ImplicitShape::Cube, ImplicitShape::Cone,
-                       ImplicitShape::Cylinder, ImplicitShape::Capsule, ImplicitShape::Plane})
-        for (float bad : {-1.0f, 0.0f, std::numeric_limits<float>::quiet_NaN(),
-                          std::numeric_limits<float>::infinity()}) {
+    for (const ImplicitShape shape : implicitShapes)
+        for (float bad : {-1.0f, 0.0f, nan, inf}) {
             Implicit prim = makeImplicit(shape, 7);
             prim.radius = prim.size = prim.width = bad;
             Diagnostics diagnostics;
@@ -204,10 +153,8 @@ TEST(Attributes, areInterpolatedByTheirRate) {
     mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
     mesh.triangleFace = {1, 0};
     const auto value = [&](MeshAttribute::Rate rate, std::vector<float> data, unsigned t) {
-        MeshAttribute attribute{"a", 1, rate, std::move(data)};
-        float out[4];
-        EXPECT_TRUE(evalAttribute(mesh, attribute, t, 0.25f, 0.5f, out));
-        return out[0];
+        mesh.attributes = {{"a", 1, rate, std::move(data)}};
+        return valueOf(mesh, "a", t, 0.25f, 0.5f).x;
     };
     using Rate = MeshAttribute::Rate;
     EXPECT_EQ(value(Rate::Constant, {3}, 1), 3.0f);
@@ -242,7 +189,6 @@ TEST(TangentFrames, followTheTexture) {
 }
 
 TEST(TangentFrames, areFiniteForEveryInput) {
-    const float nan = std::numeric_limits<float>::quiet_NaN();
     const vec3 good[3] = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}},
                tiny[3] = {{0, 0, 0}, {1e-30f, 0, 0}, {0, 1e-30f, 0}},
                point[3] = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}},
@@ -294,16 +240,13 @@ float distanceToFace(const TriangleMesh& mesh, int face, const vec3& p) {
 }
 
 TEST(Implicits, FewerSegmentsKeepShapeAndFaceNumbers) {
-    Diagnostics diagnostics;
-    for (ImplicitShape shape : {ImplicitShape::Sphere, ImplicitShape::Cylinder, ImplicitShape::Cone,
-                                ImplicitShape::Capsule, ImplicitShape::Cube}) {
+    for (const ImplicitShape shape : implicitShapes) {
+        if (shape == ImplicitShape::Plane) continue;
         const Implicit prim = makeImplicit(shape);
         const TriangleMesh fine = draw(prim);
         size_t before = fine.triangles.size();
         for (const float edge : {0.099f, 0.2f, 0.4f, 10.0f}) {
-            TessellationOptions options;
-            options.roundEdge = edge;
-            const TriangleMesh coarse = tessellate(prim, options, diagnostics);
+            const TriangleMesh coarse = draw(prim, edge);
             expectClosed(coarse);
             EXPECT_NEAR(volume(coarse), volume(fine), 0.03 * volume(fine));
             // A convex outline covers a quarter of the surface in the mean over all directions
@@ -327,7 +270,6 @@ TEST(Implicits, FewerSegmentsKeepShapeAndFaceNumbers) {
             EXPECT_LT(before, fine.triangles.size() / 7);
         }
     }
-    EXPECT_EQ(diagnostics.count(), 0u);
 }
 
 } // namespace

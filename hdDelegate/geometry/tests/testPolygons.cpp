@@ -2,19 +2,25 @@
 #include "hdDelegate/geometry/tests/meshFixtures.h"
 #include "hdDelegate/geometry/triangulate.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <numeric>
 
 namespace patina {
 namespace {
 
-/// Areas of a triangulation: sum, and the smallest along the polygon's normal.
-void expectFillsPolygon(const std::vector<vec3>& polygon) {
+/// All triangles of a polygon, with its vertices.
+std::vector<uvec3> trianglesOf(const std::vector<vec3>& polygon) {
     std::vector<uvec3> triangles;
     triangulatePolygon(polygon.data(), int(polygon.size()), triangles);
-    ASSERT_EQ(triangles.size(), polygon.size() - 2);
+    EXPECT_EQ(triangles.size(), polygon.size() - 2);
+    for (const uvec3& t : triangles)
+        EXPECT_LT(std::max({t.x, t.y, t.z}), polygon.size());
+    return triangles;
+}
+
+/// Areas of a triangulation: sum, and the smallest along the polygon's normal.
+void expectFillsPolygon(const std::vector<vec3>& polygon) {
+    const std::vector<uvec3> triangles = trianglesOf(polygon);
     const vec3 normal = newellNormal(polygon.data(), int(polygon.size()));
     float sum = 0.0f;
     for (const uvec3& t : triangles) {
@@ -66,13 +72,8 @@ TEST(Triangulation, degeneratePolygonsStillGiveAllTriangles) {
     std::vector<vec3> line, bowtie = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0.5f, 0}};
     for (int i = 0; i < 9; ++i)
         line.push_back(vec3(i % 5, 0, 0));
-    for (const auto& polygon : {point, line, bowtie}) {
-        std::vector<uvec3> triangles;
-        triangulatePolygon(polygon.data(), int(polygon.size()), triangles);
-        EXPECT_EQ(triangles.size(), polygon.size() - 2);
-        for (const uvec3& t : triangles)
-            EXPECT_LT(std::max({t.x, t.y, t.z}), polygon.size());
-    }
+    for (const auto& polygon : {point, line, bowtie})
+        trianglesOf(polygon);
 }
 
 TEST(Triangulation, hugePolygonsEnd) {
@@ -82,9 +83,7 @@ TEST(Triangulation, hugePolygonsEnd) {
         const float phi = 6.2831853f * float(i) / n, r = i % 2 ? 1.0f : 1.01f;
         zigzag.push_back(vec3(r * std::cos(phi), r * std::sin(phi), 0));
     }
-    std::vector<uvec3> triangles;
-    triangulatePolygon(zigzag.data(), n, triangles);
-    EXPECT_EQ(triangles.size(), size_t(n - 2));
+    trianglesOf(zigzag);
 }
 
 TEST(Triangulation, polygonsThatCrossThemselvesEnd) {
@@ -94,9 +93,7 @@ TEST(Triangulation, polygonsThatCrossThemselvesEnd) {
     for (int i = 0; i + 1 < maxEarClipping; ++i)
         star.push_back(places[i % 5]);
     star.push_back({1.5f, -1, 0});
-    std::vector<uvec3> triangles;
-    triangulatePolygon(star.data(), int(star.size()), triangles);
-    EXPECT_EQ(triangles.size(), star.size() - 2);
+    trianglesOf(star);
 }
 
 TEST(Polygons, cubeFacesOut) {
@@ -113,13 +110,11 @@ TEST(Polygons, cubeFacesOut) {
 TEST(Polygons, leftHandedTurnsTheWindingOnly) {
     Mesh cube = cubeMesh();
     cube.leftHanded = true;
-    std::vector<float> up, corner;
-    for (int i = 0; i < 24; ++i) {
-        up.insert(up.end(), {0, 0, 1});
-        corner.push_back(float(i));
-    }
-    cube.primvars.push_back(makePrimvar("normals", Interpolation::FaceVarying, 3, up));
-    cube.primvars.push_back(makePrimvar("corner", Interpolation::FaceVarying, 1, corner));
+    std::vector<float> corner(24);
+    std::iota(corner.begin(), corner.end(), 0.0f);
+    cube.primvars = {makePrimvar("normals", Interpolation::FaceVarying, 3,
+                                 numbersOf(std::vector<vec3>(24, vec3(0, 0, 1)))),
+                     makePrimvar("corner", Interpolation::FaceVarying, 1, corner)};
     const TriangleMesh mesh = draw(cube);
     EXPECT_NEAR(volume(mesh), -8.0, 1e-5);
     EXPECT_EQ(cornerNormal(mesh, 0, 0), vec3(0, 0, 1)) << "authored normals are taken as they are";
@@ -133,9 +128,8 @@ TEST(Polygons, leftHandedTurnsTheWindingOnly) {
 
 TEST(Polygons, normalsOfEveryInterpolation) {
     const std::vector<vec3> points = cubeMesh().points.first();
-    std::vector<float> vertex, face = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
-    for (const vec3& p : points)
-        vertex.insert(vertex.end(), {2 * p.x, 2 * p.y, 2 * p.z});
+    const std::vector<float> vertex = numbersOf(points), // of any length
+        face = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
     for (auto interpolation : {Interpolation::Vertex, Interpolation::Varying}) {
         Mesh cube = cubeMesh();
         cube.primvars = {makePrimvar("normals", interpolation, 3, vertex)};
@@ -205,27 +199,18 @@ TEST(Polygons, motionIsResampledOverTheShutter) {
         for (vec3& p : grid.points.values.back())
             p.z = height;
     }
-    Diagnostics diagnostics;
-    TessellationOptions options;
-    EXPECT_EQ(tessellate(grid, options, diagnostics).positions.size(), 1u);
-    EXPECT_EQ(tessellate(grid, options, diagnostics).positions[0][0].z, 0.0f);
-    options.shutterOpen = -0.5f;
-    options.shutterClose = 0.5f;
-    const TriangleMesh centred = tessellate(grid, options, diagnostics);
+    EXPECT_EQ(draw(grid).positions.size(), 1u);
+    EXPECT_EQ(draw(grid).positions[0][0].z, 0.0f);
+    const TriangleMesh centred = draw(grid, shutter(-0.5f, 0.5f));
     ASSERT_EQ(centred.positions.size(), 3u) << "the sample at 0 falls on a step";
     EXPECT_FLOAT_EQ(centred.positions[0][0].z, 2.0f);
     EXPECT_FLOAT_EQ(centred.positions[1][0].z, 0.0f);
     EXPECT_FLOAT_EQ(centred.positions[2][0].z, 1.0f);
     EXPECT_EQ(centred.boundsMax.z, 2.0f);
-    options.shutterOpen = 0.25f;
-    options.shutterClose = 0.75f;
-    EXPECT_EQ(tessellate(grid, options, diagnostics).positions.size(), 2u);
-    options.shutterOpen = 2.0f;
-    options.shutterClose = 3.0f;
-    const TriangleMesh after = tessellate(grid, options, diagnostics);
+    EXPECT_EQ(draw(grid, shutter(0.25f, 0.75f)).positions.size(), 2u);
+    const TriangleMesh after = draw(grid, shutter(2, 3));
     EXPECT_EQ(after.positions.size(), 1u);
     EXPECT_EQ(after.positions[0][0].z, 2.0f);
-    EXPECT_EQ(diagnostics.count(), 0);
 }
 
 } // namespace

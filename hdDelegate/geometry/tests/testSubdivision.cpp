@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/geometry/tests/meshFixtures.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 
 namespace patina {
@@ -20,6 +18,17 @@ TriangleMesh refine(const Mesh& mesh, int level) {
     return result;
 }
 
+Mesh smoothCube() {
+    return cubeMesh(SubdivisionScheme::CatmullClark);
+}
+
+/// Edges of full sharpness, each list along one line of points.
+void crease(Mesh& mesh, std::vector<int> indices, std::vector<int> lengths) {
+    mesh.creaseIndices = std::move(indices);
+    mesh.creaseSharpnesses.assign(lengths.size(), 10.0f);
+    mesh.creaseLengths = std::move(lengths);
+}
+
 bool hasPoint(const TriangleMesh& mesh, const vec3& point, float tolerance = 1e-5f) {
     for (const vec3& p : mesh.positions[0])
         if (glm::length(p - point) < tolerance) return true;
@@ -30,7 +39,7 @@ TEST(Subdivision, catmullClarkCubeHasItsClosedLimitPoints) {
     // Halstead, Kass and DeRose 1993: the limit of a vertex of valence n is
     // (n^2 v + 4 sum of edge neighbours + sum of face diagonals) / (n (n + 5)).
     // For the cube: (9 + 4 - 1) / 24 = 1/2 in each coordinate.
-    const TriangleMesh mesh = refine(cubeMesh(SubdivisionScheme::CatmullClark), 3);
+    const TriangleMesh mesh = refine(smoothCube(), 3);
     EXPECT_EQ(mesh.triangles.size(), 6u * 64 * 2);
     for (int i = 0; i < 8; ++i)
         EXPECT_TRUE(hasPoint(mesh, 0.5f * vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
@@ -40,8 +49,8 @@ TEST(Subdivision, catmullClarkCubeHasItsClosedLimitPoints) {
 }
 
 TEST(Subdivision, everyLevelLiesOnTheSameLimitSurface) {
-    const TriangleMesh coarse = refine(cubeMesh(SubdivisionScheme::CatmullClark), 1);
-    const TriangleMesh fine = refine(cubeMesh(SubdivisionScheme::CatmullClark), 3);
+    const TriangleMesh coarse = refine(smoothCube(), 1);
+    const TriangleMesh fine = refine(smoothCube(), 3);
     for (const vec3& p : coarse.positions[0])
         EXPECT_TRUE(hasPoint(fine, p)) << p.x << " " << p.y << " " << p.z;
 }
@@ -52,32 +61,22 @@ TEST(Subdivision, limitNormalsPointOutAndMatchTheGeometry) {
             scheme == SubdivisionScheme::Loop ? tetrahedronMesh(scheme) : cubeMesh(scheme), 4);
         ASSERT_FALSE(mesh.normals.empty());
         EXPECT_GT(volume(mesh), 0.0);
-        for (size_t t = 0; t < mesh.triangles.size(); ++t)
-            for (int k = 0; k < 3; ++k) {
-                const vec3 n = cornerNormal(mesh, t, k);
-                EXPECT_NEAR(glm::length(n), 1.0f, 1e-5f);
-                EXPECT_GT(glm::dot(n, glm::normalize(triangleCross(mesh, t))), 0.97f);
-            }
+        expectNormalsAlongTriangles(mesh, 0.97f);
     }
 }
 
 TEST(Subdivision, fullySharpCubeStaysACube) {
-    Mesh cube = cubeMesh(SubdivisionScheme::CatmullClark);
-    cube.creaseIndices = {0, 1, 3, 2, 0, 4, 5, 7, 6, 4, 0, 4, 1, 5, 3, 7, 2, 6};
-    cube.creaseLengths = {5, 5, 2, 2, 2, 2};
-    cube.creaseSharpnesses = {10, 10, 10, 10, 10, 10};
+    Mesh cube = smoothCube();
+    crease(cube, {0, 1, 3, 2, 0, 4, 5, 7, 6, 4, 0, 4, 1, 5, 3, 7, 2, 6}, {5, 5, 2, 2, 2, 2});
     const TriangleMesh mesh = refine(cube, 3);
     EXPECT_NEAR(surfaceArea(mesh), 24.0, 1e-4);
     EXPECT_NEAR(volume(mesh), 8.0, 1e-4);
     // Normals are those of the flat faces, on both sides of each crease.
-    for (size_t t = 0; t < mesh.triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k)
-            EXPECT_GT(glm::dot(cornerNormal(mesh, t, k), glm::normalize(triangleCross(mesh, t))),
-                      0.9999f);
+    expectNormalsAlongTriangles(mesh, 0.9999f);
 }
 
 TEST(Subdivision, sharpCornersAreInterpolated) {
-    Mesh cube = cubeMesh(SubdivisionScheme::CatmullClark);
+    Mesh cube = smoothCube();
     cube.cornerIndices = {7};
     cube.cornerSharpnesses = {10};
     const TriangleMesh mesh = refine(cube, 2);
@@ -86,7 +85,7 @@ TEST(Subdivision, sharpCornersAreInterpolated) {
 }
 
 TEST(Subdivision, holesShapeTheSurfaceButAreNotDrawn) {
-    Mesh cube = cubeMesh(SubdivisionScheme::CatmullClark);
+    Mesh cube = smoothCube();
     const TriangleMesh whole = refine(cube, 2);
     cube.holeIndices = {4};
     const TriangleMesh mesh = refine(cube, 2);
@@ -120,7 +119,7 @@ TEST(Subdivision, bilinearKeepsTheShapeAndIsFlat) {
 }
 
 TEST(Subdivision, levelZeroIsTheCageWithSmoothNormals) {
-    const TriangleMesh mesh = refine(cubeMesh(SubdivisionScheme::CatmullClark), 0);
+    const TriangleMesh mesh = refine(smoothCube(), 0);
     EXPECT_EQ(mesh.triangles.size(), 12u);
     EXPECT_NEAR(
         glm::dot(cornerNormal(mesh, 0, 0), glm::normalize(mesh.positions[0][mesh.triangles[0].x])),
@@ -150,7 +149,7 @@ TEST(Subdivision, triangleRuleMatters) {
 }
 
 TEST(Subdivision, uniformPrimvarsAndSubsetsStayOnTheirFace) {
-    Mesh cube = cubeMesh(SubdivisionScheme::CatmullClark);
+    Mesh cube = smoothCube();
     cube.primvars.push_back(makePrimvar("id", Interpolation::Uniform, 1, {0, 10, 20, 30, 40, 50}));
     cube.subsets = {{"/cube/top", "/m", {4}}, {"/cube/sides", "/n", {0, 1}}};
     const TriangleMesh mesh = refine(cube, 2);
@@ -173,12 +172,10 @@ TEST(Subdivision, uniformPrimvarsAndSubsetsStayOnTheirFace) {
 }
 
 TEST(Subdivision, vertexPrimvarsMoveLikePointsAndVaryingOnesLinearly) {
-    Mesh cube = cubeMesh(SubdivisionScheme::CatmullClark);
-    std::vector<float> rest;
-    for (const vec3& p : cube.points.first())
-        rest.insert(rest.end(), {p.x, p.y, p.z});
-    cube.primvars.push_back(makePrimvar("rest", Interpolation::Vertex, 3, rest));
-    cube.primvars.push_back(makePrimvar("linear", Interpolation::Varying, 3, rest));
+    Mesh cube = smoothCube();
+    const std::vector<float> rest = numbersOf(cube.points.first());
+    cube.primvars = {makePrimvar("rest", Interpolation::Vertex, 3, rest),
+                     makePrimvar("linear", Interpolation::Varying, 3, rest)};
     const TriangleMesh mesh = refine(cube, 2);
     const MeshAttribute *vertex = mesh.attribute("rest"), *varying = mesh.attribute("linear");
     ASSERT_TRUE(vertex && varying);
@@ -248,7 +245,7 @@ TEST(Subdivision, faceVaryingIsSmoothWithoutASeamUnlessTheRuleSaysLinear) {
 }
 
 TEST(Subdivision, indexedFaceVaryingEqualsTheExpandedOne) {
-    Mesh flat = cubeMesh(SubdivisionScheme::CatmullClark), indexed = flat;
+    Mesh flat = smoothCube(), indexed = flat;
     const std::vector<float> corners = {0, 0, 1, 0, 1, 1, 0, 1};
     std::vector<float> expanded;
     std::vector<int> indices;
@@ -263,86 +260,57 @@ TEST(Subdivision, indexedFaceVaryingEqualsTheExpandedOne) {
 }
 
 TEST(Subdivision, leftHandedTurnsWindingAndNormals) {
-    Mesh cube = cubeMesh(SubdivisionScheme::CatmullClark);
+    Mesh cube = smoothCube();
     const double right = volume(refine(cube, 2));
     cube.leftHanded = true;
     const TriangleMesh mesh = refine(cube, 2);
     EXPECT_NEAR(volume(mesh), -right, 1e-5);
     for (size_t t = 0; t < mesh.triangles.size(); ++t)
         EXPECT_GT(glm::dot(cornerNormal(mesh, t, 0), triangleCross(mesh, t)), 0.0f);
-    cube.creaseIndices = {0, 1, 3, 2, 0};
-    cube.creaseLengths = {5};
-    cube.creaseSharpnesses = {10};
+    crease(cube, {0, 1, 3, 2, 0}, {5});
     const TriangleMesh creased = refine(cube, 3);
     EXPECT_EQ(creased.normalRate, MeshAttribute::Rate::PerCorner);
-    for (size_t t = 0; t < creased.triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k)
-            EXPECT_GT(
-                glm::dot(cornerNormal(creased, t, k), glm::normalize(triangleCross(creased, t))),
-                0.9f);
+    expectNormalsAlongTriangles(creased, 0.9f);
 }
 
 TEST(Subdivision, levelFollowsTheTargetEdge) {
-    Diagnostics diagnostics;
-    const Mesh cube = cubeMesh(SubdivisionScheme::CatmullClark);
+    const Mesh cube = smoothCube();
+    EXPECT_EQ(draw(cube, 2.0f).refineLevel, 0);
+    EXPECT_EQ(draw(cube, 0.5f).refineLevel, 2);
+    EXPECT_EQ(draw(cube, 1e-6f).refineLevel, 6);
     TessellationOptions options;
-    options.targetEdge = 2.0f;
-    EXPECT_EQ(tessellate(cube, options, diagnostics).refineLevel, 0);
-    options.targetEdge = 0.5f;
-    const TriangleMesh mesh = tessellate(cube, options, diagnostics);
-    EXPECT_EQ(mesh.refineLevel, 2);
     options.targetEdge = 1e-6f;
-    EXPECT_EQ(tessellate(cube, options, diagnostics).refineLevel, 6);
     options.triangleBudget = 1000;
-    const TriangleMesh cut = tessellate(cube, options, diagnostics);
+    const TriangleMesh cut = draw(cube, options);
     EXPECT_LE(cut.triangles.size(), 1000u);
     EXPECT_EQ(cut.refineLevel, 3);
     options.maxRefineLevel = 1;
-    EXPECT_EQ(tessellate(cube, options, diagnostics).refineLevel, 1);
-    EXPECT_EQ(diagnostics.count(), 0);
+    EXPECT_EQ(draw(cube, options).refineLevel, 1);
+    EXPECT_EQ(draw(cubeMesh(SubdivisionScheme::Bilinear), 0.1f).refineLevel, 0) << "flat";
 }
 
 TEST(Subdivision, edgesRefineWithinTheirBudgetAndLevelsBeyondIt) {
-    Diagnostics diagnostics;
-    Mesh cube = cubeMesh(SubdivisionScheme::CatmullClark);
+    Mesh cube = smoothCube();
     TessellationOptions options;
     options.targetEdge = 1e-6f;
     options.edgeBudget = 1000; // 768 at level 3
-    EXPECT_EQ(tessellate(cube, options, diagnostics).refineLevel, 3);
+    EXPECT_EQ(draw(cube, options).refineLevel, 3);
     cube.refineLevel = 4;
-    EXPECT_EQ(tessellate(cube, options, diagnostics).refineLevel, 4);
-    EXPECT_EQ(diagnostics.count(), 0);
-}
-
-TEST(Subdivision, flatBilinearMeshesAreNotRefinedByEdgeLength) {
-    Diagnostics diagnostics;
-    TessellationOptions options;
-    options.targetEdge = 0.1f;
-    EXPECT_EQ(tessellate(cubeMesh(SubdivisionScheme::Bilinear), options, diagnostics).refineLevel,
-              0);
+    EXPECT_EQ(draw(cube, options).refineLevel, 4);
 }
 
 TEST(Subdivision, hugeLevelIsCutAndReported) {
     Diagnostics diagnostics;
-    const TriangleMesh mesh =
-        refine(cubeMesh(SubdivisionScheme::CatmullClark), 1000000, diagnostics);
+    const TriangleMesh mesh = refine(smoothCube(), 1000000, diagnostics);
     EXPECT_EQ(mesh.refineLevel, 6);
     EXPECT_TRUE(warned(diagnostics, "/cube", "refineLevel"));
 }
 
 TEST(Subdivision, motionStepsAreRefinedAlike) {
-    Mesh cube = cubeMesh(SubdivisionScheme::CatmullClark);
-    std::vector<vec3> moved = cube.points.first();
-    for (vec3& p : moved)
-        p = p * 2.0f + vec3(3, 0, 0);
-    cube.points.values.push_back(moved);
-    cube.points.times = {0.0f, 1.0f};
+    Mesh cube = smoothCube();
+    movePoints(cube, [](const vec3& p) { return p * 2.0f + vec3(3, 0, 0); });
     cube.refineLevel = 2;
-    TessellationOptions options;
-    options.shutterOpen = 0.0f;
-    options.shutterClose = 0.5f;
-    Diagnostics diagnostics;
-    const TriangleMesh mesh = tessellate(cube, options, diagnostics);
+    const TriangleMesh mesh = draw(cube, shutter(0, 0.5f));
     ASSERT_EQ(mesh.positions.size(), 2u);
     ASSERT_EQ(mesh.normals.size(), 2u);
     for (size_t i = 0; i < mesh.positions[0].size(); ++i) {

@@ -3,10 +3,8 @@
 
 #include "hdDelegate/geometry/displace.h"
 #include "hdDelegate/geometry/tangentFrames.h"
-#include "hdDelegate/geometry/tests/noTextures.h"
 #include "materialNetwork/shadingPoint.h"
-
-#include <gtest/gtest.h>
+#include "materialNetwork/tests/materialFixture.h"
 
 using namespace patina;
 
@@ -16,12 +14,7 @@ using Rate = MeshAttribute::Rate;
 
 MeshAttribute attribute(const std::string& name, Rate rate, int components,
                         std::vector<float> data = {}) {
-    MeshAttribute a;
-    a.name = name;
-    a.rate = rate;
-    a.components = components;
-    a.data = std::move(data);
-    return a;
+    return {name, components, rate, std::move(data)};
 }
 
 /// The square from (-1, -1) to (1, 1), with a set that runs along it and one that is turned to the
@@ -75,30 +68,16 @@ TEST(TangentSets, PrimvarsOfTangentsAreDerivatives) {
 TEST(TangentSets, DisplacementAlongTangents) {
     for (const char* set : {"st", "turned"})
         for (const bool mirrored : {false, true}) {
-            Network network;
-            network.path = "/m";
-            NetworkNode read, widen, displacement;
-            read.path = "/m/read";
-            read.id = "ND_geompropvalue_vector2";
-            read.inputs["geomprop"] = Value::makeString(set);
-            widen.path = "/m/widen";
-            widen.id = "ND_convert_vector2_vector3";
-            widen.connections["in"] = {read.path, ""};
-            displacement.path = "/m/displacement";
-            displacement.id = "ND_displacement_vector3";
-            displacement.connections["displacement"] = {widen.path, ""};
-            network.nodes = {read, widen, displacement};
-            network.terminals["displacement"] = {displacement.path, ""};
-            NetworkNode surface;
-            surface.path = "/m/surface";
-            surface.id = "ND_surface";
-            network.nodes.push_back(surface);
-            network.terminals["surface"] = {surface.path, ""};
-            NoTextures textures;
-            Diagnostics diagnostics;
+            Network network = makeNetwork(
+                {makeNode("read", "ND_geompropvalue_vector2", {{"geomprop", text(set)}}),
+                 makeNode("widen", "ND_convert_vector2_vector3", {}, {{"in", {"read", ""}}}),
+                 makeNode("displacement", "ND_displacement_vector3", {},
+                          {{"displacement", {"widen", ""}}}),
+                 makeNode("surface", "ND_surface")});
+            network.terminals["displacement"] = {"/m/displacement", ""};
             TriangleMesh mesh = square(mirrored);
             const std::vector<vec3> before = mesh.positions[0];
-            displace(mesh, {compileMaterial(network, textures, diagnostics)}, mat4(1.0f));
+            displace(mesh, {Compiled(network).program}, mat4(1.0f));
             for (size_t i = 0; i < before.size(); ++i) {
                 EXPECT_NEAR(mesh.positions[0][i].x, 2.0f * before[i].x, 1e-5f) << set;
                 EXPECT_NEAR(mesh.positions[0][i].y, 2.0f * before[i].y, 1e-5f) << set;

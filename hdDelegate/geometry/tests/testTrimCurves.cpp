@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Trim curves of NURBS patches.
 
-#include "hdDelegate/geometry/nurbs.h"
-#include "hdDelegate/geometry/tests/meshFixtures.h"
+#include "hdDelegate/geometry/tests/patchFixtures.h"
 #include "hdDelegate/scene/primCompare.h"
 
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <map>
 #include <random>
 
@@ -25,14 +21,8 @@ NurbsPatch squarePatch() {
 }
 
 Mesh square(const NurbsPatch& patch) {
-    Mesh mesh;
-    mesh.path = "/patch";
-    mesh.points = std::vector<vec3>{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}};
-    mesh.patch = std::make_shared<NurbsPatch>(patch);
-    setNurbsCage(mesh);
-    return mesh;
+    return patchMesh(patch, {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}});
 }
-
 /// A quarter turn for each span, counterclockwise.
 void addCircle(TrimCurves& trim, const dvec2& middle, double radius) {
     const double w = std::sqrt(0.5), x[] = {1, 1, 0, -1, -1, -1, 0, 1, 1};
@@ -132,24 +122,11 @@ TEST(TrimCurves, loopOfSeveralCurvesThatReachesBeyondThePatch) {
 
 TEST(TrimCurves, capOfASphere) {
     // u goes around, v from the south pole to the north; the cap below v = 0.7 is cut off.
-    Mesh mesh;
-    mesh.path = "/patch";
-    NurbsPatch patch;
-    const double w = std::sqrt(0.5), x[] = {1, 1, 0, -1, -1, -1, 0, 1, 1};
-    patch.u = {9, 3, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}};
-    patch.v = {5, 3, {0, 0, 0, 1, 1, 2, 2, 2}};
-    std::vector<vec3> points;
-    for (int j = 0; j < 5; ++j)
-        for (int i = 0; i < 9; ++i) {
-            const double ring = x[(j + 6) % 8];
-            points.push_back(vec3(x[i] * ring, x[(i + 6) % 8] * ring, -x[j]));
-            patch.weights.push_back((i % 2 ? w : 1.0) * (j % 2 ? w : 1.0));
-        }
-    const double v = 0.7;
+    Mesh mesh = spherePatch();
+    NurbsPatch patch = *mesh.patch;
+    const double v = 0.7, w = std::sqrt(0.5);
     addPolygon(patch.trim, {{0, 0}, {4, 0}, {4, v}, {0, v}});
-    mesh.points = points;
     mesh.patch = std::make_shared<NurbsPatch>(patch);
-    setNurbsCage(mesh);
     const double edge = 0.05;
     const TriangleMesh drawn = draw(mesh, float(edge));
     // Seen from the middle, triangles cover what is left (Van Oosterom and Strackee 1983).
@@ -191,11 +168,14 @@ TEST(TrimCurves, anyLoopsLeaveWhatRaysTell) {
                     loop.push_back(loop[i] + 2e-7 * dvec2(uniform(random), uniform(random)));
             addPolygon(patch.trim, loop);
         }
-        Mesh mesh = square(patch);
-        mesh.points = std::vector<vec3>{{0, 0, 0}, {0.3, 0, 0}, {0.6, 0, 0}, {1, 0, 0},
-                                        {0, 1, 0}, {0.3, 1, 0}, {0.6, 1, 0}, {1, 1, 0}};
-        setNurbsCage(mesh);
-        const TriangleMesh drawn = draw(mesh);
+        const TriangleMesh drawn = draw(patchMesh(patch, {{0, 0, 0},
+                                                          {0.3, 0, 0},
+                                                          {0.6, 0, 0},
+                                                          {1, 0, 0},
+                                                          {0, 1, 0},
+                                                          {0.3, 1, 0},
+                                                          {0.6, 1, 0},
+                                                          {1, 1, 0}}));
         outline(drawn);
         for (int k = 0; k < 200; ++k) {
             const dvec2 p(0.5 + 0.4 * uniform(random), 0.5 + 0.4 * uniform(random));

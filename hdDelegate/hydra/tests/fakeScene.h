@@ -47,6 +47,10 @@ public:
         primvars[{id, name}] = std::move(samples);
         interpolations[{id, name}] = interpolation;
     }
+    void setPrimvar(const SdfPath& id, const TfToken& name, HdInterpolation interpolation,
+                    const VtValue& value) {
+        setPrimvar(id, name, interpolation, Samples<VtValue>{{0.0f, value}});
+    }
 
     VtValue Get(const SdfPath& id, const TfToken& name) override {
         const auto found = primvars.find({id, name});
@@ -61,13 +65,9 @@ public:
         return listed;
     }
     VtValue GetLightParamValue(const SdfPath& id, const TfToken& name) override {
-        const auto found = lightParams.find({id, name});
-        return found == lightParams.end() ? VtValue() : found->second;
+        return valueAt(lightParams, Key(id, name));
     }
-    VtValue GetMaterialResource(const SdfPath& id) override {
-        const auto found = networks.find(id);
-        return found == networks.end() ? VtValue() : found->second;
-    }
+    VtValue GetMaterialResource(const SdfPath& id) override { return valueAt(networks, id); }
     VtArray<TfToken> GetCategories(const SdfPath&) override {
         ++categoriesAsked;
         return VtArray<TfToken>(categories.begin(), categories.end());
@@ -107,6 +107,10 @@ public:
     }
 
 private:
+    template <class K> static VtValue valueAt(const std::map<K, VtValue>& all, const K& key) {
+        const auto found = all.find(key);
+        return found == all.end() ? VtValue() : found->second;
+    }
     static GfMatrix4d first(const std::map<SdfPath, Samples<GfMatrix4d>>& all, const SdfPath& id) {
         const auto found = all.find(id);
         return found == all.end() ? GfMatrix4d(1.0) : found->second.front().second;

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/hydra/renderBuffer.h"
 #include "hdDelegate/hydra/renderDelegate.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <gtest/gtest.h>
 #include <pxr/base/gf/vec3i.h>
@@ -25,11 +26,9 @@ namespace patina {
 inline constexpr int endless = 1 << 30; ///< more samples than any test waits for
 inline const GfVec4f clearColor(0.25f, 0.5f, 0.75f, 1.0f);
 
-inline Light skyOf(float intensity) {
-    Light sky;
-    sky.path = "/sky";
-    sky.type = LightType::Dome;
-    sky.intensity = intensity;
+inline std::shared_ptr<Light> skyOf(float intensity) {
+    auto sky = makeLight("/sky", LightType::Dome);
+    sky->intensity = intensity;
     return sky;
 }
 
@@ -63,7 +62,7 @@ protected:
     }
 
     void setSky(float intensity) {
-        param().set(std::shared_ptr<const Light>(std::make_shared<Light>(skyOf(intensity))));
+        param().set<Light>(skyOf(intensity));
         param().commit();
     }
 
@@ -97,16 +96,28 @@ protected:
     }
 
     void bind(const HdRenderPassAovBindingVector& bindings) { state->SetAovBindings(bindings); }
+    /// Adds a buffer and binds it alone, as the colour.
+    HdRenderBuffer* bindColor() {
+        HdRenderBuffer* color = add();
+        bind({binding("color", color)});
+        return color;
+    }
     void execute() { pass->Execute(state, {HdRenderTagTokens->geometry}); }
 
-    /// @returns whether the pass converges within a minute
-    bool converges() {
+    /// Executes until something holds. @returns false after a minute
+    template <class Holds> bool executesUntil(const Holds& holds) {
         for (int i = 0; i < 60000; ++i) {
             execute();
-            if (pass->IsConverged()) return true;
+            if (holds()) return true;
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         return false;
+    }
+    bool converges() {
+        return executesUntil([&] { return pass->IsConverged(); });
+    }
+    bool waitForSky(HdRenderBuffer* buffer) {
+        return executesUntil([&] { return showsSky(buffer); });
     }
 
     static std::vector<float> pixels(HdRenderBuffer* buffer) {
@@ -124,14 +135,11 @@ protected:
                                              [](float x) { return std::abs(x - 1.0f) < 1e-3f; });
     }
 
-    /// Executes until a buffer shows the sky. @returns false after a minute
-    bool waitForSky(HdRenderBuffer* buffer) {
-        for (int i = 0; i < 60000; ++i) {
-            execute();
-            if (showsSky(buffer)) return true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        return false;
+    /// Every pixel is the colour that buffers are cleared with.
+    static void expectClear(HdRenderBuffer* buffer, const std::string& why) {
+        const std::vector<float> found = pixels(buffer);
+        for (size_t i = 0; i < found.size(); ++i)
+            ASSERT_EQ(found[i], clearColor[i % 4]) << why;
     }
 
     std::unique_ptr<HdPatinaRenderDelegate> delegate;

@@ -125,7 +125,7 @@ TEST_F(Computations, InputsThatDoNotVaryServeThoseThatDo) {
 TEST_F(Computations, WhatFailsIsToldAndShownAsAuthored) {
     host->inputs.erase(move);
     host->setPrimvar(prim, HdTokens->points, HdInterpolationVertex,
-                     {{0.0f, VtValue(VtVec3fArray{GfVec3f(5.0f)})}});
+                     VtValue(VtVec3fArray{GfVec3f(5.0f)}));
     const auto found = points();
     ASSERT_EQ(found.values.size(), 1u);
     EXPECT_EQ(found.first(), std::vector<vec3>{vec3(5.0f)});

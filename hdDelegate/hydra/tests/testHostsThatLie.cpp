@@ -5,6 +5,7 @@
 #include "hdDelegate/hydra/tests/lyingHost.h"
 #include "hdDelegate/hydra/tests/warnings.h"
 #include "hdDelegate/hydra/values.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <pxr/base/tf/errorMark.h>
 
@@ -14,8 +15,7 @@
 using namespace patina;
 
 TEST_F(LyingHost, FreesAndChangesBuffersWhileTheyAreDrawn) {
-    HdRenderBuffer* color = add();
-    bind({binding("color", color)});
+    HdRenderBuffer* color = bindColor();
     ASSERT_TRUE(waitForSky(color));
     const std::vector<std::tuple<int, int, HdFormat, bool>> changes = {
         {16, 12, HdFormatFloat32Vec4, true}, {33, 5, HdFormatFloat32Vec4, false},
@@ -106,8 +106,7 @@ TEST_F(LyingHost, BindsWhatHasSeveralLayers) {
     for (int levels : {1, 6, 16}) {
         open(2);
         delegate->SetRenderSetting(TfToken("cryptomatteLevels"), VtValue(levels));
-        HdRenderBuffer* color = add();
-        bind({binding("color", color)});
+        HdRenderBuffer* color = bindColor();
         for (const char* aov : {"cryptoObject", "cryptoMaterial", "cryptoAsset"}) {
             HdRenderPassAovBindingVector bindings = state->GetAovBindings();
             bindings.push_back(binding(aov, add()));
@@ -119,19 +118,15 @@ TEST_F(LyingHost, BindsWhatHasSeveralLayers) {
         execute();
         EXPECT_EQ(warnings.of("has several layers; its buffer stays empty"), 3);
         EXPECT_TRUE(showsSky(color));
-        for (size_t i = buffers.size() - 3; i < buffers.size(); ++i) {
-            const std::vector<float> found = pixels(buffers[i]);
-            for (size_t k = 0; k < found.size(); ++k)
-                ASSERT_EQ(found[k], clearColor[k % 4]) << levels << " levels";
-        }
+        for (size_t i = buffers.size() - 3; i < buffers.size(); ++i)
+            expectClear(buffers[i], std::to_string(levels) + " levels");
     }
 }
 
 TEST_F(LyingHost, HasACameraOfThePathThatPassesTake) {
-    auto camera = std::make_shared<Camera>();
-    camera->path = "/patinaView1";
+    auto camera = makePrim<Camera>("/patinaView1");
     camera->focalLength = 77.0f;
-    param().set(std::shared_ptr<const Camera>(camera));
+    param().set<Camera>(camera);
     param().commit();
     bind({binding("color", add())});
     execute(); // by matrices, and so through a camera of the pass
@@ -164,8 +159,7 @@ TEST_F(LyingHost, GivesAUnitThatIsNoNumber) {
 
 TEST_F(LyingHost, LooksBesideTheBuffer) {
     open(2);
-    HdRenderBuffer* color = add();
-    bind({binding("color", color)});
+    HdRenderBuffer* color = bindColor();
     ASSERT_TRUE(converges());
     ASSERT_TRUE(showsSky(color));
     constexpr int most = std::numeric_limits<int>::max();
@@ -174,9 +168,7 @@ TEST_F(LyingHost, LooksBesideTheBuffer) {
     for (const GfRect2i& window : outside) {
         state->SetFraming(CameraUtilFraming(GfRange2f(GfVec2f(0), GfVec2f(16, 12)), window));
         ASSERT_TRUE(converges());
-        const std::vector<float> found = pixels(color);
-        for (size_t i = 0; i < found.size(); ++i)
-            ASSERT_EQ(found[i], clearColor[i % 4]) << "nothing is to be drawn";
+        expectClear(color, "nothing is to be drawn");
     }
     // Partly outside: what is inside is drawn.
     state->SetFraming(CameraUtilFraming(GfRange2f(GfVec2f(0), GfVec2f(16, 12)),
@@ -240,8 +232,7 @@ TEST_F(LyingHost, AsksForMorePixelsThanThereCanBe) {
 
 /// Reads on a thread of its own, while the pass writes and allocates on the host's.
 TEST_F(LyingHost, ReadsWhileItIsWritten) {
-    HdRenderBuffer* color = add();
-    bind({binding("color", color)});
+    HdRenderBuffer* color = bindColor();
     std::atomic<bool> done{false};
     std::atomic<int> torn{0}, reads{0};
     std::thread reader([&] {
@@ -268,8 +259,7 @@ TEST_F(LyingHost, ReadsWhileItIsWritten) {
 
 /// Allocates on a thread of its own.
 TEST_F(LyingHost, AllocatesWhileItIsWritten) {
-    HdRenderBuffer* color = add();
-    bind({binding("color", color)});
+    HdRenderBuffer* color = bindColor();
     std::atomic<bool> done{false};
     std::thread allocator([&] {
         for (int i = 0; !done; ++i) {
@@ -288,8 +278,7 @@ TEST_F(LyingHost, AllocatesWhileItIsWritten) {
 }
 
 TEST_F(LyingHost, TakesItselfDownInTheWrongOrder) {
-    HdRenderBuffer* color = add();
-    bind({binding("color", color)});
+    HdRenderBuffer* color = bindColor();
     ASSERT_TRUE(waitForSky(color)); // and the render goes on
     HdRenderPassSharedPtr second = delegate->CreateRenderPass(index.get(), HdRprimCollection());
     second->Execute(state, {HdRenderTagTokens->geometry});

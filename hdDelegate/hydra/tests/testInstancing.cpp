@@ -19,12 +19,15 @@ const SdfPath path("/instancer");
 
 class Instancing : public FakeHost {
 protected:
-    void set(const TfToken& name, FakeScene::Samples<VtValue> samples) {
+    template <class T> void set(const TfToken& name, const T& value) {
+        scene->setPrimvar(path, name, HdInterpolationInstance, VtValue(value));
+    }
+    void setSamples(const TfToken& name, FakeScene::Samples<VtValue> samples) {
         scene->setPrimvar(path, name, HdInterpolationInstance, std::move(samples));
     }
     void setPositions(size_t count) {
         set(HdInstancerTokens->instanceTranslations,
-            {{0.0f, VtValue(VtVec3fArray(count, GfVec3f(1.0f, 2.0f, 3.0f)))}});
+            VtVec3fArray(count, GfVec3f(1.0f, 2.0f, 3.0f)));
     }
     std::vector<MotionTransform> read() { return readInstanceTransforms(*scene, path, param()); }
 };
@@ -41,7 +44,7 @@ TEST_F(Instancing, TakesSomeOfThousandsOfSamples) {
         // Other times than those of the transform, so that all together are twice as many.
         positions.emplace_back(0.9f * time, VtValue(VtVec3fArray(100, GfVec3f(time))));
     }
-    set(HdInstancerTokens->instanceTranslations, positions);
+    setSamples(HdInstancerTokens->instanceTranslations, positions);
     ASSERT_TRUE(param().widenShutter(-0.5, 0.5));
     const std::vector<MotionTransform> transforms = read();
     ASSERT_EQ(transforms.size(), 100u);
@@ -78,17 +81,18 @@ TEST_F(Instancing, KeepsSamplesAsTheyAreUpToTheLimit) {
 TEST_F(Instancing, DrawsNothingWhereArraysDifferInLength) {
     setPositions(3);
     EXPECT_EQ(read().size(), 3u);
-    set(HdInstancerTokens->instanceRotations, {{0.0f, VtValue(VtQuatfArray(2, GfQuatf(1.0f)))}});
+    set(HdInstancerTokens->instanceRotations, VtQuatfArray(2, GfQuatf(1.0f)));
     EXPECT_TRUE(read().empty());
     EXPECT_EQ(warningsOf(path, "has 2 values for 3 instances; nothing is drawn of the instancer"),
               1);
-    set(HdInstancerTokens->instanceRotations, {{0.0f, VtValue(VtQuatfArray())}});
+    set(HdInstancerTokens->instanceRotations, VtQuatfArray());
     EXPECT_EQ(read().size(), 3u) << "none is authored";
 }
 
 TEST_F(Instancing, LeavesOutSamplesOfOtherLengths) {
-    set(HdInstancerTokens->instanceTranslations, {{-0.5f, VtValue(VtVec3fArray(3, GfVec3f(1.0f)))},
-                                                  {0.5f, VtValue(VtVec3fArray(5, GfVec3f(2.0f)))}});
+    setSamples(HdInstancerTokens->instanceTranslations,
+               {{-0.5f, VtValue(VtVec3fArray(3, GfVec3f(1.0f)))},
+                {0.5f, VtValue(VtVec3fArray(5, GfVec3f(2.0f)))}});
     ASSERT_TRUE(param().widenShutter(-0.5, 0.5));
     const std::vector<MotionTransform> transforms = read();
     ASSERT_EQ(transforms.size(), 3u);
@@ -99,7 +103,7 @@ TEST_F(Instancing, LeavesOutSamplesOfOtherLengths) {
 
 TEST_F(Instancing, SaysWhichTypeIsNotRead) {
     setPositions(3);
-    set(HdInstancerTokens->instanceScales, {{0.0f, VtValue(VtVec2fArray(3, GfVec2f(2.0f)))}});
+    set(HdInstancerTokens->instanceScales, VtVec2fArray(3, GfVec2f(2.0f)));
     const std::vector<MotionTransform> transforms = read();
     ASSERT_EQ(transforms.size(), 3u);
     EXPECT_EQ(transforms[0].first()[0].x, 1.0) << "no scale";
@@ -110,10 +114,10 @@ TEST_F(Instancing, SaysWhichTypeIsNotRead) {
 
 TEST_F(Instancing, LeavesOutPrimvarsOfOtherLengths) {
     setPositions(3);
-    set(TfToken("good"), {{0.0f, VtValue(VtFloatArray(3, 0.5f))}});
-    set(TfToken("short"), {{0.0f, VtValue(VtVec3fArray(2, GfVec3f(0.5f)))}});
-    set(TfToken("label"), {{0.0f, VtValue(VtStringArray(3, "text"))}});
-    set(TfToken("odd"), {{0.0f, VtValue(GfMultiInterval())}});
+    set(TfToken("good"), VtFloatArray(3, 0.5f));
+    set(TfToken("short"), VtVec3fArray(2, GfVec3f(0.5f)));
+    set(TfToken("label"), VtStringArray(3, "text"));
+    set(TfToken("odd"), GfMultiInterval());
     syncInstancer(path);
     param().instances().place(SdfPath("/prototype"), path, {0, 1, 2});
     const auto scene = state();

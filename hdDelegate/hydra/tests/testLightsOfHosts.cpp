@@ -24,9 +24,10 @@ protected:
     void setShader(const SdfPath& prim, const char* shader) {
         scene->lightParams[{prim, TfToken("lightFilter:shaderId")}] = VtValue(TfToken(shader));
     }
-    std::vector<LightFilter> filtersOf(const SdfPath& light) {
-        return state()->lights.find(light.GetString())->second->filters;
+    std::shared_ptr<const Light> lightAt(const SdfPath& light) {
+        return state()->lights.at(light.GetString());
     }
+    std::vector<LightFilter> filtersOf(const SdfPath& light) { return lightAt(light)->filters; }
 };
 
 } // namespace
@@ -95,7 +96,7 @@ TEST_F(LightsOfHosts, ATextureHasTheColourSpaceThatTheLightsNodeTells) {
     scene->networks[light] = VtValue(map);
     scene->lightParams[{light, TfToken("texture:file")}] = VtValue(SdfAssetPath("sky.png"));
     syncSprim(HdPrimTypeTokens->domeLight, light);
-    EXPECT_EQ(state()->lights.find(light.GetString())->second->textureColorSpace, "raw");
+    EXPECT_EQ(lightAt(light)->textureColorSpace, "raw");
 }
 
 /// Of n lights and m prims m are asked, not n times m.
@@ -136,11 +137,11 @@ TEST_F(LightsOfHosts, AShutterThatOpensLaterBlursAllThatMoves) {
         param().instances().place(SdfPath("/prototype"), instancer, {0, 1});
     };
     sync();
-    EXPECT_FALSE(state()->lights.find("/light")->second->transform.moves());
+    EXPECT_FALSE(lightAt(light)->transform.moves());
     ASSERT_TRUE(param().widenShutter(-0.25, 0.25)); // as a camera does
     readAgain(*index, param());
     const std::string later = dumpScene(*state());
-    EXPECT_TRUE(state()->lights.find("/light")->second->transform.moves());
+    EXPECT_TRUE(lightAt(light)->transform.moves());
     EXPECT_TRUE(state()->instancers.find("/instancer")->second->transforms[1].moves());
     sync(); // as at first, with the shutter open
     EXPECT_EQ(later, dumpScene(*state()));
@@ -152,14 +153,14 @@ TEST_F(LightsOfHosts, AnotherRenderingSpaceReadsAllColoursAgain) {
     const vec3 given(0.7f, 0.2f, 0.1f);
     scene->lightParams[{light, HdLightTokens->color}] = VtValue(GfVec3f(0.7f, 0.2f, 0.1f));
     syncSprim(sphereLight, light);
-    EXPECT_EQ(state()->lights.find("/light")->second->color, given);
+    EXPECT_EQ(lightAt(light)->color, given);
     const RenderingSpace& aces = *RenderingSpace::find("acescg");
     param().setRenderingSpace(aces);
     readAgain(*index, param());
     EXPECT_EQ(state()->renderingSpace, &aces);
-    EXPECT_EQ(state()->lights.find("/light")->second->color, aces.from709(given));
+    EXPECT_EQ(lightAt(light)->color, aces.from709(given));
     EXPECT_FALSE(param().takeRenderingSpaceChanged());
     param().setRenderingSpace(RenderingSpace::rec709());
     readAgain(*index, param());
-    EXPECT_EQ(state()->lights.find("/light")->second->color, given);
+    EXPECT_EQ(lightAt(light)->color, given);
 }

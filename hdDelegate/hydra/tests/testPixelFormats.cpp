@@ -2,8 +2,8 @@
 #include "hdDelegate/hydra/aovs.h"
 #include "hdDelegate/hydra/clearValue.h"
 #include "hdDelegate/hydra/pixelFormats.h"
+#include "base/tests/testTools.h"
 
-#include <gtest/gtest.h>
 #include <pxr/base/gf/half.h>
 #include <pxr/base/gf/vec3d.h>
 #include <pxr/base/gf/vec4f.h>
@@ -12,72 +12,49 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 
 using namespace patina;
 
 namespace {
 
-float bits(int32_t value) {
-    float result;
-    std::memcpy(&result, &value, sizeof result);
-    return result;
+/// So many numbers as a format writes them, of pixels of four.
+template <class T> std::vector<T> written(const std::vector<float>& values, HdFormat format,
+                                          size_t count, bool ids = false) {
+    std::vector<T> out(count);
+    writePixels(values.data(), values.size() / 4, ids, format, out.data());
+    return out;
 }
 
 } // namespace
 
 TEST(PixelFormats, EightBitsAreClampedAndRounded) {
-    const float values[4] = {-1.0f, 0.5f, 2.0f, NAN};
-    uint8_t out[4];
-    writePixels(values, 1, false, HdFormatUNorm8Vec4, out);
-    EXPECT_EQ(out[0], 0);
-    EXPECT_EQ(out[1], 128);
-    EXPECT_EQ(out[2], 255);
-    EXPECT_EQ(out[3], 0);
-    int8_t signedOut[4];
-    writePixels(values, 1, false, HdFormatSNorm8Vec4, signedOut);
+    const std::vector<float> values = {-1.0f, 0.5f, 2.0f, NAN};
+    EXPECT_EQ(written<uint8_t>(values, HdFormatUNorm8Vec4, 4),
+              (std::vector<uint8_t>{0, 128, 255, 0}));
+    const auto signedOut = written<int8_t>(values, HdFormatSNorm8Vec4, 4);
     EXPECT_EQ(signedOut[0], -127);
     EXPECT_EQ(signedOut[2], 127);
 }
 
 TEST(PixelFormats, HalfsNeverOverflow) {
-    const float values[4] = {1e9f, -1e9f, 0.25f, NAN};
-    GfHalf out[4];
-    writePixels(values, 1, false, HdFormatFloat16Vec4, out);
-    EXPECT_EQ(float(out[0]), 65504.0f);
-    EXPECT_EQ(float(out[1]), -65504.0f);
-    EXPECT_EQ(float(out[2]), 0.25f);
-    EXPECT_EQ(float(out[3]), 0.0f);
+    const auto out = written<GfHalf>({1e9f, -1e9f, 0.25f, NAN}, HdFormatFloat16Vec4, 4);
+    EXPECT_EQ(std::vector<float>(out.begin(), out.end()),
+              (std::vector<float>{65504.0f, -65504.0f, 0.25f, 0.0f}));
 }
 
 TEST(PixelFormats, IdsKeepTheirNumberInEveryFormat) {
-    for (const int32_t id : {-1, 0, 77, std::numeric_limits<int32_t>::max()}) {
-        const float values[4] = {bits(id), 0, 0, 0};
-        int32_t whole = 5;
-        writePixels(values, 1, true, HdFormatInt32, &whole);
-        EXPECT_EQ(whole, id);
-    }
-    const float values[4] = {bits(300), 0, 0, 0};
-    float real = 0;
-    writePixels(values, 1, true, HdFormatFloat32, &real);
-    EXPECT_EQ(real, 300.0f);
+    for (const int32_t id : {-1, 0, 77, std::numeric_limits<int32_t>::max()})
+        EXPECT_EQ(written<int32_t>({floatOfBits(id), 0, 0, 0}, HdFormatInt32, 1, true)[0], id);
+    EXPECT_EQ(written<float>({floatOfBits(300), 0, 0, 0}, HdFormatFloat32, 1, true)[0], 300.0f);
 }
 
 TEST(PixelFormats, PixelsFollowEachOtherWithoutWhatTheFormatLacks) {
-    const float values[8] = {1, 2, 3, 4, 5, 6, 7, 8};
-    float reals[4] = {0, 0, 0, 0};
-    writePixels(values, 2, false, HdFormatFloat32Vec2, reals);
-    EXPECT_EQ(reals[1], 2.0f);
-    EXPECT_EQ(reals[2], 5.0f);
-    EXPECT_EQ(reals[3], 6.0f);
-    const float ids[8] = {bits(7), 9, 9, 9, bits(-1), 9, 9, 9};
-    int32_t whole[2] = {0, 0};
-    writePixels(ids, 2, true, HdFormatInt32, whole);
-    EXPECT_EQ(whole[0], 7);
-    EXPECT_EQ(whole[1], -1);
-    writePixels(ids, 2, true, HdFormatFloat32Vec2, reals);
-    EXPECT_EQ(reals[0], 7.0f);
-    EXPECT_EQ(reals[1], 0.0f);
-    EXPECT_EQ(reals[2], -1.0f);
+    EXPECT_EQ(written<float>({1, 2, 3, 4, 5, 6, 7, 8}, HdFormatFloat32Vec2, 4),
+              (std::vector<float>{1, 2, 5, 6}));
+    const std::vector<float> ids = {floatOfBits(7), 9, 9, 9, floatOfBits(-1), 9, 9, 9};
+    EXPECT_EQ(written<int32_t>(ids, HdFormatInt32, 2, true), (std::vector<int32_t>{7, -1}));
+    EXPECT_EQ(written<float>(ids, HdFormatFloat32Vec2, 4, true), (std::vector<float>{7, 0, -1, 0}));
 }
 
 TEST(PixelFormats, NothingIsWrittenBeyondThePixel) {
@@ -97,14 +74,17 @@ TEST(PixelFormats, NothingIsWrittenBeyondThePixel) {
 }
 
 TEST(Aovs, HydraAndFilmMeanDifferentDepths) {
-    EXPECT_EQ(filmAovOf(HdAovTokens->depth), "deviceDepth");
-    EXPECT_EQ(filmAovOf(HdAovTokens->cameraDepth), "depth");
-    EXPECT_EQ(filmAovOf(HdAovTokens->color), "color");
-    EXPECT_EQ(filmAovOf(TfToken("primvars:st")), "primvars:st");
-    EXPECT_EQ(filmAovOf(TfToken("lpe:C.*")), "color");
-    EXPECT_EQ(filmAovOf(TfToken("lpe:C<RD>L")), "lpe:C<RD>L");
-    EXPECT_EQ(filmAovOf(TfToken("motionFore")), "motionForward") << "as RenderMan has it";
-    EXPECT_EQ(filmAovOf(TfToken("__Pref")), "Pref");
+    const std::map<std::string, std::string> names = {
+        {"depth", "deviceDepth"},
+        {"cameraDepth", "depth"},
+        {"color", "color"},
+        {"primvars:st", "primvars:st"},
+        {"lpe:C.*", "color"},
+        {"lpe:C<RD>L", "lpe:C<RD>L"},
+        {"motionFore", "motionForward"}, // as RenderMan has it
+        {"__Pref", "Pref"}};
+    for (const auto& [hydras, films] : names)
+        EXPECT_EQ(filmAovOf(TfToken(hydras)), films);
 }
 
 TEST(Aovs, LayersOfCryptomatteAreBuffers) {
@@ -118,16 +98,18 @@ TEST(Aovs, LayersOfCryptomatteAreBuffers) {
 }
 
 TEST(Aovs, DescriptorsFitTheFilm) {
-    EXPECT_EQ(aovDescriptor(HdAovTokens->depth).format, HdFormatFloat32);
-    EXPECT_EQ(aovDescriptor(HdAovTokens->primId).format, HdFormatInt32);
+    const std::map<std::string, HdFormat> formats = {{"depth", HdFormatFloat32},
+                                                     {"primId", HdFormatInt32},
+                                                     {"normal", HdFormatFloat32Vec3},
+                                                     {"primvars:st", HdFormatFloat32Vec2},
+                                                     {"key=lpe:C.*<L.'key'>", HdFormatFloat32Vec3},
+                                                     {"Ng", HdFormatFloat32Vec3},
+                                                     {"uv", HdFormatFloat32Vec2},
+                                                     {"motionBackward", HdFormatFloat32Vec2},
+                                                     {"nonsense", HdFormatInvalid}};
+    for (const auto& [name, format] : formats)
+        EXPECT_EQ(aovDescriptor(TfToken(name)).format, format) << name;
     EXPECT_EQ(aovDescriptor(HdAovTokens->primId).clearValue, VtValue(-1));
-    EXPECT_EQ(aovDescriptor(HdAovTokens->normal).format, HdFormatFloat32Vec3);
-    EXPECT_EQ(aovDescriptor(TfToken("primvars:st")).format, HdFormatFloat32Vec2);
-    EXPECT_EQ(aovDescriptor(TfToken("key=lpe:C.*<L.'key'>")).format, HdFormatFloat32Vec3);
-    EXPECT_EQ(aovDescriptor(TfToken("Ng")).format, HdFormatFloat32Vec3);
-    EXPECT_EQ(aovDescriptor(TfToken("uv")).format, HdFormatFloat32Vec2);
-    EXPECT_EQ(aovDescriptor(TfToken("motionBackward")).format, HdFormatFloat32Vec2);
-    EXPECT_EQ(aovDescriptor(TfToken("nonsense")).format, HdFormatInvalid);
 }
 
 TEST(ClearValue, ReadsWhatHostsSend) {

@@ -16,7 +16,7 @@ const SdfPath path("/prim");
 class PrimsOfHosts : public FakeHost {
 protected:
     void set(const TfToken& name, const VtValue& value) {
-        scene->setPrimvar(path, name, HdInterpolationVertex, {{0.0f, value}});
+        scene->setPrimvar(path, name, HdInterpolationVertex, value);
     }
     template <class Prim> std::shared_ptr<const Prim> drawn() {
         const auto scene = state();
@@ -53,8 +53,7 @@ TEST_F(PrimsOfHosts, StandInsOfModelsAreThinLinesBetweenPairsOfPoints) {
                                           VtIntArray{4}, VtIntArray{0, 1, 0, 2});
     set(HdTokens->points,
         VtValue(VtVec3fArray{GfVec3f(0.0f), GfVec3f(3.0f, 0.0f, 0.0f), GfVec3f(0.0f, 4.0f, 0.0f)}));
-    scene->setPrimvar(path, HdTokens->widths, HdInterpolationConstant,
-                      {{0.0f, VtValue(VtFloatArray{1.0f})}});
+    scene->setPrimvar(path, HdTokens->widths, HdInterpolationConstant, VtValue(VtFloatArray{1.0f}));
     syncRprim(HdPrimTypeTokens->basisCurves, path);
     const auto lines = drawn<Curves>();
     ASSERT_TRUE(lines);

@@ -24,6 +24,16 @@ HdPatinaPixels imageOf(const std::vector<float>& values) {
     return image;
 }
 
+/// Pixels of one float.
+bool allocate(HdPatinaRenderBuffer& buffer, int width, int height) {
+    return buffer.Allocate(GfVec3i(width, height, 1), HdFormatFloat32, false);
+}
+float valueAt(HdPatinaRenderBuffer& buffer, size_t i) {
+    const float found = static_cast<float*>(buffer.Map())[i];
+    buffer.Unmap();
+    return found;
+}
+
 /// A device whose pixels are all one number.
 struct OneNumber : DeviceImage {
     explicit OneNumber(float number, size_t size) : values(size, number) {}
@@ -52,7 +62,7 @@ TEST(RenderBuffer, RefusesWhatItCannotHold) {
 
 TEST(RenderBuffer, CountsItsMappers) {
     HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
-    ASSERT_TRUE(buffer.Allocate(GfVec3i(3, 2, 1), HdFormatFloat32, false));
+    ASSERT_TRUE(allocate(buffer, 3, 2));
     buffer.Map();
     buffer.Map();
     buffer.Unmap();
@@ -63,31 +73,24 @@ TEST(RenderBuffer, CountsItsMappers) {
     EXPECT_FALSE(buffer.IsMapped());
     EXPECT_TRUE(buffer.take(image));
     EXPECT_EQ(image.bytes, imageOf(std::vector<float>(6, 0.0f)).bytes) << "the memory of before";
-    EXPECT_EQ(static_cast<float*>(buffer.Map())[5], 1.0f);
-    buffer.Unmap();
+    EXPECT_EQ(valueAt(buffer, 5), 1.0f);
     buffer.Unmap(); // one too many
     EXPECT_FALSE(buffer.IsMapped());
 }
 
 TEST(RenderBuffer, LeavesImagesOfAnotherSizeAlone) {
     HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
-    ASSERT_TRUE(buffer.Allocate(GfVec3i(2, 1, 1), HdFormatFloat32, false));
+    ASSERT_TRUE(allocate(buffer, 2, 1));
     HdPatinaPixels larger = imageOf({1.0f, 2.0f, 3.0f}), none;
     EXPECT_TRUE(buffer.take(larger));
     EXPECT_TRUE(buffer.take(none));
     EXPECT_EQ(larger.bytes, imageOf({1.0f, 2.0f, 3.0f}).bytes);
-    EXPECT_EQ(static_cast<float*>(buffer.Map())[1], 0.0f);
-    buffer.Unmap();
+    EXPECT_EQ(valueAt(buffer, 1), 0.0f);
 }
 
 TEST(RenderBuffer, ReadsWhatIsOnADeviceWhenAHostMapsIt) {
     HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
-    ASSERT_TRUE(buffer.Allocate(GfVec3i(2, 1, 1), HdFormatFloat32, false));
-    const auto number = [&] {
-        const float found = static_cast<float*>(buffer.Map())[1];
-        buffer.Unmap();
-        return found;
-    };
+    ASSERT_TRUE(allocate(buffer, 2, 1));
     const auto first = std::make_shared<OneNumber>(1.0f, 2);
     HdPatinaPixels image;
     image.device = first;
@@ -95,47 +98,39 @@ TEST(RenderBuffer, ReadsWhatIsOnADeviceWhenAHostMapsIt) {
     buffer.Resolve();
     EXPECT_TRUE(buffer.GetResource(false).IsEmpty()) << "the host has no Hgi";
     EXPECT_EQ(first->reads, 0);
-    EXPECT_EQ(number(), 1.0f);
-    EXPECT_EQ(number(), 1.0f);
+    EXPECT_EQ(valueAt(buffer, 1), 1.0f);
+    EXPECT_EQ(valueAt(buffer, 1), 1.0f);
     EXPECT_EQ(first->reads, 1);
     HdPatinaPixels other = imageOf({2.0f, 3.0f});
     EXPECT_TRUE(buffer.take(other));
-    EXPECT_EQ(number(), 3.0f);
+    EXPECT_EQ(valueAt(buffer, 1), 3.0f);
     HdPatinaPixels again;
     again.device = std::make_shared<OneNumber>(4.0f, 2);
     EXPECT_TRUE(buffer.take(again));
-    ASSERT_TRUE(buffer.Allocate(GfVec3i(2, 1, 1), HdFormatFloat32, false));
-    EXPECT_EQ(number(), 0.0f) << "of another allocation";
+    ASSERT_TRUE(allocate(buffer, 2, 1));
+    EXPECT_EQ(valueAt(buffer, 1), 0.0f) << "of another allocation";
 }
 
 TEST(RenderBuffer, EveryAllocationHasANumberOfItsOwn) {
     HdPatinaRenderBuffer a(SdfPath("/a"), textures), b(SdfPath("/b"), textures);
-    a.Allocate(GfVec3i(2, 2, 1), HdFormatFloat32, false);
+    allocate(a, 2, 2);
     const unsigned first = a.allocation();
-    a.Allocate(GfVec3i(2, 2, 1), HdFormatFloat32, false);
-    b.Allocate(GfVec3i(2, 2, 1), HdFormatFloat32, false);
+    allocate(a, 2, 2);
+    allocate(b, 2, 2);
     EXPECT_NE(a.allocation(), first);
     EXPECT_NE(a.allocation(), b.allocation());
 }
 
-TEST(RenderBuffer, ClearsToTheHostsColour) {
-    HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
-    buffer.Allocate(GfVec3i(1, 1, 1), HdFormatFloat32Vec4, false);
-    buffer.clear(VtValue(GfVec4f(0.1f, 0.2f, 0.3f, 1.0f)));
-    EXPECT_EQ(static_cast<float*>(buffer.Map())[2], 0.3f);
-    buffer.Unmap();
-}
-
 TEST(RenderBuffer, KeepsPixelsThatAreMappedWhileItIsAllocatedAnew) {
-    HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
     const Warnings warnings;
     const size_t size = 64 * 64;
-    ASSERT_TRUE(buffer.Allocate(GfVec3i(64, 64, 1), HdFormatFloat32, false));
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"), textures);
+    ASSERT_TRUE(allocate(buffer, 64, 64));
     HdPatinaPixels ones = imageOf(std::vector<float>(size, 1.0f));
     ASSERT_TRUE(buffer.take(ones));
     const auto* old = static_cast<const float*>(buffer.Map());
-    ASSERT_TRUE(buffer.Allocate(GfVec3i(128, 128, 1), HdFormatFloat32, false));
-    ASSERT_TRUE(buffer.Allocate(GfVec3i(4, 4, 1), HdFormatFloat32, false));
+    ASSERT_TRUE(allocate(buffer, 128, 128));
+    ASSERT_TRUE(allocate(buffer, 4, 4));
     EXPECT_EQ(std::count(old, old + size, 1.0f), std::ptrdiff_t(size)) << "a host is reading";
     EXPECT_EQ(warnings.of("is freed while it is mapped"), 1);
     EXPECT_FALSE(buffer.IsMapped()) << "of the new pixels there is no map";

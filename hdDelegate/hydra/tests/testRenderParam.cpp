@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/instances.h"
 #include "hdDelegate/hydra/renderParam.h"
+#include "hdDelegate/scene/tests/prims.h"
 
-#include <gtest/gtest.h>
+#include "base/tests/testTools.h"
 
 #include <atomic>
 #include <thread>
@@ -20,10 +21,9 @@ SdfPath pathOf(const char* kind, int number) {
 /// A prim's changes to the shared state while it syncs. Prims change places with every round.
 void syncPrim(HdPatinaRenderParam& param, int number, int round) {
     const SdfPath path = pathOf("prim", number), instancer = pathOf("instancer", number % 5);
-    auto camera = std::make_shared<Camera>();
-    camera->path = path.GetString();
+    auto camera = makePrim<Camera>(path.GetString());
     camera->focalLength = float(round);
-    param.set(std::shared_ptr<const Camera>(camera));
+    param.set<Camera>(camera);
 
     auto data = std::make_shared<HdPatinaInstanceData>();
     data->transforms.resize(3);
@@ -54,14 +54,10 @@ TEST(HydraRenderParam, PrimsSyncSideBySide) {
         }
     });
     for (int round = 0; round < rounds; ++round) {
-        std::vector<std::thread> threads;
-        for (int thread = 0; thread < threadCount; ++thread)
-            threads.emplace_back([&, thread] {
-                for (int i = 0; i < primsOfThread; ++i)
-                    syncPrim(param, i * threadCount + thread, round);
-            });
-        for (std::thread& thread : threads)
-            thread.join();
+        onThreads(threadCount, [&](int thread) {
+            for (int i = 0; i < primsOfThread; ++i)
+                syncPrim(param, i * threadCount + thread, round);
+        });
         EXPECT_TRUE(param.commit());
     }
     done = true;

@@ -3,6 +3,7 @@
 #include "hdDelegate/hydra/renderDelegate.h"
 #include "hdDelegate/hydra/renderPass.h"
 #include "hdDelegate/hydra/renderProducts.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <gtest/gtest.h>
 #include <pxr/imaging/hd/renderIndex.h>
@@ -19,6 +20,13 @@ using namespace patina;
 namespace {
 
 const SdfPath productPath("/Render/product");
+
+void setProduct(HdPatinaDelegateState& state, const HdRenderSettings::RenderProduct& product) {
+    HdPatinaSettingsPrim prim;
+    prim.active = true;
+    prim.products = {product};
+    state.setSettingsPrim(SdfPath("/Render/settings"), prim);
+}
 
 /// One product of 8 x 4 pixels is to be written.
 std::shared_ptr<HdPatinaDelegateState> stateWith(const GfRange2f& window) {
@@ -37,10 +45,7 @@ std::shared_ptr<HdPatinaDelegateState> stateWith(const GfRange2f& window) {
     product.pixelAspectRatio = 1.0f;
     product.dataWindowNDC = window;
     product.disableMotionBlur = false;
-    HdPatinaSettingsPrim prim;
-    prim.active = true;
-    prim.products = {product};
-    state->setSettingsPrim(SdfPath("/Render/settings"), prim);
+    setProduct(*state, product);
     return state;
 }
 
@@ -86,22 +91,13 @@ TEST(RenderProducts, WindowsWithoutPixelsAreToldOf) {
 
 TEST(RenderProducts, OfTypeDeepRasterAreDeepImages) {
     const auto state = stateWith(GfRange2f());
-    Camera camera;
-    camera.path = "/camera";
-    state->param.set(std::shared_ptr<const Camera>(std::make_shared<Camera>(camera)));
-    auto ball = std::make_shared<Implicit>();
-    ball->path = "/ball";
-    ball->transform = dmat4(1.0);
-    ball->transform.values[0][3] = glm::dvec4(0, 0, -20, 1);
-    state->param.set(std::shared_ptr<const Geometry>(ball));
+    state->param.set<Camera>(makePrim<Camera>("/camera"));
+    state->param.set<Geometry>(makePrim<Implicit>("/ball", translate(0, 0, -20)));
     HdRenderSettings::RenderProduct product = state->products().front();
     const std::string file = testing::TempDir() + "patinaDeepProduct.exr";
     product.type = TfToken("deepRaster");
     product.name = TfToken(file);
-    HdPatinaSettingsPrim prim;
-    prim.active = true;
-    prim.products = {product};
-    state->setSettingsPrim(SdfPath("/Render/settings"), prim);
+    setProduct(*state, product);
     HdPatinaRenderProducts products(*state);
     while (!products.update())
         std::this_thread::sleep_for(std::chrono::milliseconds(5));

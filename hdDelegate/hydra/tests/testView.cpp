@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/view.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <gtest/gtest.h>
 #include <pxr/base/gf/camera.h>
@@ -27,14 +28,18 @@ struct NamedCamera : HdCamera {
     explicit NamedCamera(const SdfPath& id) : HdCamera(id) {}
 };
 
-PrimMap<Camera> oneCamera() {
-    auto camera = std::make_shared<Camera>();
-    camera->path = "/camera";
+/// What a framing shows of a camera of aspect 2.
+HdPatinaView viewOfCamera(const CameraUtilFraming& framing, int width, int height) {
+    auto camera = makePrim<Camera>("/camera");
     camera->horizontalAperture = 20.0f;
     camera->verticalAperture = 10.0f;
     PrimMap<Camera> cameras;
     cameras.set(camera->path, camera);
-    return cameras;
+    const NamedCamera named(SdfPath("/camera"));
+    HdRenderPassState state;
+    state.SetCamera(&named);
+    state.SetFraming(framing);
+    return viewOf(state, cameras, width, height, "/own");
 }
 
 } // namespace
@@ -77,24 +82,16 @@ TEST(View, RecoversOrthographicCamerasToo) {
 }
 
 TEST(View, LooksThroughTheScenesCameraWhereItCan) {
-    const NamedCamera camera(SdfPath("/camera"));
-    HdRenderPassState state;
-    state.SetCamera(&camera);
-    state.SetFraming(CameraUtilFraming(GfRect2i(GfVec2i(0), 64, 48)));
-    const HdPatinaView view = viewOf(state, oneCamera(), 64, 48, "/own");
+    const auto view = viewOfCamera(CameraUtilFraming(GfRect2i(GfVec2i(0), 64, 48)), 64, 48);
     EXPECT_FALSE(view.ownCamera);
     EXPECT_EQ(view.cameraPath, "/camera");
     EXPECT_LT(view.dataWindow[2], view.dataWindow[0]) << "the whole image";
 }
 
 TEST(View, CropsToTheDataWindow) {
-    const NamedCamera camera(SdfPath("/camera"));
-    HdRenderPassState state;
-    state.SetCamera(&camera);
     CameraUtilFraming framing(GfRect2i(GfVec2i(0), 64, 48));
     framing.dataWindow = GfRect2i(GfVec2i(8, 4), 16, 10);
-    state.SetFraming(framing);
-    const HdPatinaView view = viewOf(state, oneCamera(), 64, 48, "/own");
+    const HdPatinaView view = viewOfCamera(framing, 64, 48);
     EXPECT_FALSE(view.ownCamera);
     EXPECT_EQ(view.dataWindow[0], 8);
     EXPECT_EQ(view.dataWindow[1], 4);
@@ -103,14 +100,10 @@ TEST(View, CropsToTheDataWindow) {
 }
 
 TEST(View, PlacesADisplayWindowInALargerBuffer) {
-    const NamedCamera camera(SdfPath("/camera"));
-    HdRenderPassState state;
-    state.SetCamera(&camera);
     // The display window has the camera's aspect and fills the upper left quarter of the buffer.
     const CameraUtilFraming framing(GfRange2f(GfVec2f(0, 0), GfVec2f(40, 20)),
                                     GfRect2i(GfVec2i(0), 80, 40));
-    state.SetFraming(framing);
-    const HdPatinaView view = viewOf(state, oneCamera(), 80, 40, "/own");
+    const HdPatinaView view = viewOfCamera(framing, 80, 40);
     ASSERT_TRUE(view.ownCamera);
     EXPECT_EQ(view.policy, "distortAperture");
     EXPECT_FLOAT_EQ(view.camera.horizontalAperture, 40.0f);

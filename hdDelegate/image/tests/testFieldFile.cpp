@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grids of OpenVDB files, as they were written.
 
-#include "hdDelegate/image/fieldGrids.h"
 #include "base/limits.h"
-
-#include <gtest/gtest.h>
+#include "base/tests/testTools.h"
+#include "hdDelegate/film/tests/tempFolder.h"
+#include "hdDelegate/image/fieldGrids.h"
 
 #ifdef PATINA_HAS_OPENVDB
 #include <openvdb/openvdb.h>
 #endif
-
-#include <cstdio>
-#include <fstream>
-#include <iterator>
-#include <string>
-#include <thread>
-#include <vector>
 
 #include <sys/stat.h>
 
@@ -23,59 +16,81 @@ using namespace patina;
 
 namespace {
 
-#ifdef PATINA_HAS_OPENVDB
-/// A file of a sparse grid of numbers and one of vectors. @returns its bytes
-std::string writeGrids(const std::string& file) {
-    openvdb::initialize();
-    auto density = openvdb::FloatGrid::create(0.0f);
-    density->setName("density");
-    for (int i = 0; i < 12; ++i)
-        density->tree().setValue(openvdb::Coord(i * 5, i * 3, i), 1.0f + float(i));
-    auto color = openvdb::Vec3SGrid::create(openvdb::Vec3f(0.0f));
-    color->setName("color");
-    color->tree().setValue(openvdb::Coord(1, 2, 3), openvdb::Vec3f(1, 2, 3));
-    openvdb::io::File(file).write({density, color});
-    std::ifstream in(file, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-}
-#endif
+class FieldFile : public testing::Test {
+protected:
+    TempFolder temp;
+    const std::string file = temp.file("grids.vdb");
+    Diagnostics diagnostics;
+
+    std::shared_ptr<const FieldGrid> read(const std::string& name) {
+        return readFieldGrid(file, name, "/volume", diagnostics);
+    }
+};
 
 } // namespace
 
-TEST(FieldFile, MissingFilesAreReported) {
-    Diagnostics diagnostics;
-    EXPECT_EQ(readFieldGrid("/does/not/exist.vdb", "density", "/volume", diagnostics), nullptr);
-    ASSERT_EQ(diagnostics.count(), 1);
-    EXPECT_EQ(diagnostics.all()[0].prim, "/volume");
+TEST_F(FieldFile, MissingFilesAreReported) {
+    EXPECT_EQ(read("density"), nullptr);
+    EXPECT_EQ(onlyWarning(diagnostics).find("/volume "), 0u);
 }
 
-TEST(FieldFile, ValuesTilesAndTransforms) {
+TEST_F(FieldFile, OnlyRegularFilesAreRead) {
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    EXPECT_EQ(read("density"), nullptr); // would wait
+    EXPECT_EQ(readFieldGrid("/dev/zero", "density", "/volume", diagnostics), nullptr);
+    EXPECT_EQ(diagnostics.count(), 2);
+#ifdef PATINA_HAS_OPENVDB
+    for (const Diagnostic& found : diagnostics.all())
+        EXPECT_TRUE(has(found.message, "not a regular file")) << found.message;
+#endif
+}
+
 #ifndef PATINA_HAS_OPENVDB
+TEST_F(FieldFile, OfOpenVdb) {
     GTEST_SKIP() << "this build has no OpenVDB";
+}
 #else
+
+namespace {
+
+template <class Grid> typename Grid::Ptr gridOf(const std::string& name) {
     openvdb::initialize();
-    auto density = openvdb::FloatGrid::create(0.0f);
-    density->setName("density");
+    auto grid = Grid::create(typename Grid::ValueType(0.0f));
+    grid->setName(name);
+    return grid;
+}
+
+openvdb::Vec3SGrid::Ptr colorGrid() {
+    auto color = gridOf<openvdb::Vec3SGrid>("color");
+    color->tree().setValue(openvdb::Coord(1, 2, 3), openvdb::Vec3f(1, 2, 3));
+    return color;
+}
+
+/// A file of a sparse grid of numbers and one of vectors.
+void writeGrids(const std::string& file) {
+    auto density = gridOf<openvdb::FloatGrid>("density");
+    for (int i = 0; i < 12; ++i)
+        density->tree().setValue(openvdb::Coord(i * 5, i * 3, i), 1.0f + float(i));
+    openvdb::io::File(file).write({density, colorGrid()});
+}
+
+} // namespace
+
+TEST_F(FieldFile, ValuesTilesAndTransforms) {
+    auto density = gridOf<openvdb::FloatGrid>("density");
     density->tree().setValue(openvdb::Coord(-9, 3, 20), 2.0f);
     density->tree().fill(openvdb::CoordBBox({0, 0, 0}, {15, 15, 15}), 0.5f);
     openvdb::math::Mat4d m = openvdb::math::Mat4d::identity();
     m.preScale(openvdb::Vec3d(0.5, 0.25, 2.0));
     m.postTranslate(openvdb::Vec3d(1, 2, 3));
     density->setTransform(openvdb::math::Transform::createLinearTransform(m));
-    auto color = openvdb::Vec3SGrid::create(openvdb::Vec3f(0.0f));
-    color->setName("color");
-    color->tree().setValue(openvdb::Coord(1, 2, 3), openvdb::Vec3f(1, 2, 3));
-    auto empty = openvdb::FloatGrid::create(0.0f);
-    empty->setName("empty");
-    const std::string file = testing::TempDir() + "patinaFields.vdb";
-    openvdb::io::File(file).write({density, color, empty});
+    openvdb::io::File(file).write({density, colorGrid(), gridOf<openvdb::FloatGrid>("empty")});
 
-    Diagnostics diagnostics;
-    const auto read = readFieldGrid(file, "density", "/volume", diagnostics);
-    ASSERT_NE(read, nullptr);
+    const auto grid = read("density");
+    ASSERT_NE(grid, nullptr);
     const auto at = [&](int x, int y, int z) {
         const openvdb::Vec3d p = density->transform().indexToWorld(openvdb::Coord(x, y, z));
-        return read->sample(vec3(p.x(), p.y(), p.z())).x;
+        return grid->sample(vec3(p.x(), p.y(), p.z())).x;
     };
     EXPECT_NEAR(at(-9, 3, 20), 2.0f, 1e-4f);
     EXPECT_NEAR(at(-8, 3, 20), 0.0f, 1e-4f);
@@ -83,34 +98,27 @@ TEST(FieldFile, ValuesTilesAndTransforms) {
     EXPECT_NEAR(at(15, 15, 15), 0.5f, 1e-4f);
     EXPECT_NEAR(at(17, 15, 15), 0.0f, 1e-4f);
 
-    const auto vectors = readFieldGrid(file, "color", "/volume", diagnostics);
+    const auto vectors = read("color");
     ASSERT_NE(vectors, nullptr);
     EXPECT_EQ(vectors->components(), 3);
     EXPECT_NEAR(vectors->sample(vec3(1, 2, 3)).y, 2.0f, 1e-4f);
     EXPECT_EQ(diagnostics.count(), 0);
 
-    EXPECT_EQ(readFieldGrid(file, "empty", "/volume", diagnostics), nullptr);
-    EXPECT_EQ(readFieldGrid(file, "other", "/volume", diagnostics), nullptr);
+    EXPECT_EQ(read("empty"), nullptr);
+    EXPECT_EQ(read("other"), nullptr);
     EXPECT_EQ(diagnostics.count(), 2);
-    std::FILE* bad = std::fopen(file.c_str(), "wb");
-    std::fputs("not a grid", bad);
-    std::fclose(bad);
-    EXPECT_EQ(readFieldGrid(file, "density", "/volume", diagnostics), nullptr);
-    std::remove(file.c_str());
-#endif
+    writeFile(file, "not a grid");
+    EXPECT_EQ(read("density"), nullptr);
 }
 
-TEST(FieldFile, DamagedFilesAreReportedAndEndNothing) {
-#ifndef PATINA_HAS_OPENVDB
-    GTEST_SKIP() << "this build has no OpenVDB";
-#else
-    const std::string file = testing::TempDir() + "patinaDamaged.vdb";
-    const std::string good = writeGrids(file);
+TEST_F(FieldFile, DamagedFilesAreReportedAndEndNothing) {
+    writeGrids(file);
+    const std::string good = bytesOfFile(file);
     ASSERT_GT(good.size(), 12000u);
     const auto readDamaged = [&](const std::string& bytes) {
-        std::ofstream(file, std::ios::binary) << bytes;
-        Diagnostics diagnostics;
-        const bool whole = bool(readFieldGrid(file, "density", "/volume", diagnostics));
+        writeFile(file, bytes);
+        diagnostics.clear();
+        const bool whole = bool(read("density"));
         EXPECT_EQ(diagnostics.count(), whole ? 0 : 1);
         const std::string message = whole ? "" : diagnostics.all()[0].message;
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -126,47 +134,29 @@ TEST(FieldFile, DamagedFilesAreReportedAndEndNothing) {
     for (size_t part : {8, 5, 3})
         EXPECT_NE(readDamaged(good.substr(0, good.size() * part / 9)), "") << "broken off";
     EXPECT_EQ(readDamaged(good), "") << "reading goes on working";
-    std::remove(file.c_str());
-#endif
 }
 
-TEST(FieldFile, VoxelsTakeNoMoreThanALimit) {
-#ifndef PATINA_HAS_OPENVDB
-    GTEST_SKIP() << "this build has no OpenVDB";
-#else
-    openvdb::initialize();
-    auto density = openvdb::FloatGrid::create(0.0f);
-    density->setName("density");
+TEST_F(FieldFile, VoxelsTakeNoMoreThanALimit) {
+    auto density = gridOf<openvdb::FloatGrid>("density");
     density->tree().addTile(2, openvdb::Coord(0), 1.0f, true); // 128 voxels wide, of one number
-    const std::string file = testing::TempDir() + "patinaTile.vdb";
     openvdb::io::File(file).write({density});
-    Diagnostics diagnostics;
-    EXPECT_NE(readFieldGrid(file, "density", "/volume", diagnostics), nullptr);
+    EXPECT_NE(read("density"), nullptr);
     setLimits({{"textureBytes", 1000000}});
-    EXPECT_EQ(readFieldGrid(file, "density", "/volume", diagnostics), nullptr);
+    EXPECT_EQ(read("density"), nullptr);
     setLimits({});
-    ASSERT_EQ(diagnostics.count(), 1);
-    EXPECT_NE(diagnostics.all()[0].message.find("--limit textureBytes"), std::string::npos);
-#endif
+    EXPECT_TRUE(has(onlyMessage(diagnostics), "--limit textureBytes"));
 }
 
-TEST(FieldFile, GridsAreSharedAndTogetherWithinALimit) {
-#ifndef PATINA_HAS_OPENVDB
-    GTEST_SKIP() << "this build has no OpenVDB";
-#else
-    openvdb::initialize();
-    const std::string file = testing::TempDir() + "patinaSparse.vdb";
+TEST_F(FieldFile, GridsAreSharedAndTogetherWithinALimit) {
     openvdb::GridPtrVec written;
     for (const char* name : {"density", "heat"}) {
-        auto grid = openvdb::FloatGrid::create(0.0f);
-        grid->setName(name);
+        auto grid = gridOf<openvdb::FloatGrid>(name);
         // Two voxels far from each other: 64 bricks along each axis, a megabyte of places.
         for (const int at : {0, 511})
             grid->tree().setValueOn(openvdb::Coord(at), 1.0f);
         written.push_back(grid);
     }
     openvdb::io::File(file).write(written);
-    Diagnostics diagnostics;
     FieldGrids grids;
     const auto first = grids.read(file, "density", "/a", diagnostics);
     ASSERT_TRUE(first);
@@ -175,55 +165,28 @@ TEST(FieldFile, GridsAreSharedAndTogetherWithinALimit) {
     setLimits({{"gridBytes", 2 * first->bytes() - 1}});
     EXPECT_EQ(grids.read(file, "density", "/b", diagnostics), first);
     EXPECT_EQ(grids.read(file, "heat", "/b", diagnostics), nullptr);
-    ASSERT_EQ(diagnostics.count(), 1);
-    EXPECT_NE(diagnostics.all()[0].message.find("--limit gridBytes"), std::string::npos);
+    EXPECT_TRUE(has(onlyMessage(diagnostics), "--limit gridBytes"));
     setLimits({{"textureBytes", 1000000}});
-    EXPECT_EQ(readFieldGrid(file, "heat", "/c", diagnostics), nullptr) << "places count as well";
+    EXPECT_EQ(read("heat"), nullptr) << "places count as well";
     setLimits({});
     EXPECT_NE(grids.read(file, "heat", "/b", diagnostics), nullptr);
-    std::remove(file.c_str());
-#endif
 }
 
-TEST(FieldFile, GridsAreReadOnManyThreadsAtOnce) {
-#ifndef PATINA_HAS_OPENVDB
-    GTEST_SKIP() << "this build has no OpenVDB";
-#else
-    const std::string file = testing::TempDir() + "patinaThreads.vdb";
+TEST_F(FieldFile, GridsAreReadOnManyThreadsAtOnce) {
     writeGrids(file);
-    Diagnostics diagnostics;
-    std::vector<std::thread> threads;
-    for (int i = 0; i < 4; ++i)
-        threads.emplace_back([&] {
-            const auto grid = readFieldGrid(file, "density", "/volume", diagnostics);
-            ASSERT_NE(grid, nullptr);
-            EXPECT_NEAR(grid->sample(vec3(55, 33, 11)).x, 12.0f, 1e-4f);
-            EXPECT_NE(readFieldGrid(file, "color", "/volume", diagnostics), nullptr);
-        });
-    for (std::thread& thread : threads)
-        thread.join();
+    onThreads(4, [&](int) {
+        const auto grid = read("density");
+        ASSERT_NE(grid, nullptr);
+        EXPECT_NEAR(grid->sample(vec3(55, 33, 11)).x, 12.0f, 1e-4f);
+        EXPECT_NE(read("color"), nullptr);
+    });
     EXPECT_EQ(diagnostics.count(), 0);
-    std::remove(file.c_str());
-#endif
 }
 
-TEST(FieldFile, OnlyRegularFilesAreReadAndNamesMayBeAnyBytes) {
-    const std::string pipe = testing::TempDir() + "patinaPipe.vdb";
-    std::remove(pipe.c_str());
-    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    Diagnostics diagnostics;
-    EXPECT_EQ(readFieldGrid(pipe, "density", "/volume", diagnostics), nullptr); // would wait
-    EXPECT_EQ(readFieldGrid("/dev/zero", "density", "/volume", diagnostics), nullptr);
-    std::remove(pipe.c_str());
-#ifdef PATINA_HAS_OPENVDB
-    for (const Diagnostic& found : diagnostics.all())
-        EXPECT_NE(found.message.find("not a regular file"), std::string::npos) << found.message;
-    const std::string file = testing::TempDir() + "patinaNames.vdb";
+TEST_F(FieldFile, NamesMayBeAnyBytes) {
     writeGrids(file);
-    EXPECT_EQ(readFieldGrid(file, "\xff\xfe", "/volume", diagnostics), nullptr);
-    EXPECT_NE(diagnostics.all().back().message.find("\xEF\xBF\xBD"), std::string::npos)
-        << "what is told is UTF-8";
-    std::remove(file.c_str());
-#endif
-    EXPECT_GE(diagnostics.count(), 2);
+    EXPECT_EQ(read("\xff\xfe"), nullptr);
+    EXPECT_TRUE(has(onlyMessage(diagnostics), "\xEF\xBF\xBD")) << "what is told is UTF-8";
 }
+
+#endif

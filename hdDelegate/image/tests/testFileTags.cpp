@@ -1,39 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What image files say of their colours and of their edges.
-#include "hdDelegate/film/tests/tempFolder.h"
 #include "hdDelegate/image/iccProfile.h"
-#include "hdDelegate/image/textureSystem.h"
-
-#include <OpenImageIO/imageio.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
+#include "hdDelegate/image/tests/imageFixtures.h"
 
 namespace patina {
 
 namespace {
 
-float srgb(float v) {
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
-using Attributes = std::function<void(OIIO::ImageSpec&)>;
-
-void writeTagged(const std::string& file, std::vector<float> channels, OIIO::TypeDesc type,
-                 const Attributes& tag) {
-    OIIO::ImageSpec spec(4, 4, int(channels.size()), type);
-    spec.attribute("CompressionQuality", 100);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    tag(spec);
-    auto out = OIIO::ImageOutput::create(file);
-    ASSERT_TRUE(out && out->open(file, spec)) << file << OIIO::geterror();
-    std::vector<float> pixels;
-    for (int i = 0; i < 16; ++i)
-        pixels.insert(pixels.end(), channels.begin(), channels.end());
-    ASSERT_TRUE(out->write_image(OIIO::TypeFloat, pixels.data())) << out->geterror();
-    ASSERT_TRUE(out->close());
-}
+using Attributes = Tag;
 
 /// Big-endian bytes of a profile.
 struct Profile {
@@ -102,20 +76,7 @@ struct Profile {
     }
 };
 
-class FileTags : public ::testing::Test {
-protected:
-    TempFolder temp;
-    Diagnostics diagnostics;
-    TextureSystem textures{diagnostics};
-
-    int open(const std::string& file, const std::string& colorSpace = "auto") {
-        TextureRequest request;
-        request.file = file;
-        request.colorSpace = colorSpace;
-        return textures.open(request);
-    }
-    glm::vec4 middle(int handle) { return textures.sample(handle, {0.5f, 0.5f}, 0.0f); }
-};
+class FileTags : public TextureTest {};
 
 } // namespace
 
@@ -151,7 +112,7 @@ TEST_F(FileTags, AutoFollowsWhatTheFileSays) {
         {"exif.jpg", grey, OIIO::TypeUInt8, exif, srgbB, coarse},
     };
     for (auto& k : cases) {
-        writeTagged(temp.file(k.file), k.channels, k.type, k.tag);
+        writeConstant(temp.file(k.file), 4, 4, k.channels, k.type, k.tag);
         EXPECT_NEAR(middle(open(temp.file(k.file))).g, k.expected, k.tolerance) << k.file;
         EXPECT_NEAR(middle(open(temp.file(k.file), "raw")).g, b, 1e-3f) << k.file;
     }
@@ -169,23 +130,21 @@ TEST_F(FileTags, AutoFollowsPrimaries) {
         EXPECT_LT(glm::length(middle(open(temp.file(file))) - expected), tolerance) << file;
         EXPECT_GT(glm::length(expected - middle(open(temp.file(file), "raw"))), 0.05f) << file;
     };
-    writeTagged(temp.file("ap1.exr"), color, OIIO::TypeFloat, chromaticities);
+    writeConstant(temp.file("ap1.exr"), 4, 4, color, OIIO::TypeFloat, chromaticities);
     compare("ap1.exr", "lin_ap1", 1e-5f);
-    writeTagged(temp.file("adobe.tif"), color, OIIO::TypeUInt16,
-                Profile::rgb(Profile::gamma(563 / 256.0), true));
+    writeConstant(temp.file("adobe.tif"), 4, 4, color, OIIO::TypeUInt16,
+                  Profile::rgb(Profile::gamma(563 / 256.0), true));
     compare("adobe.tif", "adobergb", 1e-3f);
     EXPECT_EQ(diagnostics.count(), 0);
 }
 
 TEST_F(FileTags, ProfilesThatAreNotFollowedAreTold) {
-    writeTagged(temp.file("odd.tif"), {0.5f, 0.5f, 0.5f}, OIIO::TypeUInt16,
-                Profile::rgb("curv" + Profile::number(0) + Profile::number(3) +
-                             Profile::number(0, 2) + Profile::number(9, 2) +
-                             Profile::number(65535, 2)));
+    writeConstant(temp.file("odd.tif"), 4, 4, {0.5f, 0.5f, 0.5f}, OIIO::TypeUInt16,
+                  Profile::rgb("curv" + Profile::number(0) + Profile::number(3) +
+                               Profile::number(0, 2) + Profile::number(9, 2) +
+                               Profile::number(65535, 2)));
     EXPECT_NEAR(middle(open(temp.file("odd.tif"))).g, 0.5f, 1e-4f);
-    ASSERT_EQ(diagnostics.count(), 1);
-    EXPECT_NE(diagnostics.all()[0].message.find("its ICC profile is none of a matrix and an"),
-              std::string::npos);
+    EXPECT_TRUE(has(onlyMessage(diagnostics), "its ICC profile is none of a matrix and an"));
     // Broken ones, of every length, are no reason to read beyond their end.
     std::string bytes =
         Profile().bytes + Profile::number(90) + "rXYZ" + Profile::number(0xfffffff0);
@@ -199,15 +158,10 @@ TEST_F(FileTags, WrapModesOfTheFile) {
     const auto write = [&](const char* file, const char* modes) {
         OIIO::ImageSpec spec(2, 2, 1, OIIO::TypeHalf);
         if (modes) spec.attribute("wrapmodes", modes);
-        auto out = OIIO::ImageOutput::create(temp.file(file));
-        const float pixels[] = {1, 2, 3, 4};
-        ASSERT_TRUE(out && out->open(temp.file(file), spec));
-        ASSERT_TRUE(out->write_image(OIIO::TypeFloat, pixels) && out->close());
+        writeImage(temp.file(file), spec, {1, 2, 3, 4});
     };
     const auto tiling = [&](const char* file, bool own) {
-        TextureRequest request;
-        request.file = temp.file(file);
-        request.colorSpace = "raw";
+        TextureRequest request = requestOf(temp.file(file), "raw");
         request.wrapS = request.wrapT = TextureWrap::Black;
         request.ownWrapS = request.ownWrapT = own;
         return textures.tiling(textures.open(request));

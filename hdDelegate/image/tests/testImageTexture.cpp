@@ -21,20 +21,30 @@ ImageTexture greyTexture(int width, int height, std::vector<float> values) {
     return t;
 }
 
-float at(const ImageTexture& t, float u, float v, Wrap s, Wrap w, float footprint = 0) {
+float at(const ImageTexture& t, float u, float v, Wrap s = Wrap::Clamp, Wrap w = Wrap::Clamp,
+         float footprint = 0) {
     return t.sample({u, v}, footprint, s, w).r;
+}
+
+/// Decodes eight bits.
+std::array<float, 256> squares() {
+    std::array<float, 256> square;
+    for (size_t i = 0; i < 256; ++i)
+        square[i] = float(i * i) / (255.0f * 255.0f);
+    return square;
 }
 
 } // namespace
 
 TEST(ImageTexture, TexelCentresGiveTexelsWithTheFirstRowOnTop) {
     ImageTexture t = greyTexture(2, 2, {1, 2, 3, 4});
-    EXPECT_FLOAT_EQ(at(t, 0.25f, 0.75f, Wrap::Clamp, Wrap::Clamp), 1);
-    EXPECT_FLOAT_EQ(at(t, 0.75f, 0.75f, Wrap::Clamp, Wrap::Clamp), 2);
-    EXPECT_FLOAT_EQ(at(t, 0.25f, 0.25f, Wrap::Clamp, Wrap::Clamp), 3);
-    EXPECT_FLOAT_EQ(at(t, 0.75f, 0.25f, Wrap::Clamp, Wrap::Clamp), 4);
-    EXPECT_FLOAT_EQ(at(t, 0.5f, 0.5f, Wrap::Clamp, Wrap::Clamp), 2.5f);
-    EXPECT_FLOAT_EQ(at(t, 0.375f, 0.75f, Wrap::Clamp, Wrap::Clamp), 1.25f);
+    for (const auto& [u, v, expected] : {std::tuple(0.25f, 0.75f, 1.0f),
+                                         {0.75f, 0.75f, 2.0f},
+                                         {0.25f, 0.25f, 3.0f},
+                                         {0.75f, 0.25f, 4.0f},
+                                         {0.5f, 0.5f, 2.5f},
+                                         {0.375f, 0.75f, 1.25f}})
+        EXPECT_FLOAT_EQ(at(t, u, v), expected) << u << " " << v;
 }
 
 TEST(ImageTexture, WrapModes) {
@@ -112,13 +122,15 @@ TEST(ImageTexture, TrilinearBlendsLevelsByTheLogarithmOfTheFootprint) {
     ImageTexture t = greyTexture(4, 4, {0, 16, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
     glm::vec2 uv(0.25f, 0.75f); // a texel centre of level 1, a corner in level 0
     float levels[3] = {4, 4, 1};
-    EXPECT_FLOAT_EQ(at(t, uv.x, uv.y, Wrap::Clamp, Wrap::Clamp, 0), levels[0]);
-    EXPECT_FLOAT_EQ(at(t, uv.x, uv.y, Wrap::Clamp, Wrap::Clamp, 0.25f), levels[0]);
-    EXPECT_FLOAT_EQ(at(t, uv.x, uv.y, Wrap::Clamp, Wrap::Clamp, 0.5f), levels[1]);
+    for (const auto& [footprint, expected] : {std::pair(0.0f, levels[0]),
+                                              {0.25f, levels[0]},
+                                              {0.5f, levels[1]},
+                                              {1.0f, levels[2]},
+                                              {1e30f, levels[2]}})
+        EXPECT_FLOAT_EQ(at(t, uv.x, uv.y, Wrap::Clamp, Wrap::Clamp, footprint), expected)
+            << footprint;
     EXPECT_NEAR(at(t, uv.x, uv.y, Wrap::Clamp, Wrap::Clamp, 0.5f * std::sqrt(2.0f)),
                 0.5f * (levels[1] + levels[2]), 1e-5f);
-    EXPECT_FLOAT_EQ(at(t, uv.x, uv.y, Wrap::Clamp, Wrap::Clamp, 1), levels[2]);
-    EXPECT_FLOAT_EQ(at(t, uv.x, uv.y, Wrap::Clamp, Wrap::Clamp, 1e30f), levels[2]);
     // off centre: level 0 at the texel centre is 16, level 1 is 0.75^2 * 4 there
     EXPECT_NEAR(at(t, 0.375f, 0.875f, Wrap::Clamp, Wrap::Clamp, 0.25f * std::pow(2.0f, 0.25f)),
                 0.75f * 16 + 0.25f * 3.0f, 1e-4f);
@@ -128,10 +140,7 @@ TEST(ImageTexture, EightBitColourIsDecodedAndAlphaIsNot) {
     ImageTexture t(2, 1, TexelLayout::Rgba, TexelType::U8);
     const uint8_t texels[] = {0, 100, 255, 128, 0, 200, 255, 64};
     std::copy(std::begin(texels), std::end(texels), static_cast<uint8_t*>(t.levelData(0)));
-    std::array<float, 256> square;
-    for (size_t i = 0; i < 256; ++i)
-        square[i] = float(i * i) / (255.0f * 255.0f);
-    t.setDecodeTable(square);
+    t.setDecodeTable(squares());
     t.buildPyramid();
     glm::vec4 c = t.texel(0, 0, 0);
     EXPECT_FLOAT_EQ(c.g, 100.0f * 100.0f / (255.0f * 255.0f));
@@ -181,9 +190,6 @@ TEST(ImageTexture, ChannelLayouts) {
 // A colour image with three equal channels is kept as grey, which must change no bit of a render.
 TEST(ImageTexture, GreyOfEqualChannelsIsSampledToTheSameBits) {
     constexpr int width = 37, height = 19;
-    std::array<float, 256> square;
-    for (size_t i = 0; i < 256; ++i)
-        square[i] = float(i * i) / (255.0f * 255.0f);
     std::mt19937 random(7);
     for (const TexelType type : {TexelType::U8, TexelType::U16, TexelType::Half, TexelType::Float})
         for (const TexelLayout layout : {TexelLayout::Rgb, TexelLayout::Rgba}) {
@@ -202,7 +208,7 @@ TEST(ImageTexture, GreyOfEqualChannelsIsSampledToTheSameBits) {
                         static_cast<uint16_t*>(data)[i * n + c] = uint16_t(v % 0x3c00);
                 }
             }
-            if (type == TexelType::U8) colored.setDecodeTable(square);
+            if (type == TexelType::U8) colored.setDecodeTable(squares());
             const std::shared_ptr<ImageTexture> grey = colored.asGrey();
             ASSERT_TRUE(grey);
             EXPECT_EQ(grey->channels(), layout == TexelLayout::Rgb ? 1 : 2);
@@ -235,12 +241,7 @@ TEST(ImageTexture, OneTexelOfColourKeepsAllChannels) {
 
 TEST(ImageTexture, CoordinatesThatAreNoNumbersDoNoHarm) {
     ImageTexture t = greyTexture(3, 3, {1, 1, 1, 1, 1, 1, 1, 1, 1});
-    float bad[] = {std::numeric_limits<float>::quiet_NaN(),
-                   std::numeric_limits<float>::infinity(),
-                   -std::numeric_limits<float>::infinity(),
-                   3e38f,
-                   -3e38f,
-                   1e10f};
+    const float bad[] = {NAN, INFINITY, -INFINITY, 3e38f, -3e38f, 1e10f};
     for (float u : bad)
         for (float v : bad)
             for (Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp, Wrap::Black})

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of files by OpenImageIO's cache, one cache after another.
-#include "hdDelegate/film/tests/tempFolder.h"
+#include "hdDelegate/image/tests/imageFixtures.h"
 #include "hdDelegate/image/textureCache.h"
 
-#include <OpenImageIO/imageio.h>
-#include <gtest/gtest.h>
-
 #include <atomic>
-#include <thread>
 
 namespace patina {
 
@@ -16,16 +12,13 @@ namespace {
 constexpr int side = 256, tile = 64;
 
 /// A tiled file whose texels tell where they are.
-void writeFile(const std::string& file) {
+void writeTiles(const std::string& file) {
     OIIO::ImageSpec spec(side, side, 1, OIIO::TypeUInt16);
     spec.tile_width = spec.tile_height = tile;
-    std::vector<uint16_t> texels;
+    std::vector<float> texels;
     for (int i = 0; i < side * side; ++i)
-        texels.push_back(uint16_t(i));
-    auto out = OIIO::ImageOutput::create(file);
-    ASSERT_TRUE(out && out->open(file, spec)) << OIIO::geterror();
-    ASSERT_TRUE(out->write_image(OIIO::TypeUInt16, texels.data())) << out->geterror();
-    ASSERT_TRUE(out->close());
+        texels.push_back(float(i) / 65535.0f);
+    writeImage(file, spec, texels);
 }
 
 /// @returns whether all blocks have the texels that were written
@@ -48,7 +41,7 @@ TEST(TextureCache, OneAfterAnotherServesTheSameThreads) {
     constexpr int rounds = 40;
     TempFolder folder;
     const std::string file = folder.file("texture.tif");
-    writeFile(file);
+    writeTiles(file);
     std::atomic<TextureCache*> cache{nullptr};
     std::atomic<int> round{0}, done{0}, wrong{0};
     // Threads that outlive each cache, as those of a pool do.
@@ -81,7 +74,7 @@ TEST(TextureCache, AFileThatChangesBetweenCachesIsReadAnew) {
     const std::string file = folder.file("texture.tif");
     for (const bool whole : {false, true, false}) {
         if (whole)
-            writeFile(file);
+            writeTiles(file);
         else
             std::filesystem::remove(file);
         TextureCache cache(10 << 20);

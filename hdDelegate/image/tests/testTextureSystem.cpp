@@ -1,76 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hdDelegate/film/tests/tempFolder.h"
 #include "hdDelegate/image/iesProfile.h"
-#include "hdDelegate/image/textureSystem.h"
+#include "hdDelegate/image/tests/imageFixtures.h"
 #include "hdDelegate/parallel.h"
 #include "base/limits.h"
 
-#include <OpenImageIO/imageio.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 namespace patina {
 
 namespace {
 
-float srgb(float v) {
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
-/// Writes a constant image of any format; channels are repeated over all pixels.
-void writeImage(const std::string& file, int width, int height, std::vector<float> channels,
-                OIIO::TypeDesc type, std::vector<std::string> names = {}) {
-    OIIO::ImageSpec spec(width, height, int(channels.size()), type);
-    if (!names.empty()) spec.channelnames = names;
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("CompressionQuality", 100);
-    auto out = OIIO::ImageOutput::create(file);
-    ASSERT_TRUE(out && out->open(file, spec)) << file << OIIO::geterror();
-    std::vector<float> pixels;
-    for (int i = 0; i < width * height; ++i)
-        pixels.insert(pixels.end(), channels.begin(), channels.end());
-    ASSERT_TRUE(out->write_image(OIIO::TypeFloat, pixels.data())) << out->geterror();
-    ASSERT_TRUE(out->close());
-}
-
-class Textures : public ::testing::Test {
+class Textures : public TextureTest {
 protected:
-    TempFolder temp;
-    Diagnostics diagnostics;
-    TextureSystem textures{diagnostics};
-
-    int open(const std::string& file, const std::string& colorSpace = "auto") {
-        TextureRequest request;
-        request.file = file;
-        request.colorSpace = colorSpace;
-        request.prim = "/Material/texture";
-        request.input = "inputs:file";
-        return textures.open(request);
-    }
-    glm::vec4 middle(int handle) { return textures.sample(handle, {0.5f, 0.5f}, 0.0f); }
     void expectMiddle(int handle, glm::vec4 expected, float tolerance, const std::string& what) {
         glm::vec4 c = middle(handle);
         for (int i = 0; i < 4; ++i)
             EXPECT_NEAR(c[i], expected[i], tolerance) << what << ", channel " << i;
     }
-    std::string onlyMessage() {
-        EXPECT_EQ(diagnostics.count(), 1);
-        if (diagnostics.count() < 1) return "";
-        Diagnostic d = diagnostics.all()[0];
-        return d.prim + " " + d.input + " " + d.message;
+    /// Writes a constant image of so many pixels along each side. @returns its path
+    std::string constant(const std::string& name, int side, const std::vector<float>& channels,
+                         OIIO::TypeDesc type = OIIO::TypeUInt8, const Tag& tag = {}) {
+        writeConstant(temp.file(name), side, side, channels, type, tag);
+        return temp.file(name);
+    }
+    void expectSample(int handle, glm::vec2 uv, const glm::vec4& expected) {
+        EXPECT_EQ(textures.sample(handle, uv, 0), expected) << uv.x << " " << uv.y;
     }
 };
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-const glm::vec4 magenta(1, 0, 1, 1);
 
 } // namespace
 
@@ -92,8 +48,7 @@ TEST_F(Textures, EightBitFlavoursWithTheColourSpaceThatAutoMeans) {
         {"rgb.bmp", {a, b, c}, {srgb(a), srgb(b), srgb(c), 1}},
     };
     for (auto& k : cases) {
-        writeImage(temp.file(k.file), 5, 3, k.channels, OIIO::TypeUInt8);
-        int handle = open(temp.file(k.file));
+        int handle = open(constant(k.file, 5, k.channels));
         EXPECT_TRUE(textures.valid(handle)) << k.file;
         EXPECT_EQ(textures.channels(handle), int(k.channels.size())) << k.file;
         expectMiddle(handle, k.expected, 2e-6f, k.file);
@@ -103,12 +58,11 @@ TEST_F(Textures, EightBitFlavoursWithTheColourSpaceThatAutoMeans) {
 }
 
 TEST_F(Textures, JpegWithOneAndThreeChannels) {
-    writeImage(temp.file("rgb.jpg"), 16, 16, {0.2f, 0.4f, 0.8f}, OIIO::TypeUInt8);
-    writeImage(temp.file("grey.jpg"), 16, 16, {0.4f}, OIIO::TypeUInt8);
-    expectMiddle(open(temp.file("rgb.jpg")), {srgb(0.2f), srgb(0.4f), srgb(0.8f), 1}, 0.012f,
-                 "rgb");
-    expectMiddle(open(temp.file("grey.jpg")), {0.4f, 0.4f, 0.4f, 1}, 0.005f, "grey");
-    EXPECT_EQ(textures.channels(open(temp.file("grey.jpg"))), 1);
+    expectMiddle(open(constant("rgb.jpg", 16, {0.2f, 0.4f, 0.8f})),
+                 {srgb(0.2f), srgb(0.4f), srgb(0.8f), 1}, 0.012f, "rgb");
+    const int grey = open(constant("grey.jpg", 16, {0.4f}));
+    expectMiddle(grey, {0.4f, 0.4f, 0.4f, 1}, 0.005f, "grey");
+    EXPECT_EQ(textures.channels(grey), 1);
 }
 
 TEST_F(Textures, DeepFlavoursAreDataUnderAuto) {
@@ -123,23 +77,21 @@ TEST_F(Textures, DeepFlavoursAreDataUnderAuto) {
                  {"float.exr", OIIO::TypeFloat, 0, TexelType::Float},
                  {"half.exr", OIIO::TypeHalf, 2e-4f, TexelType::Half}};
     for (auto& k : cases) {
-        writeImage(temp.file(k.file), 3, 3, {0.1f, 0.5f, 0.9f, 0.3f}, k.type);
-        int handle = open(temp.file(k.file));
+        int handle = open(constant(k.file, 3, {0.1f, 0.5f, 0.9f, 0.3f}, k.type));
         expectMiddle(handle, {0.1f, 0.5f, 0.9f, 0.3f}, k.tolerance, k.file);
         EXPECT_EQ(textures.image(handle)->type(), k.stored) << k.file;
     }
-    writeImage(temp.file("sky.hdr"), 16, 8, {3.0f, 0.5f, 12.0f}, OIIO::TypeFloat);
-    expectMiddle(open(temp.file("sky.hdr")), {3, 0.5f, 12, 1}, 0.06f, "sky.hdr");
-    EXPECT_EQ(textures.image(open(temp.file("sky.hdr")))->type(), TexelType::Half);
-    writeImage(temp.file("sun.hdr"), 16, 8, {3e6f, 0.5f, 12.0f}, OIIO::TypeFloat);
-    EXPECT_NEAR(middle(open(temp.file("sun.hdr"))).r, 3e6f, 2e4f) << "half would clip the sun";
+    const int sky = open(constant("sky.hdr", 16, {3.0f, 0.5f, 12.0f}, OIIO::TypeFloat));
+    expectMiddle(sky, {3, 0.5f, 12, 1}, 0.06f, "sky.hdr");
+    EXPECT_EQ(textures.image(sky)->type(), TexelType::Half);
+    const int sun = open(constant("sun.hdr", 16, {3e6f, 0.5f, 12.0f}, OIIO::TypeFloat));
+    EXPECT_NEAR(middle(sun).r, 3e6f, 2e4f) << "half would clip the sun";
 }
 
 TEST_F(Textures, ExplicitColourSpaces) {
-    writeImage(temp.file("a.png"), 2, 2, {0.2f, 0.4f, 0.8f}, OIIO::TypeUInt8);
-    writeImage(temp.file("deep.png"), 2, 2, {0.2f, 0.4f, 0.8f}, OIIO::TypeUInt16);
-    for (const char* file : {"a.png", "deep.png"}) {
-        std::string path = temp.file(file);
+    for (const std::string& path :
+         {constant("a.png", 2, {0.2f, 0.4f, 0.8f}),
+          constant("deep.png", 2, {0.2f, 0.4f, 0.8f}, OIIO::TypeUInt16)}) {
         expectMiddle(open(path, "raw"), {0.2f, 0.4f, 0.8f, 1}, 1e-5f, "raw");
         expectMiddle(open(path, "sRGB"), {srgb(0.2f), srgb(0.4f), srgb(0.8f), 1}, 1e-5f, "sRGB");
         expectMiddle(open(path, "g22_rec709"),
@@ -155,12 +107,11 @@ TEST_F(Textures, ExplicitColourSpaces) {
 }
 
 TEST_F(Textures, AnUnknownColourSpaceIsNamedAndTakenAsData) {
-    writeImage(temp.file("a.png"), 2, 2, {0.2f, 0.4f, 0.8f}, OIIO::TypeUInt8);
-    expectMiddle(open(temp.file("a.png"), "kodachrome"), {0.2f, 0.4f, 0.8f, 1}, 1e-6f, "raw");
-    std::string message = onlyMessage();
-    EXPECT_TRUE(has(message, "kodachrome") && has(message, "/Material/texture") &&
-                has(message, "inputs:file") && has(message, "a.png"))
-        << message;
+    expectMiddle(open(constant("a.png", 2, {0.2f, 0.4f, 0.8f}), "kodachrome"),
+                 {0.2f, 0.4f, 0.8f, 1}, 1e-6f, "raw");
+    const std::string message = onlyWarning(diagnostics);
+    for (const char* part : {"kodachrome", "/Material/texture", "inputs:file", "a.png"})
+        EXPECT_TRUE(has(message, part)) << message;
 }
 
 TEST_F(Textures, MissingFileIsMagentaWithOneWarningThatNamesAll) {
@@ -168,10 +119,9 @@ TEST_F(Textures, MissingFileIsMagentaWithOneWarningThatNamesAll) {
     EXPECT_FALSE(textures.valid(handle));
     EXPECT_EQ(middle(handle), magenta);
     EXPECT_EQ(open(temp.file("gone.png")), handle);
-    std::string message = onlyMessage();
-    EXPECT_TRUE(has(message, "/Material/texture") && has(message, "inputs:file") &&
-                has(message, "gone.png"))
-        << message;
+    const std::string message = onlyWarning(diagnostics);
+    for (const char* part : {"/Material/texture", "inputs:file", "gone.png"})
+        EXPECT_TRUE(has(message, part)) << message;
     EXPECT_FALSE(textures.valid(-1));
     EXPECT_FALSE(textures.valid(99));
     EXPECT_EQ(middle(99), magenta);
@@ -186,14 +136,10 @@ TEST_F(Textures, DamagedFilesAreMagentaWithAWarning) {
     EXPECT_FALSE(textures.valid(open("")));
     EXPECT_EQ(diagnostics.count(), 4);
     for (const char* name : {"cut.png", "cut.exr", "cut.tif"}) {
-        OIIO::ImageSpec spec(64, 64, 3, OIIO::TypeFloat);
         std::vector<float> noise(64 * 64 * 3);
         for (size_t i = 0; i < noise.size(); ++i)
             noise[i] = float((i * 7919) % 1000) / 1000.0f;
-        auto out = OIIO::ImageOutput::create(temp.file(name));
-        ASSERT_TRUE(out->open(temp.file(name), spec));
-        out->write_image(OIIO::TypeFloat, noise.data());
-        out->close();
+        writeImage(temp.file(name), OIIO::ImageSpec(64, 64, 3, OIIO::TypeFloat), noise);
         auto size = std::filesystem::file_size(temp.file(name));
         std::filesystem::resize_file(temp.file(name), size / 2);
         int before = diagnostics.count();
@@ -203,24 +149,21 @@ TEST_F(Textures, DamagedFilesAreMagentaWithAWarning) {
 }
 
 TEST_F(Textures, NotFiniteTexelsBecomeBlackWithAWarning) {
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    const float inf = std::numeric_limits<float>::infinity();
     for (auto type : {OIIO::TypeFloat, OIIO::TypeHalf}) {
-        std::string file = temp.file(type == OIIO::TypeHalf ? "half.exr" : "float.exr");
-        writeImage(file, 2, 2, {nan, 0.5f, inf}, type);
-        expectMiddle(open(file), {0, 0.5f, 0, 1}, 1e-6f, file);
+        const std::string name = type == OIIO::TypeHalf ? "half.exr" : "float.exr";
+        expectMiddle(open(constant(name, 2, {NAN, 0.5f, INFINITY}, type)), {0, 0.5f, 0, 1}, 1e-6f,
+                     name);
     }
     EXPECT_EQ(diagnostics.count(), 2);
     EXPECT_TRUE(has(diagnostics.all()[0].message, "8 values")) << diagnostics.all()[0].message;
 }
 
 TEST_F(Textures, TexelsThatColourSpacesMakeInfiniteBecomeBlackWithAWarning) {
-    writeImage(temp.file("bright.exr"), 2, 2, {1e17f, 0.5f, 0.5f}, OIIO::TypeFloat);
-    const int handle = open(temp.file("bright.exr"), "srgb_texture");
-    const glm::vec4 found = textures.sample(handle, {0.5f, 0.5f}, 0);
+    const glm::vec4 found = middle(
+        open(constant("bright.exr", 2, {1e17f, 0.5f, 0.5f}, OIIO::TypeFloat), "srgb_texture"));
     EXPECT_EQ(found.x, 0.0f);
     EXPECT_NEAR(found.y, 0.214f, 1e-3f);
-    EXPECT_TRUE(has(onlyMessage(), "4 values")) << onlyMessage();
+    EXPECT_TRUE(has(onlyWarning(diagnostics), "4 values")) << onlyWarning(diagnostics);
 }
 
 TEST_F(Textures, ImagesWithSidesBeyondNumbersAreNone) {
@@ -234,8 +177,9 @@ TEST_F(Textures, ImagesWithSidesBeyondNumbersAreNone) {
     output->close();
     const int handle = open(file);
     textures.loadAll();
-    EXPECT_EQ(textures.sample(handle, {0.0f, 0.5f}, 0), magenta);
-    EXPECT_TRUE(has(onlyMessage(), "300000000x1x1 is not a texture")) << onlyMessage();
+    expectSample(handle, {0.0f, 0.5f}, magenta);
+    EXPECT_TRUE(has(onlyWarning(diagnostics), "300000000x1x1 is not a texture"))
+        << onlyWarning(diagnostics);
 }
 
 TEST_F(Textures, NamesOfVeryManyTilesHaveNone) {
@@ -246,77 +190,72 @@ TEST_F(Textures, NamesOfVeryManyTilesHaveNone) {
 }
 
 TEST_F(Textures, ImagesOfLightsAreWithinALimit) {
-    writeImage(temp.file("grey.png"), 600, 600, {0.5f},
-               OIIO::TypeUInt8); // 360 kB, 4.3 MB as floats
+    const std::string file = constant("grey.png", 600, {0.5f}); // 360 kB, 4.3 MB as floats
     const auto load = [&] {
-        return loadImageLinear({temp.file("grey.png"), "auto", "/Rect", "texture"}, diagnostics)
-            .valid;
+        return loadImageLinear({file, "auto", "/Rect", "texture"}, diagnostics).valid;
     };
     setLimits({{"textureBytes", 1000000}});
     EXPECT_FALSE(load());
     setLimits({});
-    EXPECT_TRUE(has(onlyMessage(), "--limit textureBytes")) << onlyMessage();
+    EXPECT_TRUE(has(onlyWarning(diagnostics), "--limit textureBytes")) << onlyWarning(diagnostics);
     EXPECT_TRUE(load());
 }
 
 TEST_F(Textures, ImagesOfLightsAreAsTheirFilesSay) {
-    writeImage(temp.file("half.png"), 1, 1, {0.5f, 0.5f, 0.5f}, OIIO::TypeUInt8);
+    const std::string file = constant("half.png", 1, {0.5f, 0.5f, 0.5f});
     const auto load = [&](const char* space) {
-        return loadImageLinear({temp.file("half.png"), space, "/Rect", "texture"}, diagnostics)
-            .pixels.at(0)
-            .x;
+        return loadImageLinear({file, space, "/Rect", "texture"}, diagnostics).pixels.at(0).x;
     };
     EXPECT_NEAR(load(""), 0.2159f, 1e-3f); // eight bits of colour are sRGB
     EXPECT_NEAR(load("raw"), 0.502f, 1e-3f);
 }
 
 TEST_F(Textures, ChannelsBeyondFourAndTwoColourChannels) {
-    writeImage(temp.file("many.exr"), 2, 2, {0.1f, 0.2f, 0.3f, 0.4f, 0.5f}, OIIO::TypeFloat,
-               {"R", "G", "B", "X", "Y"});
-    EXPECT_EQ(textures.channels(open(temp.file("many.exr"))), 3);
-    expectMiddle(open(temp.file("many.exr")), {0.1f, 0.2f, 0.3f, 1}, 1e-6f, "many");
-    writeImage(temp.file("rg.exr"), 2, 2, {0.1f, 0.2f}, OIIO::TypeFloat, {"R", "G"});
-    expectMiddle(open(temp.file("rg.exr")), {0.1f, 0.2f, 0, 1}, 1e-6f, "rg");
+    const auto named = [](std::vector<std::string> names) {
+        return [=](OIIO::ImageSpec& spec) { spec.channelnames = names; };
+    };
+    const int many = open(constant("many.exr", 2, {0.1f, 0.2f, 0.3f, 0.4f, 0.5f}, OIIO::TypeFloat,
+                                   named({"R", "G", "B", "X", "Y"})));
+    EXPECT_EQ(textures.channels(many), 3);
+    expectMiddle(many, {0.1f, 0.2f, 0.3f, 1}, 1e-6f, "many");
+    expectMiddle(open(constant("rg.exr", 2, {0.1f, 0.2f}, OIIO::TypeFloat, named({"R", "G"}))),
+                 {0.1f, 0.2f, 0, 1}, 1e-6f, "rg");
 }
 
 TEST_F(Textures, StraightAlphaIsNotMultipliedIn) {
-    writeImage(temp.file("glass.png"), 2, 2, {0.8f, 0.6f, 0.4f, 0.0f}, OIIO::TypeUInt8);
-    expectMiddle(open(temp.file("glass.png"), "raw"), {0.8f, 0.6f, 0.4f, 0}, 1e-6f, "glass");
+    expectMiddle(open(constant("glass.png", 2, {0.8f, 0.6f, 0.4f, 0.0f}), "raw"),
+                 {0.8f, 0.6f, 0.4f, 0}, 1e-6f, "glass");
 }
 
 TEST_F(Textures, UdimTiles) {
-    writeImage(temp.file("t.1001.png"), 4, 4, {1, 0, 0}, OIIO::TypeUInt8);
-    writeImage(temp.file("t.1002.png"), 4, 4, {0, 1, 0}, OIIO::TypeUInt8);
-    writeImage(temp.file("t.1011.png"), 4, 4, {0, 0, 1}, OIIO::TypeUInt8);
-    writeImage(temp.file("t.10x1.png"), 4, 4, {1, 1, 1}, OIIO::TypeUInt8);
+    constant("t.1001.png", 4, {1, 0, 0});
+    constant("t.1002.png", 4, {0, 1, 0});
+    constant("t.1011.png", 4, {0, 0, 1});
+    constant("t.10x1.png", 4, {1, 1, 1});
+    const glm::vec4 red(1, 0, 0, 1), green(0, 1, 0, 1), blue(0, 0, 1, 1);
     int handle = open(temp.file("t.<UDIM>.png"));
     ASSERT_TRUE(textures.valid(handle));
-    EXPECT_EQ(textures.sample(handle, {0.5f, 0.5f}, 0), glm::vec4(1, 0, 0, 1));
-    EXPECT_EQ(textures.sample(handle, {1.5f, 0.5f}, 0), glm::vec4(0, 1, 0, 1));
-    EXPECT_EQ(textures.sample(handle, {0.5f, 1.5f}, 0), glm::vec4(0, 0, 1, 1));
-    EXPECT_EQ(textures.sample(handle, {0.999f, 0.5f}, 0), glm::vec4(1, 0, 0, 1)) << "no bleeding";
-    EXPECT_EQ(textures.sample(handle, {2.0f, 0.5f}, 0), glm::vec4(0, 1, 0, 1)) << "the far edge";
-    EXPECT_EQ(textures.sample(handle, {1.0f, 2.0f}, 0), glm::vec4(0, 0, 1, 1)) << "the far corner";
+    expectSample(handle, {0.5f, 0.5f}, red);
+    expectSample(handle, {1.5f, 0.5f}, green);
+    expectSample(handle, {0.5f, 1.5f}, blue);
+    expectSample(handle, {0.999f, 0.5f}, red); // no bleeding
+    expectSample(handle, {2.0f, 0.5f}, green); // the far edge
+    expectSample(handle, {1.0f, 2.0f}, blue);  // the far corner
     EXPECT_EQ(diagnostics.count(), 0);
-    EXPECT_EQ(textures.sample(handle, {1.5f, 1.5f}, 0), magenta);
-    EXPECT_EQ(textures.sample(handle, {1.6f, 1.6f}, 0), magenta);
-    EXPECT_EQ(diagnostics.count(), 1);
-    EXPECT_TRUE(has(diagnostics.all()[0].message, "1012"));
-    EXPECT_EQ(textures.sample(handle, {-0.5f, 0.5f}, 0), magenta);
-    EXPECT_EQ(textures.sample(handle, {10.5f, 0.5f}, 0), magenta);
-    EXPECT_EQ(textures.sample(handle, {1e30f, -1e30f}, 0), magenta);
+    expectSample(handle, {1.5f, 1.5f}, magenta);
+    expectSample(handle, {1.6f, 1.6f}, magenta);
+    EXPECT_TRUE(has(onlyMessage(diagnostics), "1012"));
+    for (const glm::vec2 uv :
+         {glm::vec2(-0.5f, 0.5f), glm::vec2(10.5f, 0.5f), glm::vec2(1e30f, -1e30f)})
+        expectSample(handle, uv, magenta);
     EXPECT_EQ(diagnostics.count(), 2);
     EXPECT_FALSE(textures.valid(open(temp.file("none.<UDIM>.png"))));
-    writeImage(temp.file("m_u1_v2.png"), 4, 4, {0, 0, 1}, OIIO::TypeUInt8);
-    handle = open(temp.file("m_<UVTILE>.png")); // as Mudbox names tiles
-    EXPECT_EQ(textures.sample(handle, {0.5f, 1.5f}, 0), glm::vec4(0, 0, 1, 1));
+    constant("m_u1_v2.png", 4, {0, 0, 1});
+    expectSample(open(temp.file("m_<UVTILE>.png")), {0.5f, 1.5f}, blue); // as Mudbox names tiles
 }
 
 TEST_F(Textures, EqualRequestsShareAHandleAndDifferentOnesThePixels) {
-    writeImage(temp.file("a.png"), 8, 8, {0.2f, 0.4f, 0.8f}, OIIO::TypeUInt8);
-    TextureRequest request;
-    request.file = temp.file("a.png");
-    request.colorSpace = "sRGB";
+    TextureRequest request = requestOf(constant("a.png", 8, {0.2f, 0.4f, 0.8f}), "sRGB");
     int repeat = textures.open(request);
     request.prim = "/Another/material";
     EXPECT_EQ(textures.open(request), repeat);
@@ -333,9 +272,8 @@ TEST_F(Textures, EqualRequestsShareAHandleAndDifferentOnesThePixels) {
 TEST_F(Textures, ManyThreadsMayBeTheFirstToSample) {
     std::vector<int> handles;
     for (int i = 0; i < 16; ++i) {
-        std::string file = temp.file("t" + std::to_string(i) + ".png");
-        writeImage(file, 128, 128, {float(i) / 255.0f}, OIIO::TypeUInt8);
-        handles.push_back(open(file));
+        handles.push_back(
+            open(constant("t" + std::to_string(i) + ".png", 128, {float(i) / 255.0f})));
     }
     parallelFor(0, 4096, [&](int i) {
         int which = i % 16;
@@ -347,16 +285,10 @@ TEST_F(Textures, ManyThreadsMayBeTheFirstToSample) {
 }
 
 TEST_F(Textures, TheFinestLevelAloneHasNoWiderFilters) {
-    OIIO::ImageSpec spec(4, 1, 1, OIIO::TypeUInt8);
-    auto out = OIIO::ImageOutput::create(temp.file("edge.png"));
-    const float pixels[] = {0, 1, 0, 1};
-    ASSERT_TRUE(out && out->open(temp.file("edge.png"), spec));
-    ASSERT_TRUE(out->write_image(OIIO::TypeFloat, pixels) && out->close());
+    writeImage(temp.file("edge.png"), OIIO::ImageSpec(4, 1, 1, OIIO::TypeUInt8), {0, 1, 0, 1});
     TextureSystem finest(diagnostics);
     finest.sampleFinestOnly();
-    TextureRequest request;
-    request.file = temp.file("edge.png");
-    request.colorSpace = "raw";
+    const TextureRequest request = requestOf(temp.file("edge.png"), "raw");
     const glm::vec2 texel(0.375f, 0.5f);
     EXPECT_EQ(finest.sample(finest.open(request), texel, 1.0f).r, 1.0f);
     // Coarser levels of images of eight bits have eight bits.
@@ -364,8 +296,9 @@ TEST_F(Textures, TheFinestLevelAloneHasNoWiderFilters) {
 }
 
 TEST_F(Textures, LinearImagesForLights) {
-    writeImage(temp.file("sky.exr"), 4, 2, {0.1f, 5.0f, 0.3f}, OIIO::TypeFloat);
-    ImageRGB image = loadImageLinear({temp.file("sky.exr"), "auto", "/Dome", "texture"}, diagnostics);
+    writeConstant(temp.file("sky.exr"), 4, 2, {0.1f, 5.0f, 0.3f}, OIIO::TypeFloat);
+    ImageRGB image =
+        loadImageLinear({temp.file("sky.exr"), "auto", "/Dome", "texture"}, diagnostics);
     EXPECT_TRUE(image.valid);
     EXPECT_EQ(image.width * 100 + image.height, 402);
     EXPECT_EQ(image.pixels.size(), 8u);
@@ -373,27 +306,21 @@ TEST_F(Textures, LinearImagesForLights) {
     image = loadImageLinear({temp.file("no.exr"), "auto", "/Dome", "texture"}, diagnostics);
     EXPECT_FALSE(image.valid);
     EXPECT_EQ(image.pixels.at(0), glm::vec3(1, 0, 1));
-    EXPECT_TRUE(has(onlyMessage(), "/Dome"));
+    EXPECT_TRUE(has(onlyWarning(diagnostics), "/Dome"));
 }
 
 // A profile that falls with the cosine: its mean over the hemisphere is half of its peak, so the
 // factor is 2 cos. The table is linear between every 5 degrees.
 TEST_F(Textures, ReadsIesProfiles) {
     const std::string file = temp.file("lamp.ies");
-    {
-        std::ofstream out(file);
-        out << "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 19 1 1 2 0 0 0\n1 1 100\n";
-        for (int i = 0; i <= 90; i += 5)
-            out << i << ' ';
-        out << "\n0\n";
-        for (int i = 0; i <= 90; i += 5)
-            out << 700.0 * std::cos(i * 0.017453292519943295) << ' ';
-        out << '\n';
+    std::string angles, candela;
+    for (int i = 0; i <= 90; i += 5) {
+        angles += std::to_string(i) + " ";
+        candela += std::to_string(700.0 * std::cos(i * 0.017453292519943295)) + " ";
     }
-    TextureRequest request;
-    request.file = file;
-    request.prim = "/Material/edf";
-    request.input = "file";
+    writeFile(file, "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 19 1 1 2 0 0 0\n1 1 100\n" + angles +
+                        "\n0\n" + candela + "\n");
+    TextureRequest request = requestOf(file);
     const auto profile = textures.openProfile(request);
     ASSERT_TRUE(profile);
     EXPECT_EQ(profile, textures.openProfile(request));
@@ -404,7 +331,7 @@ TEST_F(Textures, ReadsIesProfiles) {
     request.file = temp.file("missing.ies");
     EXPECT_FALSE(textures.openProfile(request));
     EXPECT_FALSE(textures.openProfile(request)); // says so once
-    EXPECT_NE(onlyMessage().find("it emits the same everywhere"), std::string::npos);
+    EXPECT_NE(onlyWarning(diagnostics).find("it emits the same everywhere"), std::string::npos);
 }
 
 } // namespace patina

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/image/tilePool.h"
 
-#include <gtest/gtest.h>
+#include "base/tests/testTools.h"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 #include <random>
-#include <stdexcept>
 
 namespace patina {
 
@@ -22,7 +22,8 @@ uint64_t stampOf(const TilePlace& p) {
 
 /// Fills tiles with a stamp of their place; each level looks at a tile of the finer one.
 struct Stamps : TilePool::Maker {
-    TilePool* pool = nullptr;
+    explicit Stamps(TilePool& of) : pool(of) {}
+    TilePool& pool;
     mutable std::atomic<int> made{0}, wrong{0};
 
     bool make(const TilePlace& p, const std::function<void*(size_t bytes)>& room) const override {
@@ -34,7 +35,7 @@ struct Stamps : TilePool::Maker {
     }
     int worth(const TilePlace& p) const override { return 1 + 2 * p.level; }
     bool holds(const TilePlace& p) const {
-        const auto* words = static_cast<const uint64_t*>(pool->find(p, *this));
+        const auto* words = static_cast<const uint64_t*>(pool.find(p, *this));
         return words && std::all_of(words, words + tileWords,
                                     [&](uint64_t word) { return word == stampOf(p); });
     }
@@ -43,22 +44,16 @@ struct Stamps : TilePool::Maker {
 } // namespace
 
 TEST(TilePool, ThreadsFindTheirTilesWhileRoomIsMade) {
-    constexpr int threads = 8;
     constexpr size_t capacity = 64 * (tileBytes + 200);
     TilePool pool(capacity);
-    Stamps stamps;
-    stamps.pool = &pool;
+    const Stamps stamps(pool);
     std::atomic<int> wrong{0};
-    std::vector<std::thread> list;
-    for (int t = 0; t < threads; ++t)
-        list.emplace_back([&, t] {
-            std::mt19937 random{unsigned(t)};
-            for (int i = 0; i < 4000; ++i)
-                wrong += !stamps.holds(
-                    {random() % 5, int(random() % 4), int(random() % 8), int(random() % 8)});
-        });
-    for (std::thread& thread : list)
-        thread.join();
+    onThreads(8, [&](int t) {
+        std::mt19937 random{unsigned(t)};
+        for (int i = 0; i < 4000; ++i)
+            wrong += !stamps.holds(
+                {random() % 5, int(random() % 4), int(random() % 8), int(random() % 8)});
+    });
     EXPECT_EQ(wrong, 0);
     EXPECT_EQ(stamps.wrong, 0);
     EXPECT_LE(pool.peakBytes(), capacity);
@@ -68,28 +63,24 @@ TEST(TilePool, ThreadsFindTheirTilesWhileRoomIsMade) {
 
 TEST(TilePool, ATileIsMadeOnceForAllThatWait) {
     struct Slow : Stamps {
+        using Stamps::Stamps;
         bool make(const TilePlace& p,
                   const std::function<void*(size_t bytes)>& room) const override {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
             return Stamps::make(p, room);
         }
-    } slow;
+    };
     TilePool pool(size_t(1) << 22);
-    slow.pool = &pool;
-    std::vector<std::thread> list;
+    const Slow slow(pool);
     std::atomic<int> wrong{0};
-    for (int t = 0; t < 8; ++t)
-        list.emplace_back([&] { wrong += !slow.holds({1, 0, 0, 0}); });
-    for (std::thread& thread : list)
-        thread.join();
+    onThreads(8, [&](int) { wrong += !slow.holds({1, 0, 0, 0}); });
     EXPECT_EQ(wrong, 0);
     EXPECT_EQ(slow.made, 1);
 }
 
 TEST(TilePool, LessCapacityMakesRoomAtOnce) {
     TilePool pool(size_t(1) << 22);
-    Stamps stamps;
-    stamps.pool = &pool;
+    const Stamps stamps(pool);
     for (int i = 0; i < 500; ++i)
         EXPECT_TRUE(stamps.holds({1, 0, i, 0}));
     EXPECT_GT(pool.bytes(), 500 * tileBytes);
@@ -102,8 +93,7 @@ TEST(TilePool, LessCapacityMakesRoomAtOnce) {
 
 TEST(TilePool, CostlyTilesStayLonger) {
     TilePool pool(100 * (tileBytes + 200));
-    Stamps stamps;
-    stamps.pool = &pool;
+    const Stamps stamps(pool);
     EXPECT_TRUE(stamps.holds({1, 3, 0, 0}));
     for (int i = 0; i < 200; ++i)
         EXPECT_TRUE(stamps.holds({2, 0, i, 0}));
@@ -137,8 +127,7 @@ TEST(TilePool, AThreadKnowsOnePoolFromTheNextInItsPlace) {
     std::optional<TilePool> pool;
     for (int i = 0; i < 3; ++i) {
         pool.emplace(size_t(1) << 20);
-        Stamps stamps;
-        stamps.pool = &*pool;
+        const Stamps stamps(*pool);
         EXPECT_TRUE(stamps.holds({1, 1, 0, 0}));
         EXPECT_EQ(stamps.made, 2);
     }

@@ -46,6 +46,12 @@ const Options thickness{0.0f, 100.0f, 400.0f, 1000.0f};
 const Options three{0.0f, 1.0f, 2.0f};
 const Options albedo{0.0f, 1.0f, 2.0f};
 const Options filmIor{1.0f, 1.3f, 1.6f, 2.0f};
+const Options rarely{0, 0, 0, 1};
+const Options hairIor{1.3f, 1.55f, 2.0f};
+const Options along{0.001f, 0.05f, 0.5f};
+const Options around{0.05f, 0.3f, 1.0f};
+const Options tilt{0.0f, 0.45f, 0.5f, 0.52f, 1.0f};
+const Options pigment{0.0f, 0.3f, 3.0f};
 
 // The instances of a lobe: __VA_ARGS__ is one expression of three languages.
 #define PATINA_INSTANCE(NS, PREFIX, ALBEDO, ...)                                                   \
@@ -128,28 +134,13 @@ std::vector<AgreementRow> PATINA_ROWS() {
                                                                  vec2(p1(2)), false, 1),
                                                   p1(3), p1(4)),
                                     1, 0, pn(5))),
-        PATINA_ROW(
-            "dielectric", dielectric, dielectricAlbedo,
-            mixed({color, color, color, ior, alpha, alpha, {0, 0, 0, 1}, mode, flag, flag}, 120),
-            dielectricSetup(p3(0), p1(3), p2(4), pb(6), pn(7), pb(8), pn(9))),
+        PATINA_ROW("dielectric", dielectric, dielectricAlbedo,
+                   mixed({color, color, color, ior, alpha, alpha, rarely, mode, flag, flag}, 120),
+                   dielectricSetup(p3(0), p1(3), p2(4), pb(6), pn(7), pb(8), pn(9))),
         PATINA_ROW(
             "schlick", schlick, schlickAlbedo,
-            mixed({color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   schlickExponent,
-                   alpha,
-                   alpha,
-                   {0, 0, 0, 1},
-                   mode,
-                   flag,
-                   flag},
+            mixed({color, color, color, color, color, color, color, color, color, schlickExponent,
+                   alpha, alpha, rarely, mode, flag, flag},
                   120),
             schlickSetup(p3(0), p3(3), p3(6), p1(9), p2(10), pb(12), pn(13), pb(14), pn(15))),
         PATINA_ROW(
@@ -184,26 +175,8 @@ std::vector<AgreementRow> PATINA_ROWS() {
                    cookTorranceSetup(p3(0), p3(3), p3(6), p1(9), pn(10))),
         PATINA_ROW(
             "chiangHair", chiangHair, chiangHairAlbedo,
-            mixed({color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   color,
-                   {1.3f, 1.55f, 2.0f},
-                   {0.001f, 0.05f, 0.5f},
-                   {0.05f, 0.3f, 1.0f},
-                   {0.001f, 0.05f, 0.5f},
-                   {0.05f, 0.3f, 1.0f},
-                   {0.001f, 0.05f, 0.5f},
-                   {0.05f, 0.3f, 1.0f},
-                   {0.0f, 0.45f, 0.5f, 0.52f, 1.0f},
-                   {0.0f, 0.3f, 3.0f},
-                   {0.0f, 0.3f, 3.0f},
-                   {0.0f, 0.3f, 3.0f}}),
+            mixed({color, color,  color, color,  color, color,  color, color,   color,   hairIor,
+                   along, around, along, around, along, around, tilt,  pigment, pigment, pigment}),
             chiangHairSetup(p3(0), p3(3), p3(6), p1(9), p2(10), p2(12), p2(14), p1(16), p3(17))),
         PATINA_ROW("phaseHenyeyGreenstein", phaseHenyeyGreenstein, phaseHenyeyGreensteinAlbedo,
                    mixed({{-1.0f, -0.9f, -0.3f, 0.0f, 0.01f, 0.6f, 0.95f, 1.0f}}, 16),

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every lobe as the driver runs it, against the same text as C++ in double precision.
 
-#include "hdDelegate/raster/gl/glProgram.h"
-#include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/agreement.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
 
@@ -107,9 +105,9 @@ struct Reason {
 const Reason reasons[] = {
     {"dielectric",
      "past total reflection and under shared interfaces what passes is 1 minus nearly 1"},
-    {"schlick", "past total reflection and under shared interfaces what passes is 1 minus nearly "
-                "1; an index of up "
-                "to 22, from a colour near 1, multiplies the rounding of the cosine by its square"},
+    {"schlick",
+     "past total reflection and under shared interfaces what passes is 1 minus nearly 1; an index "
+     "of up to 22, from a colour near 1, multiplies the rounding of the cosine by its square"},
     {"conductor", "n below 1 with k 0: facets lie on both sides of total reflection"},
     {"methods of conductor",
      "at grazing angles narrow facets multiply the rounding of their slope"},
@@ -202,10 +200,9 @@ std::vector<float> runOnDriver(const AgreementRow& row, const GlProgram& program
     for (const auto& set : row.sets)
         parameters.insert(parameters.end(), set.begin(), set.end());
     const int total = int(points.size() * row.sets.size());
-    std::vector<float> answers(size_t(total) * 20, 0.0f);
     const std::vector<float> table(patinaAlbedoTable, patinaAlbedoTable + sh::ALBEDO_TABLE_SIZE);
-    const GlBuffer parameterBuffer(parameters), pointBuffer(points), answerBuffer(answers),
-        tableBuffer(table);
+    const GlBuffer parameterBuffer(parameters), pointBuffer(points), tableBuffer(table),
+        answerBuffer(std::vector<float>(size_t(total) * 20, 0.0f));
     parameterBuffer.bindStorage(0);
     pointBuffer.bindStorage(1);
     answerBuffer.bindStorage(2);
@@ -213,10 +210,7 @@ std::vector<float> runOnDriver(const AgreementRow& row, const GlProgram& program
     program.use();
     gl.Uniform1i(0, int(points.size()));
     gl.Uniform1i(1, total);
-    gl.DispatchCompute(GLuint(total + 63) / 64, 1, 1);
-    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    answerBuffer.read(answers.data(), answers.size() * sizeof(float));
-    return answers;
+    return computed<float>(program, size_t(total + 63) / 64, answerBuffer, size_t(total) * 20);
 }
 
 } // namespace
@@ -229,9 +223,8 @@ TEST_P(Agreement, OfLobeWithOracle) {
     // A driver in software computes as C++ does. Others have what GLSL allows.
     const bool exact = context->renderer().find("llvmpipe") != std::string::npos || !canFuse();
     const AgreementRow allowed = loosestRows()[GetParam()];
-    std::string error;
-    const auto program = GlProgram::make({{GL_COMPUTE_SHADER, row.name, shaderOf(row)}}, error);
-    ASSERT_TRUE(program) << error;
+    const auto program = computeProgram(row.name, shaderOf(row));
+    ASSERT_TRUE(program);
     const std::vector<float> answers = runOnDriver(row, *program);
     const std::vector<AgreementPoint> points = agreementPoints();
     Tally driver[PartCount], single[PartCount], loosest[PartCount];

@@ -5,11 +5,11 @@
 #include "hdDelegate/raster/lights/rasterLightTables.h"
 #include "hdDelegate/raster/scene/rasterShapes.h"
 
-#include <gtest/gtest.h>
+#include "base/tests/testTools.h"
+#include "hdDelegate/film/tests/tempFolder.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 using namespace patina;
 
@@ -41,9 +41,7 @@ LightImages greyImages(int width, int height) {
 }
 
 Light rectWith(const std::string& path, const std::string& image) {
-    Light light;
-    light.path = path;
-    light.type = LightType::Rect;
+    Light light = *makeLight(path, LightType::Rect);
     light.textureFile = image;
     return light;
 }
@@ -88,20 +86,17 @@ TEST(RasterBounds, AnImageIsInTheTablesOnce) {
 }
 
 TEST(RasterBounds, AProfileIsInTheTablesOnce) {
-    const auto file = std::filesystem::temp_directory_path() / "patinaRasterBounds.ies";
-    std::ofstream(file) << "IESNA:LM-63-1995\nTILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 10\n"
-                           "0 90\n0\n100 10\n";
-    Light light;
-    light.path = "/spot";
-    light.type = LightType::Sphere;
-    light.iesFile = file.string();
+    const TempFolder temp;
+    writeFile(temp.file("a.ies"),
+              "IESNA:LM-63-1995\nTILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n100 10\n");
+    Light light = *makeLight("/spot", LightType::Sphere);
+    light.iesFile = temp.file("a.ies");
     RasterLightTables tables;
     Diagnostics diagnostics;
     const ProfileTable first = tables.profile(light, diagnostics);
     EXPECT_EQ(diagnostics.count(), 0u);
     ASSERT_GE(first.first, 0);
     EXPECT_EQ(tables.profile(light, diagnostics).first, first.first);
-    std::filesystem::remove(file);
 }
 
 TEST(RasterBounds, DomesHaveSoManyImages) {

@@ -2,8 +2,6 @@
 // The context, and a program on it: what is drawn comes back, and what is wrong is told by name.
 
 #include "hdDelegate/raster/gl/glDownload.h"
-#include "hdDelegate/raster/gl/glProgram.h"
-#include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
 
 #include <EGL/egl.h>
@@ -17,28 +15,21 @@ using namespace patina;
 
 TEST(RasterContext, ComputesWithALobe) {
     PATINA_NEED_CONTEXT();
-    std::string error;
-    const auto program =
-        GlProgram::make({{GL_COMPUTE_SHADER, "test",
-                          "#include \"shaders/compat/glsl.glsl\"\n"
-                          "#include \"shaders/lobes.glsl\"\n"
-                          "layout(local_size_x = 1) in;\n"
-                          "layout(std430, binding = 0) buffer Result { vec4 result[]; };\n"
-                          "void main() {\n"
-                          "    OrenNayarLobe l = orenNayarSetup(vec3(0.5), 0.0, false);\n"
-                          "    vec3 n = vec3(0.0, 0.0, 1.0);\n"
-                          "    result[gl_GlobalInvocationID.x] ="
-                          "        vec4(orenNayarEval(l, n, n).value, 1.0);\n"
-                          "}\n"}},
-                        error);
-    ASSERT_TRUE(program) << error;
+    const auto program = computeProgram("test", R"(
+#include "shaders/compat/glsl.glsl"
+#include "shaders/lobes.glsl"
+layout(local_size_x = 1) in;
+layout(std430, binding = 0) buffer Result { vec4 result[]; };
+void main() {
+    OrenNayarLobe l = orenNayarSetup(vec3(0.5), 0.0, false);
+    vec3 n = vec3(0.0, 0.0, 1.0);
+    result[gl_GlobalInvocationID.x] = vec4(orenNayarEval(l, n, n).value, 1.0);
+}
+)");
+    ASSERT_TRUE(program);
     const GlBuffer result(2 * 4 * sizeof(float), nullptr);
     result.bindStorage(0);
-    program->use();
-    gl.DispatchCompute(2, 1, 1);
-    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    float values[8] = {};
-    result.read(values, sizeof values);
+    const auto values = computed<float>(*program, 2, result, 8);
     EXPECT_NEAR(values[0], 0.5 / 3.14159265, 1e-6);
     EXPECT_EQ(values[7], 1.0f);
     EXPECT_EQ(gl.GetError(), GLenum(GL_NO_ERROR));

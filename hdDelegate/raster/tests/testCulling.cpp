@@ -3,6 +3,7 @@
 
 #include "hdDelegate/geometry/mortonOrder.h"
 #include "hdDelegate/raster/scene/rasterCulling.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -74,9 +75,8 @@ TEST(RasterCulling, RunsHoldWhatIsSeenAndShortGaps) {
 }
 
 TEST(RasterCulling, TheBoxOfATransformedBoxHoldsItsCorners) {
-    const mat4 m =
-        glm::rotate(glm::scale(glm::translate(mat4(1.0f), vec3(4, -2, 1)), vec3(2.0f, 0.5f, -1.0f)),
-                    0.8f, glm::normalize(vec3(1, 2, 3)));
+    const mat4 m = glm::rotate(glm::scale(translate(4, -2, 1), vec3(2.0f, 0.5f, -1.0f)), 0.8f,
+                               glm::normalize(vec3(1, 2, 3)));
     const vec3 low(-1, 0, 2), high(1, 4, 3);
     const RasterBox box = RasterBox::around(low, high, m);
     for (int i = 0; i < 8; ++i) {

@@ -13,22 +13,24 @@ using namespace patina;
 
 namespace {
 
-/// Three quarters of a circle of radius 1, and a straight one beside it.
-CurveSet bent(float radius) {
+/// Quarters of a circle of radius 1, one after the other, and a straight one beside it.
+CurveSet bent(float radius, int quarters = 3) {
     CurveSet set;
     set.basis = CurveBasis::Bezier;
     constexpr float k = 0.5522848f; // of a quarter circle's control points
-    const vec2 corners[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-    for (int i = 0; i < 3; ++i) {
+    const vec2 corners[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}};
+    set.controlPoints.resize(1);
+    for (int i = 0; i < quarters; ++i) {
         const vec2 a = corners[i], b = corners[i + 1];
-        set.segments.push_back(uint32_t(4 * i));
         for (const vec2& p : {a, a + k * b, b + k * a, b})
-            set.controlPoints.resize(1), set.controlPoints[0].emplace_back(p, 0.0f, radius);
+            set.controlPoints[0].emplace_back(p, 0.0f, radius);
     }
-    set.segments.push_back(12);
     for (int i = 0; i < 4; ++i)
         set.controlPoints[0].emplace_back(2.0f, float(i), 0.0f, radius);
-    set.segmentCurve = {0, 0, 0, 1};
+    for (int i = 0; i <= quarters; ++i) {
+        set.segments.push_back(uint32_t(4 * i));
+        set.segmentCurve.push_back(i == quarters);
+    }
     return set;
 }
 
@@ -156,7 +158,6 @@ TEST(RasterCurves, DomedStripsHaveMoreColumns) {
 }
 
 TEST(RasterCurves, StripsEndWhereTheCurveDoes) {
-    CurveSet set = bent(0.01f);
     const auto endsOf = [](const CurveSet& curves) {
         const RasterTriangles strips = curveTriangles(curves, fineness(0.5f), true);
         std::map<float, int> count;
@@ -166,17 +167,11 @@ TEST(RasterCurves, StripsEndWhereTheCurveDoes) {
         return count;
     };
     // Two curves, each with a beginning and an end of two vertices.
-    std::map<float, int> count = endsOf(set);
+    std::map<float, int> count = endsOf(bent(0.01f));
     EXPECT_EQ(count[StripBegins], 4);
     EXPECT_EQ(count[StripEnds], 4);
     EXPECT_GT(count[StripGoesOn], 4);
-    // A fourth quarter closes the circle.
-    constexpr float k = 0.5522848f;
-    set.segments.insert(set.segments.begin() + 3, uint32_t(set.controlPoints[0].size()));
-    for (const vec2& p : {vec2(0, -1), vec2(k, -1), vec2(1, -k), vec2(1, 0)})
-        set.controlPoints[0].emplace_back(p, 0.0f, 0.01f);
-    set.segmentCurve = {0, 0, 0, 0, 1};
-    count = endsOf(set);
+    count = endsOf(bent(0.01f, 4)); // the circle closes
     EXPECT_EQ(count[StripBegins], 2);
     EXPECT_EQ(count[StripEnds], 2);
     // Linear curves are round at their ends.

@@ -2,11 +2,12 @@
 // Images while programs are compiled: something simple stands in for what is not ready, and nothing
 // of that reaches the final image.
 
-#include "hdDelegate/raster/gl/glProgram.h"
-#include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/gl/programCompiler.h"
 #include "hdDelegate/raster/rasterRenderer.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
+#include "hdDelegate/renderer/tests/rendering.h"
+#include "hdDelegate/scene/tests/prims.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include <algorithm>
 #include <atomic>
@@ -36,61 +37,31 @@ struct SlowPrograms {
 /// Three squares beside each other, without lights. They glow red, green and blue; or they are
 /// metals of these colours.
 std::shared_ptr<Scene> makeScene(bool metals = false) {
-    auto scene = std::make_shared<Scene>();
-    SceneEdit edit = scene->edit();
+    const auto scene = sceneOf(makePrim<Camera>("/camera", translate(0, 0, 8)));
     for (int i = 0; i < 3; ++i) {
-        const std::string name = std::to_string(i);
-        auto material = std::make_shared<MaterialPrim>();
-        material->path = material->network.path = "/material" + name;
+        const std::string name = std::to_string(i), material = "/material" + name;
         // Each has a text of its own, which is compiled quickly.
-        vec3 color(0.0f);
-        color[i] = 2.0f;
-        NetworkNode glow, twice, surface;
-        glow.path = material->path + "/glow";
-        glow.id = i == 0 ? "ND_uniform_edf" : "ND_conical_edf";
-        glow.inputs["color"] = Value::makeColor3(color.x, color.y, color.z);
-        twice.path = material->path + "/twice";
-        twice.id = "ND_multiply_edfF";
-        twice.inputs["in2"] = Value::makeFloat(2.0f);
-        twice.connections["in1"] = {glow.path, ""};
-        surface.path = material->path + "/surface";
-        surface.id = "ND_surface";
-        surface.connections["edf"] = {i == 2 ? twice.path : glow.path, ""};
-        material->network.nodes = {glow, twice, surface};
-        if (metals) {
-            NetworkNode metal;
-            metal.path = surface.path;
-            metal.id = "UsdPreviewSurface";
-            metal.inputs["diffuseColor"] =
-                Value::makeColor3(0.4f * color.x, 0.4f * color.y, 0.4f * color.z);
-            metal.inputs["metallic"] = Value::makeFloat(1.0f);
-            metal.inputs["clearcoat"] = Value::makeFloat(i == 1 ? 0.1f : 0.0f);
-            material->network.nodes = {metal};
-        }
-        material->network.terminals["surface"] = {surface.path, ""};
-        edit.set(std::shared_ptr<const MaterialPrim>(material));
-        auto mesh = std::make_shared<Mesh>();
-        mesh->path = "/mesh" + name;
-        mesh->material = material->path;
-        const float x = 1.1f * float(i - 1);
-        mesh->points = std::vector<vec3>{vec3(x - 0.5f, -0.5f, 0), vec3(x + 0.5f, -0.5f, 0),
-                                         vec3(x + 0.5f, 0.5f, 0), vec3(x - 0.5f, 0.5f, 0)};
-        mesh->faceVertexCounts = {4};
-        mesh->faceVertexIndices = {0, 1, 2, 3};
-        edit.set(std::shared_ptr<const Geometry>(mesh));
+        vec3 c(0.0f);
+        c[i] = metals ? 0.8f : 2.0f;
+        const Value shade = color(c.x, c.y, c.z);
+        std::vector<NetworkNode> nodes = {
+            makeNode("surface", "ND_surface", {}, {{"edf", {i == 2 ? "twice" : "glow", ""}}}),
+            makeNode("glow", i == 0 ? "ND_uniform_edf" : "ND_conical_edf", {{"color", shade}}),
+            makeNode("twice", "ND_multiply_edfF", {{"in2", number(2.0f)}},
+                     {{"in1", {"glow", ""}}})};
+        if (metals)
+            nodes = {makeNode("surface", "UsdPreviewSurface",
+                              {{"diffuseColor", shade},
+                               {"metallic", number(1.0f)},
+                               {"clearcoat", number(i == 1 ? 0.1f : 0.0f)}})};
+        auto mesh = makeQuad("/mesh" + name, "", vec2(1.1f * float(i - 1), 0), 0.5f);
+        mesh->material = material;
+        setPrims(*scene, makeMaterial(material, nodes), mesh);
     }
-    auto camera = std::make_shared<Camera>();
-    camera->path = "/camera";
-    mat4 place(1.0f);
-    place[3] = vec4(0, 0, 8, 1);
-    camera->transform = place;
-    edit.set(std::shared_ptr<const Camera>(camera));
     if (metals) {
-        auto sky = std::make_shared<Light>();
-        sky->path = "/sky";
-        sky->type = LightType::Dome;
+        auto sky = makeLight("/sky", LightType::Dome);
         sky->cameraVisible = false;
-        edit.set(std::shared_ptr<const Light>(sky));
+        scene->edit().set(sky);
     }
     return scene;
 }
@@ -99,26 +70,22 @@ struct Shown {
     std::vector<std::vector<float>> images; ///< while it ran, and the last
     std::vector<RenderProgress> reported;
     std::vector<float> last;
+    std::string error;
 };
 
-Shown render(bool interactive, int threads, std::string& error, bool metals = false) {
+Shown render(bool interactive, int threads, bool metals = false) {
     Shown shown;
-    const auto renderer = makeRasterRenderer(error);
+    const auto renderer = makeRasterRenderer(shown.error);
     if (!renderer) return shown;
-    const auto film = std::make_shared<Film>();
-    RenderSettings settings;
-    settings.width = 24;
-    settings.height = 12;
-    settings.samples = 2;
+    RenderSettings settings = imageOf(24, 12, 2);
     settings.threads = threads;
     settings.interactive = interactive;
     renderer->setListener([&](const Film& f, const RenderProgress& p) {
         shown.images.push_back(f.resolve("color"));
         shown.reported.push_back(p);
     });
-    renderer->start(makeScene(metals), "/camera", settings, film);
-    renderer->wait();
-    error = renderer->progress().error;
+    const auto film = rendered(*renderer, makeScene(metals), settings);
+    shown.error = renderer->progress().error;
     shown.last = film->resolve("color");
     return shown;
 }
@@ -136,16 +103,15 @@ float brightest(const std::vector<float>& image) {
 TEST(EarlyImages, ShowWhatIsReadyAndLeaveNothingInTheLast) {
     PATINA_NEED_CONTEXT();
     const SlowPrograms slow("1500"); // longer than cached ones are waited for
-    std::string error;
-    const Shown batch = render(false, 1, error);
-    ASSERT_EQ(error, "");
+    const Shown batch = render(false, 1);
+    ASSERT_EQ(batch.error, "");
     ASSERT_GT(brightest(batch.last), 1.0f) << "nothing glows";
     for (const RenderProgress& p : batch.reported)
         EXPECT_EQ(p.statistics.at("materialsReady"), p.statistics.at("materialsWanted"))
             << "nobody looks on, so the first image has all materials";
     for (const int threads : {1, 3}) {
-        const Shown shown = render(true, threads, error);
-        ASSERT_EQ(error, "");
+        const Shown shown = render(true, threads);
+        ASSERT_EQ(shown.error, "");
         ASSERT_GT(shown.images.size(), 1u);
         const auto& first = shown.reported.front().statistics;
         EXPECT_LT(first.at("materialsReady"), first.at("materialsWanted")) << threads;
@@ -160,9 +126,8 @@ TEST(EarlyImages, ShowWhatIsReadyAndLeaveNothingInTheLast) {
 TEST(EarlyImages, HaveTheColorsOfTheirMaterials) {
     PATINA_NEED_CONTEXT();
     const SlowPrograms slow("1500");
-    std::string error;
-    const Shown shown = render(true, 1, error, true);
-    ASSERT_EQ(error, "");
+    const Shown shown = render(true, 1, true);
+    ASSERT_EQ(shown.error, "");
     ASSERT_GT(shown.images.size(), 1u);
     const auto& first = shown.reported.front().statistics;
     EXPECT_LT(first.at("materialsReady"), first.at("materialsWanted"));
@@ -185,9 +150,8 @@ TEST(EarlyImages, HaveTheColorsOfTheirMaterials) {
 TEST(EarlyImages, ADriverThatDoesNotTakeTheStandInShowsDisplayColor) {
     PATINA_NEED_CONTEXT();
     const SlowPrograms slow("1500", ",material:/standIn");
-    std::string error;
-    const Shown shown = render(true, 1, error, true);
-    ASSERT_EQ(error, "");
+    const Shown shown = render(true, 1, true);
+    ASSERT_EQ(shown.error, "");
     ASSERT_GT(shown.images.size(), 1u);
     const auto& image = shown.images.front();
     float seen = 0.0f; // the second of two programs, which nothing has compiled yet
@@ -206,8 +170,7 @@ TEST(EarlyImages, AStoppedRenderDoesNotWaitForPrograms) {
     std::string error;
     const auto renderer = makeRasterRenderer(error);
     ASSERT_TRUE(renderer) << error;
-    RenderSettings settings;
-    settings.width = settings.height = 8;
+    RenderSettings settings = imageOf(8, 8);
     settings.threads = 2;
     const auto film = std::make_shared<Film>();
     for (int i = 0; i < 3; ++i) {
@@ -250,12 +213,7 @@ TEST(ProgramCompiler, ProgramsOfOtherThreadsRunHere) {
     for (size_t i = 0; i < programs.size(); ++i) {
         ASSERT_TRUE(programs[i]) << errors[i];
         EXPECT_NE(where[i], std::this_thread::get_id());
-        programs[i]->use();
-        gl.DispatchCompute(1, 1, 1);
-        gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-        float value = -1.0f;
-        result.read(&value, sizeof value);
-        EXPECT_EQ(value, float(i));
+        EXPECT_EQ(computed<float>(*programs[i], 1, result, 1)[0], float(i));
     }
 }
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/passes/rasterFilterSplat.h"
 
-#include <gtest/gtest.h>
+#include "hdDelegate/film/tests/filmFixtures.h"
 
 #include <cmath>
 
 namespace {
 
-using patina::Film;
-using patina::PixelFilter;
-using patina::RasterSample;
+using namespace patina;
 
 /// Moments of where samples lie in the pixels that they go to, by their shares.
 void expectMoments(float radius, double weightOfOthers) {
@@ -46,8 +44,7 @@ TEST(RasterFilterSplat, leaveValuesThatAreNoNumbersWhereTheyAre) {
     // All of them infinite, too: for each pixel a look at each would take hours.
     for (const bool all : {false, true}) {
         const int width = 1024, height = 768;
-        Film film;
-        film.reset(width, height, {});
+        TestFilm film(width, height);
         RasterSample sample;
         sample.splatX = sample.splatY = {0.1f, 0.7f, 0.2f};
         std::vector<glm::vec4> pixels(size_t(width + 2) * size_t(height + 2),
@@ -63,8 +60,7 @@ TEST(RasterFilterSplat, leaveValuesThatAreNoNumbersWhereTheyAre) {
 
 TEST(RasterFilterSplat, takeASampleToThePixelsThatItLiesIn) {
     const int width = 5, height = 4;
-    Film film;
-    film.reset(width, height, {});
+    TestFilm film(width, height);
     RasterSample sample;
     sample.splatX = {0.1f, 0.7f, 0.2f}; // left, own, right
     sample.splatY = {0.3f, 0.6f, 0.1f}; // above, own, below
@@ -75,13 +71,12 @@ TEST(RasterFilterSplat, takeASampleToThePixelsThatItLiesIn) {
     const int window[4] = {0, 0, width - 1, height - 1};
     addSplats(pixels, sample, window, film);
     const auto red = [&](int x, int y) { return film.color(x, y).x; };
-    EXPECT_FLOAT_EQ(red(3, 1), 42.0f);
-    EXPECT_FLOAT_EQ(red(2, 1), 6.0f);
-    EXPECT_FLOAT_EQ(red(4, 1), 12.0f);
-    EXPECT_FLOAT_EQ(red(3, 0), 21.0f);
-    EXPECT_FLOAT_EQ(red(3, 2), 7.0f);
-    EXPECT_FLOAT_EQ(red(0, 3), 6.0f); // to the right by 0.2, up by 0.3
-    EXPECT_FLOAT_EQ(red(0, 2), 0.0f);
+    const std::tuple<int, int, float> places[] = {
+        {3, 1, 42.0f}, {2, 1, 6.0f}, {4, 1, 12.0f},
+        {3, 0, 21.0f}, {3, 2, 7.0f}, {0, 3, 6.0f}, // to the right by 0.2, up by 0.3
+        {0, 2, 0.0f}};
+    for (const auto& [x, y, expected] : places)
+        EXPECT_FLOAT_EQ(red(x, y), expected) << x << " " << y;
 }
 
 } // namespace

@@ -4,13 +4,13 @@
 #include "hdDelegate/raster/gl/glFunctions.h"
 #include "hdDelegate/raster/rasterRenderer.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
+#include "hdDelegate/renderer/tests/rendering.h"
+#include "hdDelegate/scene/tests/prims.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <atomic>
-#include <map>
-#include <string>
-#include <vector>
 
 using namespace patina;
 
@@ -50,47 +50,20 @@ void countCalls(){
 
 /// Squares in rows, each a prim of its own, in a number of materials, under a lamp.
 std::shared_ptr<Scene> makeScene(int prims, int materials) {
-    auto scene = std::make_shared<Scene>();
+    const auto scene = sceneOf(makePrim<Light>("/lamp", translate(0, 0, 10)));
     SceneEdit edit = scene->edit();
-    for (int i = 0; i < materials; ++i) {
-        auto material = std::make_shared<MaterialPrim>();
-        material->path = material->network.path = "/material" + std::to_string(i);
-        NetworkNode surface;
-        surface.path = material->path + "/surface";
-        surface.id = "UsdPreviewSurface";
-        surface.inputs["roughness"] = Value::makeFloat(0.1f + 0.8f * float(i) / float(materials));
-        material->network.nodes = {surface};
-        material->network.terminals["surface"] = {surface.path, ""};
-        edit.set(std::shared_ptr<const MaterialPrim>(material));
-    }
+    for (int i = 0; i < materials; ++i)
+        edit.set(makeMaterial(
+            "/material" + std::to_string(i),
+            {makeNode("surface", "UsdPreviewSurface",
+                      {{"roughness", number(0.1f + 0.8f * float(i) / float(materials))}})}));
     for (int i = 0; i < prims; ++i) {
-        auto mesh = std::make_shared<Mesh>();
-        mesh->path = "/mesh" + std::to_string(i);
+        auto mesh = makeQuad("/mesh" + std::to_string(i), "",
+                             vec2(float(i % 8) - 3.5f, float(i / 8) - 3.5f), 0.4f);
         mesh->material = "/material" + std::to_string(i % materials);
-        const float x = float(i % 8) - 3.5f, y = float(i / 8) - 3.5f;
-        mesh->points = std::vector<vec3>{vec3(x - 0.4f, y - 0.4f, 0), vec3(x + 0.4f, y - 0.4f, 0),
-                                         vec3(x + 0.4f, y + 0.4f, 0), vec3(x - 0.4f, y + 0.4f, 0)};
-        mesh->faceVertexCounts = {4};
-        mesh->faceVertexIndices = {0, 1, 2, 3};
-        edit.set(std::shared_ptr<const Geometry>(mesh));
+        edit.set(mesh);
     }
-    auto lamp = std::make_shared<Light>();
-    lamp->path = "/lamp";
-    mat4 above(1.0f);
-    above[3] = vec4(0, 0, 10, 1);
-    lamp->transform = above;
-    edit.set(std::shared_ptr<const Light>(lamp));
     return scene;
-}
-
-void setCamera(Scene& scene, float x) {
-    SceneEdit edit = scene.edit();
-    auto camera = std::make_shared<Camera>();
-    camera->path = "/camera";
-    mat4 place(1.0f);
-    place[3] = vec4(x, 0, 30, 1); // all squares are in view
-    camera->transform = place;
-    edit.set(std::shared_ptr<const Camera>(camera));
 }
 
 /// Calls of one frame, after some of them.
@@ -101,9 +74,7 @@ std::map<std::string, long> frame(int prims, int materials, std::string& error) 
     (void)counted;
     const auto film = std::make_shared<Film>();
     const auto scene = makeScene(prims, materials);
-    RenderSettings settings;
-    settings.width = settings.height = 64;
-    settings.samples = 1;
+    RenderSettings settings = imageOf(64, 64, 1);
     settings.interactive = true;
     std::vector<uint8_t> color(64 * 64 * 8), depth(64 * 64 * 4);
     renderer->letImagesStay(true);
@@ -120,11 +91,11 @@ std::map<std::string, long> frame(int prims, int materials, std::string& error) 
     });
     std::map<std::string, long> found;
     for (int i = 0; i < 4; ++i) {
-        setCamera(*scene, 0.01f * float(i));
+        scene->edit().set(makePrim<Camera>(
+            "/camera", translate(0.01f * float(i), 0, 30))); // all squares are in view
         for (auto& item : calls())
             item.second = 0;
-        renderer->start(scene, "/camera", settings, film);
-        renderer->wait();
+        rendered(*renderer, scene, settings, film);
     }
     EXPECT_TRUE(std::any_of(color.begin(), color.end(), [](uint8_t v) { return v != 0; }));
     for (const auto& item : calls())

@@ -2,13 +2,11 @@
 #include "hdDelegate/raster/samples/lightChoice.h"
 #include "hdDelegate/raster/samples/lightSampler.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
-#include "hdDelegate/scene/settings.h"
-
-#include <numeric>
+#include "hdDelegate/scene/tests/prims.h"
 
 namespace {
 
-using patina::chooseLights;
+using namespace patina;
 
 TEST(LightChoice, takesAllWhereThereIsRoom) {
     const auto chosen = chooseLights({1.0f, 0.0f, 3.0f}, 3, 0.7f);
@@ -47,31 +45,27 @@ TEST(LightChoice, survivesWeightsThatSumToNothing) {
 
 TEST(LightChoice, smallImagesTakeMoreLightsByCoarserMaps) {
     PATINA_NEED_CONTEXT();
-    patina::SceneState state;
+    SceneState state;
     for (int i = 0; i < 100; ++i) {
-        auto light = std::make_shared<patina::Light>();
-        light->type = patina::LightType::Sphere;
-        light->path = "/light" + std::to_string(i);
+        auto light = makeLight("/light" + std::to_string(i), LightType::Sphere);
         light->radius = 0.1f;
-        light->transform = patina::mat4(1.0f);
         state.lights.set(light->path, light);
     }
-    const patina::RenderSettings settings;
-    patina::Diagnostics diagnostics;
-    patina::RasterInstances places(
-        std::make_shared<patina::Placements>(state, settings, diagnostics), 0.0f);
-    patina::LightImages images(diagnostics);
-    patina::RasterDomes domes;
-    const patina::RasterLights lights(state, settings, places, 0.0f, 4, {"sampled"}, images, domes,
-                                      patina::LinkNames(state), diagnostics);
-    patina::ShadowBounds bounds;
-    bounds.sceneMin = bounds.receiverMin = patina::vec3(-1.0f);
-    bounds.sceneMax = bounds.receiverMax = patina::vec3(1.0f);
-    const auto large = patina::LightSampler(lights, {}, bounds, 1024, 1280, 0).sample();
+    const RenderSettings settings;
+    Diagnostics diagnostics;
+    RasterInstances places(std::make_shared<Placements>(state, settings, diagnostics), 0.0f);
+    LightImages images(diagnostics);
+    RasterDomes domes;
+    const RasterLights lights(state, settings, places, 0.0f, 4, {"sampled"}, images, domes,
+                              LinkNames(state), diagnostics);
+    ShadowBounds bounds;
+    bounds.sceneMin = bounds.receiverMin = vec3(-1.0f);
+    bounds.sceneMax = bounds.receiverMax = vec3(1.0f);
+    const auto large = LightSampler(lights, {}, bounds, 1024, 1280, 0).sample();
     EXPECT_EQ(large.shadows.mapSize, 512);
     EXPECT_EQ(large.shadows.views.size(), 126u); // six of 21 lights
     EXPECT_EQ(large.taken, 21);
-    const auto small = patina::LightSampler(lights, {}, bounds, 1024, 96, 0).sample();
+    const auto small = LightSampler(lights, {}, bounds, 1024, 96, 0).sample();
     EXPECT_EQ(small.shadows.mapSize, 256);
     EXPECT_EQ(small.shadows.views.size(), 510u);
     EXPECT_EQ(small.taken, 85);

@@ -24,10 +24,11 @@ MethodPlan microfacetPlan(float roughness) {
     return plan;
 }
 
-std::string domeMethod(const RasterLightPlan& lights, float roughness, double tolerance) {
+PlannedMethod chosen(const RasterLightPlan& lights, float roughness, double tolerance,
+                     bool samples = false) {
     RenderSettings settings;
     settings.tolerance = tolerance;
-    return lights.choose(microfacetPlan(roughness), settings, false).front().method;
+    return lights.choose(microfacetPlan(roughness), settings, samples).front();
 }
 
 } // namespace
@@ -44,8 +45,8 @@ TEST(LightPlan, aSunIsLeftToSamples) {
     const auto clouds = measure::MeasuredSky::soft(), clear = measure::MeasuredSky::sun();
     soft.addDome(&clouds.map);
     sun.addDome(&clear.map);
-    EXPECT_EQ(domeMethod(soft, 0.1f, 0.1), "prefiltered");
-    EXPECT_EQ(domeMethod(sun, 0.3f, 0.1), "sampled");
+    EXPECT_EQ(chosen(soft, 0.1f, 0.1).method, "prefiltered");
+    EXPECT_EQ(chosen(sun, 0.3f, 0.1).method, "sampled");
 }
 
 TEST(LightPlan, largerTolerancesAreNeverSlower) {
@@ -55,10 +56,7 @@ TEST(LightPlan, largerTolerancesAreNeverSlower) {
     for (float roughness : {0.05f, 0.3f, 0.6f, 0.9f}) {
         double before = 1e30;
         for (double tolerance : {0.001, 0.01, 0.03, 0.1, 0.3}) {
-            RenderSettings settings;
-            settings.tolerance = tolerance;
-            const PlannedMethod m =
-                lights.choose(microfacetPlan(roughness), settings, false).front();
+            const PlannedMethod m = chosen(lights, roughness, tolerance);
             EXPECT_LE(m.ns, before);
             EXPECT_LE(m.ns, m.nsDefault);
             EXPECT_LE(m.error, 0.4 * tolerance);
@@ -70,12 +68,10 @@ TEST(LightPlan, largerTolerancesAreNeverSlower) {
 TEST(LightPlan, whatLooksAtSamplesKeepsThem) {
     RasterLightPlan lights;
     lights.addDome(nullptr);
-    RenderSettings settings;
-    settings.tolerance = 0.3;
-    EXPECT_EQ(lights.choose(microfacetPlan(0.1f), settings, true).front().method, "sampled");
-    EXPECT_NE(lights.choose(microfacetPlan(0.1f), settings, false).front().method, "sampled");
+    EXPECT_EQ(chosen(lights, 0.1f, 0.3, true).method, "sampled");
+    EXPECT_NE(chosen(lights, 0.1f, 0.3).method, "sampled");
     lights.needSamples();
-    EXPECT_EQ(lights.choose(microfacetPlan(0.1f), settings, false).front().method, "sampled");
+    EXPECT_EQ(chosen(lights, 0.1f, 0.3).method, "sampled");
 }
 
 } // namespace patina

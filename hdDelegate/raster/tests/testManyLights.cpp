@@ -5,6 +5,7 @@
 #include "hdDelegate/raster/samples/lightCells.h"
 #include "hdDelegate/raster/passes/rasterBackground.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -60,8 +61,7 @@ double irradiance(const Placed& of, const vec3& point) {
 }
 
 TEST(LightEstimate, isTheIrradianceFarAwayAndNearItNearBy) {
-    const mat4 turned = glm::rotate(glm::translate(mat4(1.0f), vec3(1, 2, -1)), 0.7f,
-                                    glm::normalize(vec3(1, 2, 3)));
+    const mat4 turned = glm::rotate(translate(1, 2, -1), 0.7f, glm::normalize(vec3(1, 2, 3)));
     for (const LightType type : shapes) {
         const Placed p = place(type, turned);
         // The brightest side: along the normal, across cylinders.
@@ -176,9 +176,8 @@ TEST(RasterBackground, partsOfTheImageHoldWhatALightCovers) {
     const mat4 toClip = glm::perspective(0.9f, 2.0f, 0.5f, 40.0f) * view;
     for (const LightType type : shapes)
         for (int turn = 0; turn < 5; ++turn) {
-            const Placed p = place(
-                type, glm::rotate(glm::translate(mat4(1.0f), vec3(turn - 2, 0.3f * turn, -turn)),
-                                  float(turn), glm::normalize(vec3(1, 2, 3))));
+            const Placed p = place(type, glm::rotate(translate(turn - 2, 0.3f * turn, -turn),
+                                                     float(turn), glm::normalize(vec3(1, 2, 3))));
             const ShownLights shown = shownLight(p.light, toClip, width, height);
             EXPECT_TRUE(shown.alone());
             for (int i = 0; i < 400; ++i) {
@@ -203,8 +202,7 @@ TEST(RasterBackground, lightsThatDepthDoesNotOrderAreTold) {
     const mat4 toClip = glm::perspective(0.9f, 1.0f, 0.5f, 40.0f) *
                         glm::lookAt(vec3(0, 0, 6), vec3(0.0f), vec3(0, 1, 0));
     const auto at = [&](float z) {
-        return shownLight(place(LightType::Sphere, glm::translate(mat4(1.0f), vec3(0, 0, z))).light,
-                          toClip, 100, 100);
+        return shownLight(place(LightType::Sphere, translate(0, 0, z)).light, toClip, 100, 100);
     };
     EXPECT_TRUE(at(0.0f).alone());
     EXPECT_EQ(at(7.0f).width, 0); // behind the camera

@@ -2,8 +2,6 @@
 // Whole materials as the driver runs their generated text, against the program that the path tracer
 // runs: values, densities, presence and emission at one shading point.
 
-#include "hdDelegate/raster/gl/glProgram.h"
-#include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
 #include "materialNetwork/glsl/glslMaterial.h"
 #include "materialNetwork/tests/materialFixture.h"
@@ -178,10 +176,8 @@ TEST_P(MaterialAgreement, OfTextWithProgram) {
     EXPECT_EQ(warnings(c.diagnostics), "");
     const GlslMaterial glsl = makeGlslMaterial(c.program->ir());
     EXPECT_TRUE(glsl.leftOut.empty());
-    std::string error;
-    const auto program =
-        GlProgram::make({{GL_COMPUTE_SHADER, named.name, shaderOf(*c.program, glsl)}}, error);
-    ASSERT_TRUE(program) << error << "\n" << glsl.text;
+    const auto program = computeProgram(named.name, shaderOf(*c.program, glsl));
+    ASSERT_TRUE(program);
 
     const FakePrimvars primvars(*c.program, {{"st", {0.4f, 0.6f, 0, 0}}});
     const ShadingPoint point = pointOf(primvars);
@@ -207,11 +203,8 @@ TEST_P(MaterialAgreement, OfTextWithProgram) {
     pointBuffer.bindStorage(0);
     answerBuffer.bindStorage(6);
     tableBuffer.bindStorage(7);
-    program->use();
-    gl.DispatchCompute(directions, 1, 1);
-    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    std::vector<glm::vec4> answers(size_t(directions) * 4);
-    answerBuffer.read(answers.data(), answers.size() * sizeof(glm::vec4));
+    const auto answers =
+        computed<glm::vec4>(*program, directions, answerBuffer, size_t(directions) * 4);
 
     glm::vec3 passes;
     const float presence = c.program->opacity(point, &passes);

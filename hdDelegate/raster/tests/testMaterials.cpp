@@ -3,6 +3,8 @@
 
 #include "hdDelegate/raster/scene/rasterMaterials.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
+#include "hdDelegate/scene/tests/prims.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 using namespace patina;
 
@@ -20,44 +22,31 @@ RenderSettings settingsOf(int number) {
 
 /// Diffuse lobes that are added up: each number is another text.
 std::shared_ptr<const MaterialPrim> materialOf(int lobes) {
-    auto material = std::make_shared<MaterialPrim>();
-    material->path = material->network.path = "/material";
-    NetworkNode surface;
-    surface.path = "/material/surface";
-    surface.id = "ND_surface";
+    std::vector<NetworkNode> nodes = {makeNode("surface", "ND_surface")};
     std::string sum;
     for (int i = 0; i < lobes; ++i) {
-        const std::string number = std::to_string(i);
-        NetworkNode lobe;
-        lobe.path = "/material/lobe" + number;
-        lobe.id = "ND_oren_nayar_diffuse_bsdf";
-        lobe.inputs["weight"] = Value::makeFloat(0.1f);
-        material->network.nodes.push_back(lobe);
-        if (i == 0) {
-            sum = lobe.path;
-            continue;
-        }
-        NetworkNode add;
-        add.path = "/material/add" + number;
-        add.id = "ND_add_bsdf";
-        add.connections["in1"] = {sum, ""};
-        add.connections["in2"] = {lobe.path, ""};
-        sum = add.path;
-        material->network.nodes.push_back(add);
+        const std::string lobe = "lobe" + std::to_string(i), add = "add" + std::to_string(i);
+        nodes.push_back(makeNode(lobe, "ND_oren_nayar_diffuse_bsdf", {{"weight", number(0.1f)}}));
+        if (i > 0)
+            nodes.push_back(
+                makeNode(add, "ND_add_bsdf", {}, {{"in1", {sum, ""}}, {"in2", {lobe, ""}}}));
+        sum = i > 0 ? add : lobe;
     }
-    surface.connections["bsdf"] = {sum, ""};
-    material->network.nodes.push_back(surface);
-    material->network.terminals["surface"] = {surface.path, ""};
-    return material;
+    nodes[0].connections["bsdf"] = {"/m/" + sum, ""};
+    return makeMaterial("/material", nodes);
 }
+
+class RasterMaterialsTest : public testing::Test {
+protected:
+    std::shared_ptr<Scene> scene = std::make_shared<Scene>();
+    CompiledScene compiled{scene};
+    RasterMaterials materials{compiled};
+};
 
 } // namespace
 
-TEST(RasterMaterials, ForgetsProgramsThatAreLongUnused) {
+TEST_F(RasterMaterialsTest, ForgetsProgramsThatAreLongUnused) {
     PATINA_NEED_CONTEXT();
-    auto scene = std::make_shared<Scene>();
-    CompiledScene compiled(scene);
-    RasterMaterials materials(compiled);
     const auto state = scene->snapshot();
     const auto draw = [&](int number) {
         const RenderSettings settings = settingsOf(number);
@@ -76,11 +65,8 @@ TEST(RasterMaterials, ForgetsProgramsThatAreLongUnused) {
     EXPECT_LE(materials.programsKept(), 4u);
 }
 
-TEST(RasterMaterials, EditsForgetProgramsThatAreLongUnused) {
+TEST_F(RasterMaterialsTest, EditsForgetProgramsThatAreLongUnused) {
     PATINA_NEED_CONTEXT();
-    auto scene = std::make_shared<Scene>();
-    CompiledScene compiled(scene);
-    RasterMaterials materials(compiled);
     RenderSettings settings = settingsOf(0);
     const auto show = [&](int lobes, bool edited) {
         scene->edit().set(materialOf(lobes));

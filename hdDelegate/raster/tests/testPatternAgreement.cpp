@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every pattern node, as the driver runs its GLSL, against its C++ function.
 
-#include "hdDelegate/raster/gl/glProgram.h"
-#include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
 #include "materialNetwork/glsl/glslPatterns.h"
 #include "materialNetwork/nodes/nodeTable.h"
@@ -199,27 +197,21 @@ TEST_P(PatternAgreement, OfNodesWithTheirFunctions) {
     std::string includes = "#include \"shaders/raster/material.glsl\"\n";
     for (const std::string& file : files)
         includes += "#include \"" + file + "\"\n";
-    std::string error;
-    const auto program = GlProgram::make(
-        {{GL_COMPUTE_SHADER, "patterns",
-          includes + "#define TRIALS " + std::to_string(trials) +
-              "\nlayout(local_size_x = 1) in;\n"
-              "layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };\n"
-              "layout(std430, binding = 6) writeonly buffer Answers { vec4 answers[]; };\n" +
-              somewhereInGlsl +
-              "void main() {\n    somewhere();\n    int t = int(gl_GlobalInvocationID.x);\n" +
-              body + "}\n"}},
-        error);
-    ASSERT_TRUE(program) << error;
+    const auto program = computeProgram(
+        "patterns",
+        includes + "#define TRIALS " + std::to_string(trials) +
+            "\nlayout(local_size_x = 1) in;\n"
+            "layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };\n"
+            "layout(std430, binding = 6) writeonly buffer Answers { vec4 answers[]; };\n" +
+            somewhereInGlsl +
+            "void main() {\n    somewhere();\n    int t = int(gl_GlobalInvocationID.x);\n" + body +
+            "}\n");
+    ASSERT_TRUE(program);
     const GlBuffer inputBuffer(inputs),
         answerBuffer(size_t(slot) * trials * sizeof(glm::vec4), nullptr);
     inputBuffer.bindStorage(0);
     answerBuffer.bindStorage(6);
-    program->use();
-    gl.DispatchCompute(trials, 1, 1);
-    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    std::vector<glm::vec4> answers(size_t(slot) * trials);
-    answerBuffer.read(answers.data(), answers.size() * sizeof(glm::vec4));
+    const auto answers = computed<glm::vec4>(*program, trials, answerBuffer, size_t(slot) * trials);
 
     slot = 0;
     for (const Case& c : all) {

@@ -2,15 +2,12 @@
 // Programs come back from disk as they went there; what is damaged is made anew.
 
 #include "hdDelegate/raster/gl/programCache.h"
-#include "hdDelegate/raster/gl/glProgram.h"
-#include "hdDelegate/raster/gl/glResources.h"
+#include "hdDelegate/film/tests/tempFolder.h"
 #include "hdDelegate/raster/tests/rasterFixture.h"
+#include "base/tests/testTools.h"
 
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <thread>
 
 using namespace patina;
 namespace fs = std::filesystem;
@@ -19,16 +16,8 @@ namespace {
 
 class ProgramCaches : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "programCacheXXXXXX").string();
-        ASSERT_TRUE(mkdtemp(name.data()));
-        _root = name;
-        setenv("PATINA_CACHE", name.c_str(), 1);
-    }
-    void TearDown() override {
-        unsetenv("PATINA_CACHE");
-        fs::remove_all(_root);
-    }
+    void SetUp() override { setenv("PATINA_CACHE", _root.c_str(), 1); }
+    void TearDown() override { unsetenv("PATINA_CACHE"); }
     std::vector<fs::path> files() const {
         std::vector<fs::path> found;
         std::error_code error;
@@ -36,30 +25,21 @@ protected:
             if (entry.is_regular_file()) found.push_back(entry.path());
         return found;
     }
-    fs::path _root;
+    TempFolder _temp;
+    const fs::path _root = _temp.path();
 };
 
 std::unique_ptr<GlProgram> make(int value) {
-    std::string error;
-    auto program = GlProgram::make({{GL_COMPUTE_SHADER, "test",
-                                     "layout(local_size_x = 1) in;\n"
-                                     "layout(std430, binding = 0) buffer Result { int result; };\n"
-                                     "void main() { result = " +
-                                         std::to_string(value) + " + int(gl_WorkGroupID.y); }\n"}},
-                                   error);
-    EXPECT_TRUE(program) << error;
-    return program;
+    return computeProgram("test", "layout(local_size_x = 1) in;\n"
+                                  "layout(std430, binding = 0) buffer Result { int result; };\n"
+                                  "void main() { result = " +
+                                      std::to_string(value) + " + int(gl_WorkGroupID.y); }\n");
 }
 
 int run(const GlProgram& program) {
     const GlBuffer result(16, nullptr);
     result.bindStorage(0);
-    program.use();
-    gl.DispatchCompute(1, 1, 1);
-    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    int value = 0;
-    result.read(&value, sizeof value);
-    return value;
+    return computed<int>(program, 1, result, 1)[0];
 }
 
 #define PATINA_NEED_BINARIES()                                                                     \
@@ -127,20 +107,16 @@ TEST_F(ProgramCaches, ManyWritersAtOnce) {
         PATINA_NEED_CONTEXT();
         PATINA_NEED_BINARIES();
     }
-    std::vector<std::thread> threads;
-    for (int t = 0; t < 3; ++t)
-        threads.emplace_back([] {
-            std::string error;
-            const auto context = GlContext::create(error);
-            ASSERT_TRUE(context) << error;
-            const GlContext::Use use(*context);
-            for (int i = 0; i < 12; ++i) {
-                const auto program = make(100 + i % 4);
-                EXPECT_EQ(run(*program), 100 + i % 4);
-            }
-        });
-    for (std::thread& thread : threads)
-        thread.join();
+    onThreads(3, [](int) {
+        std::string error;
+        const auto context = GlContext::create(error);
+        ASSERT_TRUE(context) << error;
+        const GlContext::Use use(*context);
+        for (int i = 0; i < 12; ++i) {
+            const auto program = make(100 + i % 4);
+            EXPECT_EQ(run(*program), 100 + i % 4);
+        }
+    });
     EXPECT_EQ(files().size(), 4u) << "no temporary stays";
 }
 

@@ -20,16 +20,6 @@ TriangleMesh square() {
     return mesh;
 }
 
-MeshAttribute attribute(const char* name, MeshAttribute::Rate rate, int components,
-                        std::vector<float> data) {
-    MeshAttribute a;
-    a.name = name;
-    a.rate = rate;
-    a.components = components;
-    a.data = std::move(data);
-    return a;
-}
-
 /// The layout of a chunk's buffer: bytes for so many vertices, primvars, triangles and indices.
 size_t bytesOf(size_t vertices, size_t primvars, size_t triangles) {
     const auto up = [](size_t n) {
@@ -45,8 +35,7 @@ TEST(RasterSurface, SmoothCornersShareVertices) {
     PATINA_NEED_CONTEXT();
     BufferHeap heap;
     TriangleMesh mesh = square();
-    mesh.attributes.push_back(
-        attribute("st", MeshAttribute::Rate::PerVertex, 2, {0, 0, 1, 0, 1, 1, 0, 1}));
+    mesh.attributes = {{"st", 2, MeshAttribute::Rate::PerVertex, {0, 0, 1, 0, 1, 1, 0, 1}}};
     RasterSurfaceBuilder builder(mesh, heap, 1 << 24);
     const RasterSurface surface = builder.make(0, {"st", "missing"});
     ASSERT_EQ(surface.chunks.size(), 1u);
@@ -61,9 +50,8 @@ TEST(RasterSurface, SeamsKeepTheirCorners) {
     BufferHeap heap;
     TriangleMesh mesh = square();
     // The second triangle's corner at vertex 2 has another value.
-    mesh.attributes.push_back(
-        attribute("a", MeshAttribute::Rate::PerCorner, 1, {0, 1, 2, 0, 7, 3}));
-    mesh.attributes.push_back(attribute("face", MeshAttribute::Rate::Constant, 1, {4}));
+    mesh.attributes = {{"a", 1, MeshAttribute::Rate::PerCorner, {0, 1, 2, 0, 7, 3}},
+                       {"face", 1, MeshAttribute::Rate::Constant, {4}}};
     RasterSurfaceBuilder builder(mesh, heap, 1 << 24);
     EXPECT_EQ(builder.make(0, {"a"}).chunks[0].bytes(), bytesOf(5, 5, 2));
     EXPECT_EQ(builder.make(0, {"face"}).chunks[0].bytes(), bytesOf(4, 4, 2));
@@ -90,7 +78,7 @@ TEST(RasterSurface, VeryManyValuesAtOnePointAreNotAllCompared) {
         values.insert(values.end(), {float(i), 0.0f, 0.0f});
     }
     mesh.positions = {std::move(positions)};
-    mesh.attributes.push_back(attribute("a", MeshAttribute::Rate::PerCorner, 1, std::move(values)));
+    mesh.attributes = {{"a", 1, MeshAttribute::Rate::PerCorner, std::move(values)}};
     RasterSurfaceBuilder builder(mesh, heap, size_t(1) << 30);
     EXPECT_EQ(builder.make(0, {"a"}).triangles, size_t(count));
 }

@@ -2,6 +2,7 @@
 // The units of lights against the formulas of the UsdLux documentation.
 
 #include "hdDelegate/scene/lightUnits.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -99,7 +100,7 @@ TEST(LightUnits, normalizeKeepsThePower) {
             light.type = type;
             light.intensity = 5.0f;
             light.normalize = true;
-            const mat4 m = glm::scale(mat4(1.0f), vec3(scale));
+            const mat4 m = scaled(scale);
             EXPECT_NEAR(lightRadiance(light, m).x * lightSizeFactor(light, m), 5.0, 1e-4);
         }
 }
@@ -107,7 +108,7 @@ TEST(LightUnits, normalizeKeepsThePower) {
 TEST(LightUnits, transformsAreInterpolated) {
     MotionTransform motion;
     motion.times = {0.0f, 2.0f};
-    motion.values = {mat4(1.0f), glm::translate(mat4(1.0f), vec3(4.0f, 0.0f, 0.0f))};
+    motion.values = {mat4(1.0f), translate(4.0f, 0.0f, 0.0f)};
     EXPECT_FLOAT_EQ(transformAt(motion, 0.5f)[3].x, 1.0f);
     EXPECT_FLOAT_EQ(transformAt(motion, 9.0f)[3].x, 4.0f);
 }

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include "base/limits.h"
-
-#include <gtest/gtest.h>
+#include "base/tests/testTools.h"
 
 #include <limits>
-
-#include <thread>
 
 namespace patina {
 namespace {
 
 std::shared_ptr<Mesh> meshAt(const std::string& path) {
-    auto mesh = std::make_shared<Mesh>();
-    mesh->path = path;
-    return mesh;
+    return makePrim<Mesh>(path);
 }
 
 TEST(Scene, commitMakesAnotherStateAndKeepsTheOldOne) {
@@ -24,7 +20,7 @@ TEST(Scene, commitMakesAnotherStateAndKeepsTheOldOne) {
     const auto mesh = meshAt("/a");
     {
         SceneEdit edit = scene.edit();
-        edit.set(std::shared_ptr<const Geometry>(mesh));
+        edit.set(mesh);
         EXPECT_EQ(scene.snapshot(), before) << "nothing shows before the commit";
     }
     const auto after = scene.snapshot();
@@ -37,25 +33,25 @@ TEST(Scene, commitMakesAnotherStateAndKeepsTheOldOne) {
 TEST(Scene, editsWithoutEffectKeepTheState) {
     Scene scene;
     const auto mesh = meshAt("/a");
-    scene.edit().set(std::shared_ptr<const Geometry>(mesh));
+    scene.edit().set(mesh);
     const auto state = scene.snapshot();
     scene.edit().commit();
-    scene.edit().set(std::shared_ptr<const Geometry>(mesh));
+    scene.edit().set(mesh);
     scene.edit().remove("/missing");
     scene.edit().setMetersPerUnit(state->metersPerUnit);
     {
         SceneEdit edit = scene.edit();
         edit.clear();
-        edit.set(std::shared_ptr<const Geometry>(mesh));
+        edit.set(mesh);
     }
     EXPECT_EQ(scene.snapshot(), state);
 }
 
 TEST(Scene, unchangedPrimsKeepTheirObjects) {
     Scene scene;
-    scene.edit().set(std::shared_ptr<const Geometry>(meshAt("/a")));
+    scene.edit().set(meshAt("/a"));
     const auto first = scene.snapshot()->geometry.at("/a");
-    scene.edit().set(std::shared_ptr<const Geometry>(meshAt("/b")));
+    scene.edit().set(meshAt("/b"));
     EXPECT_EQ(scene.snapshot()->geometry.at("/a"), first);
     EXPECT_EQ(scene.snapshot()->geometry.size(), 2u);
 }
@@ -64,10 +60,10 @@ TEST(Scene, theLastCallOfAnEditCounts) {
     Scene scene;
     {
         SceneEdit edit = scene.edit();
-        edit.set(std::shared_ptr<const Geometry>(meshAt("/a")));
+        edit.set(meshAt("/a"));
         edit.remove("/a");
         edit.remove("/b");
-        edit.set(std::shared_ptr<const Geometry>(meshAt("/b")));
+        edit.set(meshAt("/b"));
     }
     EXPECT_EQ(scene.snapshot()->geometry.count("/a"), 0u);
     EXPECT_EQ(scene.snapshot()->geometry.count("/b"), 1u);
@@ -75,13 +71,7 @@ TEST(Scene, theLastCallOfAnEditCounts) {
 
 TEST(Scene, removeTakesEveryKindOfPrim) {
     Scene scene;
-    auto light = std::make_shared<Light>();
-    light->path = "/a";
-    {
-        SceneEdit edit = scene.edit();
-        edit.set(std::shared_ptr<const Geometry>(meshAt("/a")));
-        edit.set(std::shared_ptr<const Light>(light));
-    }
+    setPrims(scene, meshAt("/a"), makePrim<Light>("/a"));
     EXPECT_EQ(scene.snapshot()->lights.size(), 1u);
     scene.edit().remove("/a");
     EXPECT_TRUE(scene.snapshot()->geometry.empty());
@@ -90,11 +80,11 @@ TEST(Scene, removeTakesEveryKindOfPrim) {
 
 TEST(Scene, clearRemovesWhatWasThere) {
     Scene scene;
-    scene.edit().set(std::shared_ptr<const Geometry>(meshAt("/a")));
+    scene.edit().set(meshAt("/a"));
     {
         SceneEdit edit = scene.edit();
         edit.clear();
-        edit.set(std::shared_ptr<const Geometry>(meshAt("/b")));
+        edit.set(meshAt("/b"));
     }
     EXPECT_EQ(scene.snapshot()->geometry.count("/a"), 0u);
     EXPECT_EQ(scene.snapshot()->geometry.count("/b"), 1u);
@@ -111,15 +101,10 @@ TEST(Scene, badMetersPerUnitIsReported) {
 
 TEST(Scene, editsFromSeveralThreadsAllArrive) {
     Scene scene;
-    std::vector<std::thread> threads;
-    for (int t = 0; t < 4; ++t)
-        threads.emplace_back([&scene, t] {
-            for (int i = 0; i < 50; ++i)
-                scene.edit().set(std::shared_ptr<const Geometry>(
-                    meshAt("/" + std::to_string(t) + "/" + std::to_string(i))));
-        });
-    for (std::thread& thread : threads)
-        thread.join();
+    onThreads(4, [&](int t) {
+        for (int i = 0; i < 50; ++i)
+            scene.edit().set(meshAt("/" + std::to_string(t) + "/" + std::to_string(i)));
+    });
     EXPECT_EQ(scene.snapshot()->geometry.size(), 200u);
     EXPECT_EQ(scene.snapshot()->version, 200u);
 }
@@ -134,18 +119,11 @@ std::shared_ptr<const Geometry> quads(const std::string& path, int count) {
 TEST(Scene, whatLeavesItBeyondItsLimitsIsLeftOutAndNamed) {
     Scene scene;
     setLimits({{"triangles", 10}});
-    {
-        SceneEdit edit = scene.edit();
-        for (const char* path : {"/a", "/b", "/c", "/d"})
-            edit.set(quads(path, 2)); // 4 triangles
-    }
+    setPrims(scene, quads("/a", 2), quads("/b", 2), quads("/c", 2), quads("/d", 2)); // 4 triangles
     EXPECT_EQ(scene.snapshot()->geometry.size(), 2u);
     EXPECT_EQ(scene.snapshot()->triangles, 8u);
-    ASSERT_EQ(scene.diagnostics().count(), 1);
-    EXPECT_EQ(scene.diagnostics().all()[0].prim, "/c");
-    EXPECT_EQ(scene.diagnostics().all()[0].message,
-              "the scene has more triangles than 10 (--limit triangles); the prim is left out, "
-              "and 1 others");
+    EXPECT_EQ(onlyWarning(scene.diagnostics()), "/c  the scene has more triangles than 10 (--limit "
+                                                "triangles); the prim is left out, and 1 others");
     // A prim that goes makes room; a prim that is set again does not count twice.
     {
         SceneEdit edit = scene.edit();
@@ -163,11 +141,7 @@ TEST(Scene, whatLeavesItBeyondItsLimitsIsLeftOutAndNamed) {
     }
     EXPECT_EQ(scene.snapshot()->triangles, 10u);
     setLimits({{"prims", 2}, {"textLength", 20}});
-    {
-        SceneEdit edit = scene.edit();
-        for (const char* path : {"/f", "/g", "/a path that is longer"})
-            edit.set(quads(path, 1));
-    }
+    setPrims(scene, quads("/f", 1), quads("/g", 1), quads("/a path that is longer", 1));
     EXPECT_EQ(scene.snapshot()->geometry.size(), 2u);
     EXPECT_EQ(scene.diagnostics().count(), 3);
     setLimits({});

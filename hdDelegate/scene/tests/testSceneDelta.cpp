@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include <gtest/gtest.h>
 
@@ -7,27 +8,18 @@ namespace patina {
 namespace {
 
 std::shared_ptr<const Geometry> mesh(const std::string& path) {
-    auto prim = std::make_shared<Mesh>();
-    prim->path = path;
-    return prim;
+    return makePrim<Mesh>(path);
 }
 
 std::shared_ptr<const MaterialPrim> material(const std::string& path) {
-    auto prim = std::make_shared<MaterialPrim>();
-    prim->path = path;
-    return prim;
+    return makePrim<MaterialPrim>(path);
 }
 
 using Paths = SceneDelta::Paths;
 
 TEST(SceneDelta, TellsWhatCommitsChanged) {
     Scene scene;
-    {
-        SceneEdit edit = scene.edit();
-        for (const char* path : {"/a", "/b", "/c"})
-            edit.set(mesh(path));
-        edit.set(material("/m"));
-    }
+    setPrims(scene, mesh("/a"), mesh("/b"), mesh("/c"), material("/m"));
     const uint64_t before = scene.snapshot()->version;
     scene.edit().set(material("/m"));
     {

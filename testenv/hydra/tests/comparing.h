@@ -28,6 +28,11 @@ inline std::string sceneText(Host& host) {
     return text.str();
 }
 
+/// Names of tests by whether they are of scene indices.
+inline std::string inputName(const testing::TestParamInfo<bool>& info) {
+    return info.param ? "SceneIndex" : "Delegate";
+}
+
 constexpr const char* hidden = "  hidden\n";
 
 /// Of a prim that no ray meets only the name and that: Hydra does not sync what it holds.

@@ -119,7 +119,4 @@ TEST_P(HydraEdits, EndLikeAFreshHost) {
     if (lost > 0) std::cout << "OpenUSD lost the stage " << lost << " times\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(Inputs, HydraEdits, testing::Bool(),
-                         [](const testing::TestParamInfo<bool>& info) {
-                             return info.param ? "SceneIndex" : "Delegate";
-                         });
+INSTANTIATE_TEST_SUITE_P(Inputs, HydraEdits, testing::Bool(), inputName);

@@ -192,7 +192,4 @@ TEST_P(HydraLifetime, EveryBufferFormatIsWritten) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Inputs, HydraLifetime, testing::Bool(),
-                         [](const testing::TestParamInfo<bool>& info) {
-                             return info.param ? "SceneIndex" : "Delegate";
-                         });
+INSTANTIATE_TEST_SUITE_P(Inputs, HydraLifetime, testing::Bool(), inputName);

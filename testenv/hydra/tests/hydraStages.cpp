@@ -115,7 +115,4 @@ TEST_P(HydraStages, AChildOfAMeshLightMayHaveTheNameOfTheLight) {
     EXPECT_EQ(warnings.of(words), 2) << "each host says it once";
 }
 
-INSTANTIATE_TEST_SUITE_P(Inputs, HydraStages, testing::Bool(),
-                         [](const testing::TestParamInfo<bool>& info) {
-                             return info.param ? "SceneIndex" : "Delegate";
-                         });
+INSTANTIATE_TEST_SUITE_P(Inputs, HydraStages, testing::Bool(), inputName);

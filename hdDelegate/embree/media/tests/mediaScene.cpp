@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/media/tests/mediaScene.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "hdDelegate/renderer/tests/rendering.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 namespace patina::test {
 
 namespace {
-
-template <class T> std::shared_ptr<T> place(const std::string& path, const mat4& transform) {
-    auto prim = std::make_shared<T>();
-    prim->path = path;
-    prim->transform = MotionTransform(transform);
-    return prim;
-}
 
 mat4 placed(const vec3& center, const vec3& scale) {
     mat4 m(1.0f);
@@ -28,50 +19,41 @@ mat4 placed(const vec3& center, const vec3& scale) {
 
 void MediaScene::material(const std::string& path, std::vector<NetworkNode> nodes,
                           const std::string& terminal) {
-    auto prim = std::make_shared<MaterialPrim>();
-    prim->path = path;
-    prim->network.path = path;
-    prim->network.terminals[terminal] = {nodes.at(0).path, ""};
-    prim->network.nodes = std::move(nodes);
-    scene->edit().set(std::shared_ptr<const MaterialPrim>(prim));
+    scene->edit().set(makeMaterial(path, std::move(nodes), terminal));
 }
 
 void MediaScene::cube(const std::string& path, const vec3& center, const vec3& size,
                       const std::string& material) {
-    auto prim = place<Implicit>(path, placed(center, 0.5f * size));
+    auto prim = makePrim<Implicit>(path, placed(center, 0.5f * size));
     prim->shape = ImplicitShape::Cube;
     prim->material = material;
-    scene->edit().set(std::shared_ptr<const Geometry>(prim));
+    scene->edit().set(prim);
 }
 
 void MediaScene::sphere(const std::string& path, const vec3& center, float radius,
                         const std::string& material) {
-    auto prim = place<Implicit>(path, placed(center, vec3(radius)));
+    auto prim = makePrim<Implicit>(path, placed(center, vec3(radius)));
     prim->material = material;
-    scene->edit().set(std::shared_ptr<const Geometry>(prim));
+    scene->edit().set(prim);
 }
 
 void MediaScene::plane(const std::string& path, const vec3& center, float size,
                        const std::string& material) {
-    auto prim = place<Implicit>(path, placed(center, vec3(1.0f)));
+    auto prim = makePrim<Implicit>(path, placed(center, vec3(1.0f)));
     prim->shape = ImplicitShape::Plane;
     prim->width = prim->length = size;
     prim->material = material;
-    scene->edit().set(std::shared_ptr<const Geometry>(prim));
+    scene->edit().set(prim);
 }
 
 void MediaScene::dome(float radiance) {
-    auto light = std::make_shared<Light>();
-    light->path = "/dome";
-    light->type = LightType::Dome;
+    auto light = makeLight("/dome", LightType::Dome);
     light->intensity = radiance;
-    scene->edit().set(std::shared_ptr<const Light>(light));
+    scene->edit().set(light);
 }
 
 void MediaScene::distant(const vec3& irradiance, const vec3& travels) {
-    auto light = std::make_shared<Light>();
-    light->path = "/sun";
-    light->type = LightType::Distant;
+    auto light = makeLight("/sun", LightType::Distant);
     light->angle = 0.0f;
     light->color = irradiance;
     const vec3 z = -glm::normalize(travels);
@@ -82,16 +64,16 @@ void MediaScene::distant(const vec3& irradiance, const vec3& travels) {
     m[1] = vec4(glm::cross(z, x), 0);
     m[2] = vec4(z, 0);
     light->transform = MotionTransform(m);
-    scene->edit().set(std::shared_ptr<const Light>(light));
+    scene->edit().set(light);
 }
 
 void MediaScene::camera(const vec3& eye, float width) {
-    auto camera = place<Camera>("/camera", placed(eye, vec3(1.0f)));
+    auto camera = makePrim<Camera>("/camera", placed(eye, vec3(1.0f)));
     camera->orthographic = true;
     camera->clipNear = 0.01f; // where no box has a face: which side it is on would hang on rounding
     // Apertures are tenths of scene units.
     camera->horizontalAperture = camera->verticalAperture = 10.0f * width;
-    scene->edit().set(std::shared_ptr<const Camera>(camera));
+    scene->edit().set(camera);
 }
 
 MediaScene::Image MediaScene::render(int pixels, int samples) {
@@ -99,11 +81,8 @@ MediaScene::Image MediaScene::render(int pixels, int samples) {
     settings.samples = samples;
     settings.filterRadius = 0.5f;
     auto renderer = makeRenderer("embree");
-    auto film = std::make_shared<Film>();
-    renderer->start(scene, "/camera", settings, film);
-    renderer->wait();
     Image image;
-    image.color = film->resolve("color");
+    image.color = rendered(*renderer, scene, settings)->resolve("color");
     const auto counts = renderer->progress().statistics;
     image.raysPerPath = counts.at("rays") / counts.at("paths");
     const int n = pixels * pixels;
@@ -139,41 +118,50 @@ void expectThreadsChangeNothing(int pixels, int samples,
     EXPECT_EQ(images[0], images[1]);
 }
 
-NetworkNode node(const std::string& path, const std::string& id,
-                 std::map<std::string, Value> inputs,
-                 std::map<std::string, Connection> connections) {
-    NetworkNode result;
-    result.path = path;
-    result.id = id;
-    result.inputs = std::move(inputs);
-    result.connections = std::move(connections);
-    return result;
+void expectSane(const MediaScene::Image& image) {
+    ASSERT_TRUE(image.finite);
+    for (float x : image.color)
+        ASSERT_TRUE(x >= 0.0f && x < 100.0f) << x;
 }
 
-static Value vec(const vec3& v) {
-    return Value::makeVec3(v.x, v.y, v.z);
+MediaScene ball(std::vector<NetworkNode> nodes, const std::string& terminal) {
+    MediaScene s;
+    s.material("/m", std::move(nodes), terminal);
+    s.sphere("/ball", vec3(0), 1.0f, "/m");
+    return s;
+}
+
+MediaScene block(std::vector<NetworkNode> nodes) {
+    MediaScene s;
+    s.material("/m", std::move(nodes));
+    s.cube("/block", vec3(0, 0, -10), vec3(20), "/m");
+    return s;
+}
+
+std::vector<NetworkNode> surfaceOf(const std::string& bsdf, Inputs inputs, Inputs surface) {
+    return {makeNode("surface", "ND_surface", std::move(surface), {{"bsdf", {"bsdf", ""}}}),
+            makeNode("bsdf", bsdf, std::move(inputs))};
 }
 
 std::vector<NetworkNode> volumeNodes(const vec3& absorption, const vec3& scattering,
                                      float anisotropy) {
-    return {node("/m/volume", "ND_volume", {}, {{"vdf", {"/m/vdf", ""}}}),
-            node("/m/vdf", "ND_anisotropic_vdf",
-                 {{"absorption", vec(absorption)},
-                  {"scattering", vec(scattering)},
-                  {"anisotropy", Value::makeFloat(anisotropy)}})};
+    return {makeNode("volume", "ND_volume", {}, {{"vdf", {"vdf", ""}}}),
+            makeNode("vdf", "ND_anisotropic_vdf",
+                     {{"absorption", vec(absorption)},
+                      {"scattering", vec(scattering)},
+                      {"anisotropy", number(anisotropy)}})};
 }
 
 std::vector<NetworkNode> glassNodes(float ior, float roughness, const vec3& absorption,
                                     const vec3& scattering) {
     return {
-        node("/m/surface", "ND_surface", {}, {{"bsdf", {"/m/layer", ""}}}),
-        node("/m/layer", "ND_layer_vdf", {}, {{"top", {"/m/glass", ""}}, {"base", {"/m/vdf", ""}}}),
-        node("/m/glass", "ND_dielectric_bsdf",
-             {{"ior", Value::makeFloat(ior)},
-              {"roughness", Value::makeVec2(roughness, roughness)},
-              {"scatter_mode", Value::makeString("RT")}}),
-        node("/m/vdf", "ND_anisotropic_vdf",
-             {{"absorption", vec(absorption)}, {"scattering", vec(scattering)}})};
+        makeNode("surface", "ND_surface", {}, {{"bsdf", {"layer", ""}}}),
+        makeNode("layer", "ND_layer_vdf", {}, {{"top", {"glass", ""}}, {"base", {"vdf", ""}}}),
+        makeNode(
+            "glass", "ND_dielectric_bsdf",
+            {{"ior", number(ior)}, {"roughness", pair(roughness)}, {"scatter_mode", text("RT")}}),
+        makeNode("vdf", "ND_anisotropic_vdf",
+                 {{"absorption", vec(absorption)}, {"scattering", vec(scattering)}})};
 }
 
 } // namespace patina::test

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "hdDelegate/renderer/renderer.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include <functional>
-#include <string>
-#include <vector>
 
 namespace patina::test {
 
@@ -28,6 +27,11 @@ public:
     void plane(const std::string& path, const vec3& center, float size,
                const std::string& material);
     void dome(float radiance);
+    /// A dome of radiance 1 and a camera above z = 0.
+    void whiteRoom(float width) {
+        dome(1.0f);
+        camera(vec3(0, 0, 5), width);
+    }
     void distant(const vec3& irradiance, const vec3& travels);
     /// Looks along -z from `eye`, orthographic, on a square of that width.
     void camera(const vec3& eye, float width);
@@ -48,9 +52,26 @@ void expectMean(const MediaScene::Image& image, const vec3& wanted, float slack)
 void expectThreadsChangeNothing(int pixels, int samples,
                                 const std::function<void(MediaScene&)>& fill);
 
-NetworkNode node(const std::string& path, const std::string& id,
-                 std::map<std::string, Value> inputs = {},
-                 std::map<std::string, Connection> connections = {});
+/// Every channel is a number that light may have.
+void expectSane(const MediaScene::Image& image);
+
+inline Value rgb(const vec3& v) {
+    return Value::makeColor3(v.x, v.y, v.z);
+}
+inline Value vec(const vec3& v) {
+    return Value::makeVec3(v.x, v.y, v.z);
+}
+
+/// "/m" as a ball of radius 1 around the origin.
+MediaScene ball(std::vector<NetworkNode> nodes, const std::string& terminal = "surface");
+/// "/m" below z = 0, wide and deep.
+MediaScene block(std::vector<NetworkNode> nodes);
+
+/// ND_surface of one BSDF.
+std::vector<NetworkNode> surfaceOf(const std::string& bsdf, Inputs inputs, Inputs surface = {});
+inline std::vector<NetworkNode> whiteNodes() {
+    return surfaceOf("ND_oren_nayar_diffuse_bsdf", {{"color", grey(1)}});
+}
 
 /// ND_volume over an ND_anisotropic_vdf of these coefficients.
 std::vector<NetworkNode> volumeNodes(const vec3& absorption, const vec3& scattering,

@@ -3,12 +3,9 @@
 // width and way out.
 
 #include "hdDelegate/embree/media/tests/mediaScene.h"
+#include "hdDelegate/scene/tests/prims.h"
 
 #include "shaders/oracle.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 using namespace patina;
 using namespace patina::test;
@@ -18,17 +15,13 @@ namespace {
 const vec3 pigment(0.1f, 0.4f, 1.2f);
 
 std::vector<NetworkNode> hair(const vec3& absorption) {
-    return {node("/m/surface", "ND_surface", {}, {{"bsdf", {"/m/hair", ""}}}),
-            node("/m/hair", "ND_chiang_hair_bsdf",
-                 {{"absorption_coefficient",
-                   Value::makeVec3(absorption.x, absorption.y, absorption.z)}})};
+    return surfaceOf("ND_chiang_hair_bsdf", {{"absorption_coefficient", vec(absorption)}});
 }
 
 /// Strands side by side along x, from -10 to 10. Strand i lies at (y[i], z[i]).
 void strands(MediaScene& s, const std::vector<vec2>& at, float radius, CurveBasis basis,
              bool ribbons) {
-    auto prim = std::make_shared<Curves>();
-    prim->path = "/hair";
+    auto prim = makePrim<Curves>("/hair");
     prim->basis = basis;
     prim->material = "/m";
     std::vector<vec3> points;
@@ -38,18 +31,11 @@ void strands(MediaScene& s, const std::vector<vec2>& at, float radius, CurveBasi
         for (int i = 0; i < count; ++i)
             points.push_back(vec3(-10.0f + 20.0f * float(i) / float(count - 1), p.x, p.y));
     }
-    const auto constant = [&](const char* name, std::vector<float> value) {
-        Primvar primvar;
-        primvar.name = name;
-        primvar.components = int(value.size());
-        primvar.interpolation = Interpolation::Constant;
-        primvar.values = value;
-        prim->primvars.push_back(primvar);
-    };
-    constant("widths", {2.0f * radius});
-    if (ribbons) constant("normals", {0.0f, 0.0f, 1.0f});
+    prim->primvars = {makePrimvar("widths", Interpolation::Constant, 1, {2.0f * radius})};
+    if (ribbons)
+        prim->primvars.push_back(makePrimvar("normals", Interpolation::Constant, 3, {0, 0, 1}));
     prim->points = points;
-    s.scene->edit().set(std::shared_ptr<const Geometry>(prim));
+    s.scene->edit().set(prim);
 }
 
 /// Mean over the width of a strand seen from its side.

@@ -8,21 +8,11 @@ namespace patina {
 namespace {
 
 std::shared_ptr<const MaterialProgram> dielectric(float ior) {
-    static Diagnostics diagnostics;
-    static FakeTextures textures;
-    Network network;
-    NetworkNode bsdf, surface;
-    bsdf.path = "/bsdf";
-    bsdf.id = "ND_dielectric_bsdf";
-    bsdf.inputs["ior"] = Value::makeFloat(ior);
-    bsdf.inputs["roughness"] = Value::makeVec2(0.0f, 0.0f);
-    bsdf.inputs["scatter_mode"] = Value::makeString("RT");
-    surface.path = "/surface";
-    surface.id = "ND_surface";
-    surface.connections["bsdf"] = {"/bsdf", ""};
-    network.nodes = {bsdf, surface};
-    network.terminals["surface"] = {"/surface", ""};
-    return compileMaterial(network, textures, diagnostics);
+    return Compiled(bsdfNetwork({makeNode("bsdf", "ND_dielectric_bsdf",
+                                          {{"ior", number(ior)},
+                                           {"roughness", pair(0.0f)},
+                                           {"scatter_mode", text("RT")}})}))
+        .program;
 }
 
 /// A point whose front or back is seen.

@@ -3,10 +3,7 @@
 
 #include "hdDelegate/embree/media/tests/mediaScene.h"
 #include "hdDelegate/image/fieldGrid.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "hdDelegate/scene/tests/prims.h"
 
 using namespace patina;
 using namespace patina::test;
@@ -15,8 +12,7 @@ namespace {
 
 void splats(MediaScene& s, const std::vector<vec3>& positions, float scale, float opacity,
             const std::vector<vec3>& colors) {
-    auto prim = std::make_shared<Splats>();
-    prim->path = "/splats";
+    auto prim = makePrim<Splats>("/splats");
     SplatCloud cloud;
     cloud.degree = 0;
     cloud.positions = positions;
@@ -26,7 +22,7 @@ void splats(MediaScene& s, const std::vector<vec3>& positions, float scale, floa
         cloud.harmonics.push_back((color - 0.5f) / 0.28209479f);
     }
     setCloud(*prim, std::move(cloud), s.scene->diagnostics());
-    s.scene->edit().set(std::shared_ptr<const Geometry>(std::move(prim)));
+    s.scene->edit().set(std::move(prim));
 }
 
 /// A cube of -1..1, as a field of constant density or as a closed object.
@@ -40,11 +36,10 @@ void fog(MediaScene& s, bool field, const vec3& absorption, const vec3& scatteri
     for (int b = 0; b < bricks * bricks * bricks; ++b)
         grid->setBrick(ivec3(b / (bricks * bricks), b / bricks % bricks, b % bricks),
                        std::vector<float>(FieldGrid::voxels, 1.0f));
-    auto prim = std::make_shared<Volume>();
-    prim->path = "/volume";
+    auto prim = makePrim<Volume>("/volume");
     prim->material = "/m";
     prim->fields.push_back({"density", "", "", std::move(grid)});
-    s.scene->edit().set(std::shared_ptr<const Geometry>(std::move(prim)));
+    s.scene->edit().set(std::move(prim));
 }
 
 class SplatsInFog : public testing::TestWithParam<bool> {};
@@ -62,14 +57,10 @@ TEST_P(SplatsInFog, FogDimsWhatIsBehindAndInside) {
     splats(s, {vec3(0, 0, 2), vec3(0), vec3(0, 0, -2)}, 0.1f, 0.5f,
            {colors[0], colors[1], colors[2]});
     s.camera(vec3(0, 0, 5), 1e-4f);
-    const auto image = s.render(16, 64);
-    ASSERT_TRUE(image.finite);
-    for (int c = 0; c < 3; ++c) {
-        const float extinction = absorption[c] + scattering[c];
-        const float expected = 0.5f * colors[0][c] + 0.25f * colors[1][c] * std::exp(-extinction) +
-                               0.125f * colors[2][c] * std::exp(-2.0f * extinction);
-        EXPECT_NEAR(image.mean[c], expected, 5.0f * image.error[c] + 5e-3f) << c;
-    }
+    expectMean(s.render(16, 64),
+               0.5f * colors[0] + 0.25f * colors[1] * glm::exp(-absorption - scattering) +
+                   0.125f * colors[2] * glm::exp(-2.0f * (absorption + scattering)),
+               5e-3f);
 }
 
 /// Everything shines or scatters with radiance 1 and loses nothing: each ray sees 1, if the way to
@@ -79,10 +70,8 @@ TEST_P(SplatsInFog, AWhiteWorldStaysWhite) {
     fog(s, GetParam(), vec3(0), vec3(1.0f, 0.5f, 2.0f));
     splats(s, {vec3(0, 0, 1.5f), vec3(0.3f, 0, 0), vec3(-0.3f, 0.1f, 0.2f), vec3(0, 0, -1.5f)},
            0.4f, 0.7f, std::vector<vec3>(4, vec3(1)));
-    s.dome(1.0f);
-    s.camera(vec3(0, 0, 5), 2.2f);
-    const auto image = s.render(16, 256);
-    expectMean(image, vec3(1), 2e-3f);
+    s.whiteRoom(2.2f);
+    expectMean(s.render(16, 256), vec3(1), 2e-3f);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SplatsInFog, testing::Values(false, true));

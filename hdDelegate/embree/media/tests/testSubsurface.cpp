@@ -5,21 +5,15 @@
 #include "hdDelegate/embree/media/tests/mediaScene.h"
 #include "hdDelegate/geometry/tests/meshFixtures.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 using namespace patina;
 using namespace patina::test;
 
 namespace {
 
 std::vector<NetworkNode> skin(const vec3& color, const vec3& radius, float anisotropy) {
-    return {node("/m/surface", "ND_surface", {}, {{"bsdf", {"/m/skin", ""}}}),
-            node("/m/skin", "ND_subsurface_bsdf",
-                 {{"color", Value::makeColor3(color.x, color.y, color.z)},
-                  {"radius", Value::makeColor3(radius.x, radius.y, radius.z)},
-                  {"anisotropy", Value::makeFloat(anisotropy)}})};
+    return surfaceOf(
+        "ND_subsurface_bsdf",
+        {{"color", rgb(color)}, {"radius", rgb(radius)}, {"anisotropy", number(anisotropy)}});
 }
 
 } // namespace
@@ -39,28 +33,20 @@ TEST(Subsurface, WhiteIsWhiteAndBlackIsBlack) {
 TEST(Subsurface, ThickObjectsHaveTheColourAskedFor) {
     const vec3 color(0.2f, 0.5f, 0.8f);
     for (float g : {0.0f, 0.5f}) {
-        MediaScene s;
-        s.material("/m", skin(color, vec3(0.01f, 0.02f, 0.04f), g));
-        s.cube("/block", vec3(0, 0, -10), vec3(20, 20, 20), "/m");
-        s.dome(1.0f);
-        s.camera(vec3(0, 0, 5), 0.1f);
-        const auto image = s.render(32, 64);
+        MediaScene s = block(skin(color, vec3(0.01f, 0.02f, 0.04f), g));
+        s.whiteRoom(0.1f);
         SCOPED_TRACE(g);
-        expectMean(image, color, 0.015f);
+        expectMean(s.render(32, 64), color, 0.015f);
     }
 }
 
 // Significance as in testMedia.cpp: five standard errors.
 TEST(Subsurface, WhiteObjectsLoseNothing) {
     for (float radius : {1e-4f, 0.1f, 1.0f, 100.0f}) {
-        MediaScene s;
-        s.material("/m", skin(vec3(1), vec3(radius, 0.5f * radius, 0.0f), 0.3f));
-        s.sphere("/ball", vec3(0), 1.0f, "/m");
-        s.dome(1.0f);
-        s.camera(vec3(0, 0, 5), 1.5f);
-        const auto image = s.render(16, 32);
+        MediaScene s = ball(skin(vec3(1), vec3(radius, 0.5f * radius, 0.0f), 0.3f));
+        s.whiteRoom(1.5f);
         SCOPED_TRACE(radius);
-        expectMean(image, vec3(1), 2e-3f);
+        expectMean(s.render(16, 32), vec3(1), 2e-3f);
     }
 }
 
@@ -69,10 +55,8 @@ TEST(Subsurface, OpenMeshesAreDiffuse) {
     MediaScene s;
     s.material("/m", skin(color, vec3(1e5f), 0.0f));
     s.plane("/sheet", vec3(0), 100.0f, "/m");
-    s.dome(1.0f);
-    s.camera(vec3(0, 0, 5), 1.0f);
-    const auto image = s.render(32, 64);
-    expectMean(image, color, 1e-3f);
+    s.whiteRoom(1.0f);
+    expectMean(s.render(32, 64), color, 1e-3f);
 }
 
 TEST(Subsurface, OpenBowlsGainNothing) {
@@ -85,9 +69,8 @@ TEST(Subsurface, OpenBowlsGainNothing) {
         // Without the side that the camera does not see, the last.
         mesh->faceVertexCounts.pop_back();
         mesh->faceVertexIndices.resize(20);
-        s.scene->edit().set(std::shared_ptr<const Geometry>(mesh));
-        s.dome(1.0f);
-        s.camera(vec3(0, 0, 5), 1.9f);
+        s.scene->edit().set(mesh);
+        s.whiteRoom(1.9f);
         const auto image = s.render(16, 64);
         ASSERT_TRUE(image.finite);
         for (int c = 0; c < 3; ++c) {
@@ -112,11 +95,10 @@ TEST(Subsurface, ObjectsInsideAreNotMet) {
     for (bool inside : {false, true}) {
         MediaScene s;
         s.material("/m", skin(vec3(0.8f), vec3(0.3f), 0.0f));
-        s.material("/black", {node("/m/surface", "ND_surface")});
+        s.material("/black", {makeNode("surface", "ND_surface")});
         s.sphere("/ball", vec3(0), 1.0f, "/m");
         if (inside) s.sphere("/core", vec3(0), 0.9f, "/black");
-        s.dome(1.0f);
-        s.camera(vec3(0, 0, 5), 1.5f);
+        s.whiteRoom(1.5f);
         const auto image = s.render(16, 16);
         if (!inside)
             first = image.color;
@@ -142,9 +124,8 @@ TEST(Subsurface, PartsThatOverlapAreOneObject) {
                 mesh->faceVertexIndices.push_back(8 + corner);
             mesh->faceVertexCounts.assign(12, 4);
         }
-        s.scene->edit().set(std::shared_ptr<const Geometry>(mesh));
-        s.dome(1.0f);
-        s.camera(vec3(0, 0, 5), 1.9f);
+        s.scene->edit().set(mesh);
+        s.whiteRoom(1.9f);
         return s.render(32, 64);
     };
     const auto one = meanOf(false), two = meanOf(true);
@@ -156,15 +137,9 @@ TEST(Subsurface, ExtremesStayFinite) {
          {vec3(0.0f), vec3(INFINITY), vec3(NAN), vec3(-1.0f), vec3(1e-30f, 1, 0)})
         for (const vec3& color : {vec3(0.0f), vec3(2.0f), vec3(NAN, -1, 0.5f)})
             for (float g : {-1.0f, 1.0f, NAN}) {
-                MediaScene s;
-                s.material("/m", skin(color, radius, g));
-                s.sphere("/ball", vec3(0), 1.0f, "/m");
-                s.dome(1.0f);
-                s.camera(vec3(0, 0, 5), 2.5f);
-                const auto image = s.render(6, 4);
-                ASSERT_TRUE(image.finite);
-                for (float x : image.color)
-                    ASSERT_TRUE(x >= 0.0f && x < 100.0f) << x;
+                MediaScene s = ball(skin(color, radius, g));
+                s.whiteRoom(2.5f);
+                expectSane(s.render(6, 4));
             }
 }
 
@@ -172,10 +147,12 @@ namespace {
 
 constexpr int varianceSide = 32, varianceSamples = 64;
 
-/// Of one sample, over the square of the mean; every pixel has the same mean.
+/// Of one sample; every pixel has the same mean.
+double varianceOf(const MediaScene::Image& image) {
+    return double(image.error.x) * image.error.x * varianceSide * varianceSide * varianceSamples;
+}
 double relativeVariance(const MediaScene::Image& image) {
-    const double error = image.error.x / image.mean.x;
-    return error * error * varianceSide * varianceSide * varianceSamples;
+    return varianceOf(image) / (double(image.mean.x) * image.mean.x);
 }
 
 } // namespace
@@ -187,11 +164,8 @@ double relativeVariance(const MediaScene::Image& image) {
 TEST(Subsurface, DarkColoursAreLessNoisyThanPhysicalChances) {
     const double physical = 1.0 / (2.0 / 3.0 * (1.0 - std::log(2.0))) - 1.0;
     for (float color : {0.002f, 0.02f}) {
-        MediaScene s;
-        s.material("/m", skin(vec3(color), vec3(0.01f), 0.0f));
-        s.cube("/block", vec3(0, 0, -10), vec3(20, 20, 20), "/m");
-        s.dome(1.0f);
-        s.camera(vec3(0, 0, 5), 0.1f);
+        MediaScene s = block(skin(vec3(color), vec3(0.01f), 0.0f));
+        s.whiteRoom(0.1f);
         const auto image = s.render(varianceSide, varianceSamples);
         EXPECT_NEAR(image.mean.x, color, 5.0f * image.error.x + 0.05f * color);
         EXPECT_LT(relativeVariance(image), 0.5 * physical) << color;
@@ -204,11 +178,8 @@ TEST(Subsurface, DarkColoursAreLessNoisyThanPhysicalChances) {
 // Significance as above; 1 % for the ball's facets.
 TEST(Subsurface, BlackBallsLetThroughWhatTheirChordsDo) {
     for (float radius : {2.0f, 1.0f, 0.2f}) {
-        MediaScene s;
-        s.material("/m", skin(vec3(0), vec3(radius), 0.0f));
-        s.sphere("/ball", vec3(0), 1.0f, "/m");
-        s.dome(1.0f);
-        s.camera(vec3(0, 0, 5), 0.8f);
+        MediaScene s = ball(skin(vec3(0), vec3(radius), 0.0f));
+        s.whiteRoom(0.8f);
         const auto image = s.render(varianceSide, varianceSamples);
         const double x = 2.0 / radius;
         const double mean = 2.0 * (1.0 - (1.0 + x) * std::exp(-x)) / (x * x);
@@ -222,21 +193,17 @@ TEST(Subsurface, BlackBallsLetThroughWhatTheirChordsDo) {
 // Under a coat that reflects more than it gives back, walks are drawn often enough.
 TEST(Subsurface, DarkColoursUnderACoatAreFoundOften) {
     const auto variance = [](float specular) {
-        MediaScene s;
-        s.material("/m", {node("/m/surface", "ND_standard_surface_surfaceshader",
-                               {{"base", Value::makeFloat(0.0f)},
-                                {"subsurface", Value::makeFloat(1.0f)},
-                                {"subsurface_color", Value::makeColor3(0.01f, 0.01f, 0.01f)},
-                                {"subsurface_radius", Value::makeColor3(0.01f, 0.01f, 0.01f)},
-                                {"specular", Value::makeFloat(specular)},
-                                {"specular_roughness", Value::makeFloat(0.5f)}})});
-        s.cube("/block", vec3(0, 0, -10), vec3(20, 20, 20), "/m");
+        MediaScene s = block({makeNode("surface", "ND_standard_surface_surfaceshader",
+                                       {{"base", number(0.0f)},
+                                        {"subsurface", number(1.0f)},
+                                        {"subsurface_color", grey(0.01f)},
+                                        {"subsurface_radius", grey(0.01f)},
+                                        {"specular", number(specular)},
+                                        {"specular_roughness", number(0.5f)}})});
         s.distant(vec3(1.0f), glm::normalize(vec3(1, 0, -0.3f)));
         s.camera(vec3(0, 0, 5), 0.1f);
-        const auto image = s.render(varianceSide, varianceSamples);
         // The highlight has no noise: what varies is the walks' part.
-        const double error = image.error.x;
-        return error * error * varianceSide * varianceSide * varianceSamples;
+        return varianceOf(s.render(varianceSide, varianceSamples));
     };
     // Drawn half of the time, a sample varies by twice what it would alone, and that it is drawn or
     // not adds its mean square once more: 4 covers both.

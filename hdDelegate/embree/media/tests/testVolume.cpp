@@ -3,10 +3,8 @@
 
 #include "hdDelegate/embree/media/tests/mediaScene.h"
 #include "hdDelegate/image/fieldGrid.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "hdDelegate/scene/tests/prims.h"
+#include "base/tests/testTools.h"
 
 using namespace patina;
 using namespace patina::test;
@@ -38,13 +36,11 @@ template <class F> std::shared_ptr<const FieldGrid> cubeGrid(int bricks, const F
 
 void volume(MediaScene& s, std::shared_ptr<const FieldGrid> grid, const std::string& material,
             const vec3& center = vec3(0)) {
-    auto prim = std::make_shared<Volume>();
-    prim->path = "/volume";
+    auto prim = makePrim<Volume>("/volume");
     prim->material = material;
-    prim->transform = MotionTransform(
-        mat4(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0), vec4(center, 1)));
+    prim->transform = translate(center.x, center.y, center.z);
     prim->fields.push_back({"density", "", "", std::move(grid)});
-    s.scene->edit().set(std::shared_ptr<const Geometry>(prim));
+    s.scene->edit().set(prim);
 }
 
 void volumeMaterial(MediaScene& s, const vec3& absorption, const vec3& scattering,
@@ -72,12 +68,8 @@ TEST(Volumes, AbsorptionFollowsTheIntegralOfDensity) {
     volumeMaterial(s, absorption, vec3(0));
     // Rays along z see the same density at every x and y near the middle: its integral is 2.
     volume(s, cubeGrid(4, [](const vec3& p) { return 1.0f + std::sin(3.0f * p.z); }), "/m");
-    s.dome(1.0f);
-    s.camera(vec3(0, 0, 5), 0.1f);
-    const auto image = s.render(16, 256);
-    ASSERT_TRUE(image.finite);
-    for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(image.mean[c], std::exp(-2.0f * absorption[c]), 5.0f * image.error[c] + 2e-3f);
+    s.whiteRoom(0.1f);
+    expectMean(s.render(16, 256), glm::exp(-2.0f * absorption), 2e-3f);
 }
 
 TEST(Volumes, ShadowsFollowTheIntegralOfDensity) {
@@ -85,9 +77,7 @@ TEST(Volumes, ShadowsFollowTheIntegralOfDensity) {
         MediaScene s;
         volumeMaterial(s, vec3(0.5f, 1.0f, 2.0f), vec3(0));
         if (with) volume(s, cubeGrid(2, [](const vec3&) { return 0.5f; }), "/m", vec3(0, 0, 3));
-        s.material("/white", {node("/m/surface", "ND_surface", {}, {{"bsdf", {"/m/diffuse", ""}}}),
-                              node("/m/diffuse", "ND_oren_nayar_diffuse_bsdf",
-                                   {{"color", Value::makeColor3(1, 1, 1)}})});
+        s.material("/white", whiteNodes());
         s.cube("/floor", vec3(0, 0, -1), vec3(2, 2, 2), "/white");
         s.distant(vec3(1), vec3(0, 0, -1));
         s.camera(vec3(0, 0, 1.5f), 0.1f); // between the volume and the floor
@@ -104,11 +94,9 @@ TEST(Volumes, WhiteVolumesLoseNothing) {
         MediaScene s;
         volumeMaterial(s, vec3(0), vec3(1.0f, 0.5f, 2.0f), 0.4f);
         volume(s, cubeGrid(2, [&](const vec3& p) { return density * (1.0f + p.x); }), "/m");
-        s.dome(1.0f);
-        s.camera(vec3(0, 0, 5), 2.2f);
-        const auto image = s.render(16, 64);
+        s.whiteRoom(2.2f);
         SCOPED_TRACE(density);
-        expectMean(image, vec3(1), 2e-3f);
+        expectMean(s.render(16, 64), vec3(1), 2e-3f);
     }
 }
 
@@ -139,8 +127,7 @@ TEST(Volumes, OneBrightVoxelIsOpaqueAndEndsSoon) {
     volumeMaterial(s, vec3(1.0f), vec3(0.0f));
     volume(s, cubeGrid(1, [](const vec3& p) { return glm::length(p) < 0.3f ? 3e38f : 0.0f; }),
            "/m");
-    s.dome(1.0f);
-    s.camera(vec3(0, 0, 5), 0.1f); // all rays meet it
+    s.whiteRoom(0.1f); // all rays meet it
     const auto image = s.render(16, 64);
     ASSERT_TRUE(image.finite);
     for (int c = 0; c < 3; ++c)
@@ -153,27 +140,22 @@ TEST(Volumes, WhatIsDenserThanItsMajorantGainsNoLight) {
     MediaScene s;
     s.material(
         "/m",
-        {node("/m/volume", "ND_volume", {}, {{"vdf", {"/m/vdf", ""}}}),
-         node("/m/vdf", "ND_anisotropic_vdf", {}, {{"scattering", {"/m/vector", ""}}}),
-         node("/m/vector", "ND_combine3_vector3", {},
-              {{"in1", {"/m/dense", ""}}, {"in2", {"/m/dense", ""}}, {"in3", {"/m/dense", ""}}}),
-         node("/m/dense", "ND_ifgreater_float",
-              {{"value2", Value::makeFloat(0.03f)},
-               {"in1", Value::makeFloat(0.01f)},
-               {"in2", Value::makeFloat(1000.0f)}},
-              {{"value1", {"/m/away", ""}}}),
-         node("/m/away", "ND_absval_float", {}, {{"in", {"/m/from", ""}}}),
-         node("/m/from", "ND_subtract_float", {{"in2", Value::makeFloat(0.3f)}},
-              {{"in1", {"/m/x", ""}}}),
-         node("/m/x", "ND_extract_vector3", {{"index", Value::makeInt(0)}},
-              {{"in", {"/m/position", ""}}}),
-         node("/m/position", "ND_position_vector3")},
+        {makeNode("volume", "ND_volume", {}, {{"vdf", {"vdf", ""}}}),
+         makeNode("vdf", "ND_anisotropic_vdf", {}, {{"scattering", {"vector", ""}}}),
+         makeNode("vector", "ND_combine3_vector3", {},
+                  {{"in1", {"dense", ""}}, {"in2", {"dense", ""}}, {"in3", {"dense", ""}}}),
+         makeNode("dense", "ND_ifgreater_float",
+                  {{"value2", number(0.03f)}, {"in1", number(0.01f)}, {"in2", number(1000.0f)}},
+                  {{"value1", {"away", ""}}}),
+         makeNode("away", "ND_absval_float", {}, {{"in", {"from", ""}}}),
+         makeNode("from", "ND_subtract_float", {{"in2", number(0.3f)}}, {{"in1", {"x", ""}}}),
+         makeNode("x", "ND_extract_vector3", {{"index", Value::makeInt(0)}},
+                  {{"in", {"position", ""}}}),
+         makeNode("position", "ND_position_vector3")},
         "volume");
     volume(s, cubeGrid(1, [](const vec3&) { return 1.0f; }), "/m");
-    s.dome(1.0f);
-    s.camera(vec3(0, 0, 5), 2.2f);
-    const auto image = s.render(16, 64);
-    expectMean(image, vec3(1), 2e-3f);
+    s.whiteRoom(2.2f);
+    expectMean(s.render(16, 64), vec3(1), 2e-3f);
 }
 
 TEST(Volumes, WithoutAKnownMaterialAreAGreyWhosePathsEnd) {
@@ -184,13 +166,9 @@ TEST(Volumes, WithoutAKnownMaterialAreAGreyWhosePathsEnd) {
     constexpr double most = 2.0 * (7 + 5) + 2.0;
     for (const std::string material : {"", "/none", "/surface"}) {
         MediaScene s;
-        s.material("/surface",
-                   {node("/m/surface", "ND_surface", {}, {{"bsdf", {"/m/diffuse", ""}}}),
-                    node("/m/diffuse", "ND_oren_nayar_diffuse_bsdf",
-                         {{"color", Value::makeColor3(1, 1, 1)}})});
+        s.material("/surface", whiteNodes());
         volume(s, cubeGrid(2, [](const vec3&) { return 1000.0f; }), material);
-        s.dome(1.0f);
-        s.camera(vec3(0, 0, 5), 1.0f); // inside of the outline
+        s.whiteRoom(1.0f); // inside of the outline
         const auto image = s.render(16, 16);
         ASSERT_TRUE(image.finite);
         for (int c = 0; c < 3; ++c) {
@@ -198,14 +176,12 @@ TEST(Volumes, WithoutAKnownMaterialAreAGreyWhosePathsEnd) {
             EXPECT_LT(image.mean[c], 0.8f) << material; // all light that is seen was scattered
         }
         EXPECT_LT(image.raysPerPath, most) << material;
-        std::string told;
-        for (const Diagnostic& d : s.scene->diagnostics().all())
-            told += d.prim + " " + d.input + ": " + d.message;
         const std::string why = material.empty()
                                     ? "no material is bound"
                                     : "material " + material + " does not exist or is not a volume";
-        EXPECT_EQ(told, "/volume material:binding: " + why +
-                            "; a grey one is shown that scatters 0.8 of the light");
+        EXPECT_EQ(onlyWarning(s.scene->diagnostics()),
+                  "/volume material:binding " + why +
+                      "; a grey one is shown that scatters 0.8 of the light");
     }
     MediaScene white;
     volumeMaterial(white, vec3(0), vec3(1));
@@ -219,8 +195,7 @@ TEST(Volumes, ThreadsChangeNothing) {
     expectThreadsChangeNothing(40, 4, [](MediaScene& s) {
         volumeMaterial(s, vec3(0.2f), vec3(1.5f, 1.0f, 0.5f));
         volume(s, cubeGrid(2, [](const vec3& p) { return 1.0f + p.x; }), "/m");
-        s.dome(1.0f);
-        s.camera(vec3(0, 0, 5), 2.5f);
+        s.whiteRoom(2.5f);
     });
 }
 
@@ -229,19 +204,13 @@ TEST(Volumes, ExtremesStayFinite) {
         MediaScene s;
         volumeMaterial(s, vec3(1), vec3(1));
         volume(s, cubeGrid(1, [&](const vec3&) { return density; }), "/m");
-        s.dome(1.0f);
-        s.camera(vec3(0, 0, 5), 2.5f);
-        const auto image = s.render(6, 4);
-        ASSERT_TRUE(image.finite);
-        for (float x : image.color)
-            ASSERT_TRUE(x >= 0.0f && x < 100.0f) << x;
+        s.whiteRoom(2.5f);
+        expectSane(s.render(6, 4));
     }
     MediaScene s;
-    auto prim = std::make_shared<Volume>();
-    prim->path = "/volume";
+    auto prim = makePrim<Volume>("/volume");
     prim->fields.push_back({"density", "/does/not/exist.vdb", "density", nullptr});
-    s.scene->edit().set(std::shared_ptr<const Geometry>(prim));
-    s.dome(1.0f);
-    s.camera(vec3(0, 0, 5), 2.5f);
+    s.scene->edit().set(prim);
+    s.whiteRoom(2.5f);
     EXPECT_TRUE(s.render(6, 4).finite);
 }

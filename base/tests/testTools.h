@@ -16,8 +16,26 @@
 
 namespace patina {
 
-inline bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+inline std::string warnings(const Diagnostics& diagnostics) {
+    std::string text;
+    for (const Diagnostic& d : diagnostics.all())
+        text += d.prim + " [" + d.input + "] " + d.message + "\n";
+    return text;
+}
+
+/// Whether a text has that part; a failure shows the text.
+inline testing::AssertionResult has(const std::string& text, const std::string& part) {
+    if (text.find(part) != std::string::npos) return testing::AssertionSuccess() << text;
+    return testing::AssertionFailure() << "no '" << part << "' in\n" << text;
+}
+
+inline testing::AssertionResult told(const Diagnostics& diagnostics, const std::string& part) {
+    return has(warnings(diagnostics), part);
+}
+
+inline testing::AssertionResult nothingTold(const Diagnostics& diagnostics) {
+    if (diagnostics.count() == 0) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << warnings(diagnostics);
 }
 
 /// @returns what an action throws; empty where it does not

@@ -5,6 +5,7 @@
 #include "materialNetwork/graph/expand.h"
 #include "materialNetwork/material.h"
 #include "materialNetwork/graph/simplify.h"
+#include "base/tests/testTools.h"
 #include "shaders/tests/estimate.h"
 
 #include <gtest/gtest.h>
@@ -205,28 +206,6 @@ inline Value text(const std::string& s) {
 }
 inline Value file(const std::string& s) {
     return Value::makeFilename(s);
-}
-
-inline std::string warnings(const Diagnostics& diagnostics) {
-    std::string text;
-    for (const Diagnostic& d : diagnostics.all())
-        text += d.prim + " [" + d.input + "] " + d.message + "\n";
-    return text;
-}
-
-/// Whether a text has that part; a failure shows the text.
-inline testing::AssertionResult has(const std::string& text, const std::string& part) {
-    if (text.find(part) != std::string::npos) return testing::AssertionSuccess() << text;
-    return testing::AssertionFailure() << "no '" << part << "' in\n" << text;
-}
-
-inline testing::AssertionResult told(const Diagnostics& diagnostics, const std::string& part) {
-    return has(warnings(diagnostics), part);
-}
-
-inline testing::AssertionResult nothingTold(const Diagnostics& diagnostics) {
-    if (diagnostics.count() == 0) return testing::AssertionSuccess();
-    return testing::AssertionFailure() << warnings(diagnostics);
 }
 
 inline ShadingPoint seenFrom(const glm::vec3& wo) {

@@ -143,7 +143,8 @@ TEST(Completeness, NodesOfMaterialX) {
             const std::string where = expected.id + " " + wanted.name;
             if (isUpgraded(expected.category, wanted.name)) continue;
             const int place = def->findInput(wanted.name);
-            ASSERT_GE(place, 0) << where;
+            EXPECT_GE(place, 0) << where;
+            if (place < 0) continue;
             const InputDef& input = def->inputs[size_t(place)];
             EXPECT_TRUE(sameType(wanted.type, input.type)) << where;
             EXPECT_EQ(hasOtherDefaults ? input.geomprop : wanted.geomprop, input.geomprop) << where;
@@ -158,7 +159,8 @@ TEST(Completeness, NodesOfMaterialX) {
         }
         for (const OutputDef& wanted : expected.outputs) {
             const int place = def->findOutput(wanted.name);
-            ASSERT_GE(place, 0) << expected.id << " > " << wanted.name;
+            EXPECT_GE(place, 0) << expected.id << " > " << wanted.name;
+            if (place < 0) continue;
             EXPECT_TRUE(sameType(wanted.type, def->outputs[size_t(place)].type))
                 << expected.id << " > " << wanted.name;
         }

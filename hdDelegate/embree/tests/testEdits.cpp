@@ -196,6 +196,10 @@ TEST_P(Edits, PrimsComeAndGo) {
     EXPECT_EQ(session.rendered(), "0 0 2 0 0");
     session.settings.interactive = !session.settings.interactive;
     session.rendered();
+    session.settings.compactGeometry = true;
+    session.rendered();
+    session.move("/leaf", scaled(0.5f));
+    session.rendered();
 }
 
 TEST_P(Edits, AVolumeStopsBeingDrawn) {

@@ -137,6 +137,14 @@ PhotonMap EmbreeRenderer::photons(const PhotonTracer& tracer, const CausticCaste
     return PhotonMap(std::move(sent));
 }
 
+void EmbreeRenderer::split(Integrator& integrator, Arena& arena) {
+    arena.execute([&] { integrator.split(); });
+    report([&](RenderProgress& progress) {
+        progress.statistics["lightSamples"] = integrator.splitting().lightSamples;
+        progress.statistics["branches"] = integrator.splitting().branches;
+    });
+}
+
 void EmbreeRenderer::takeBlocks(Integrator& integrator, const CausticCasters& casters,
                                 const TileSchedule& schedule, const std::vector<int>& tiles,
                                 Arena& arena, const std::function<void(int end)>& take) {
@@ -145,7 +153,7 @@ void EmbreeRenderer::takeBlocks(Integrator& integrator, const CausticCasters& ca
         begin = std::min(begin, schedule.count(tile));
         end = std::max(end, schedule.target(tile));
     }
-    for (int block = begin / PhotonPass::samples; block * PhotonPass::samples < end; ++block) {
+    const auto send = [&](int block) {
         if (!_photonPass || _photonPass->block != block) {
             _photonPass = std::make_unique<PhotonPass>();
             _photonPass->block = block;
@@ -153,8 +161,15 @@ void EmbreeRenderer::takeBlocks(Integrator& integrator, const CausticCasters& ca
             arena.execute(
                 [&] { _photonPass->map = photons(integrator.photonTracer(), casters, block); });
         }
-        if (interrupted()) return;
         integrator.usePhotons(_photonPass.get());
+    };
+    if (!integrator.isSplit()) { // by the first block, wherever samples begin
+        send(0);
+        split(integrator, arena);
+    }
+    for (int block = begin / PhotonPass::samples; block * PhotonPass::samples < end; ++block) {
+        send(block);
+        if (interrupted()) return;
         take((block + 1) * PhotonPass::samples);
     }
 }
@@ -273,6 +288,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     Integrator integrator(*_embree, *_lights, rays, sampled, aovs);
     const std::unique_ptr<CausticCasters> glass = casters(sampled, camera, aovs);
     _photonPass.reset();
+    if (!glass) split(integrator, arena);
     TileSchedule schedule(*_film, sampled, glass != nullptr);
     beginSampling(schedule.outlook().taken);
     report(

@@ -32,6 +32,7 @@ private:
     /// The casters of the scene, where photons are asked for and show all that paths would.
     std::unique_ptr<CausticCasters> casters(const RenderSettings& settings, const Camera& camera,
                                             const std::vector<AovSpec>& aovs) const;
+    void split(Integrator& integrator, Arena& arena);
     /// Takes samples up to the schedule's targets in blocks, each with photons of its own.
     void takeBlocks(Integrator& integrator, const CausticCasters& casters,
                     const TileSchedule& schedule, const std::vector<int>& tiles, Arena& arena,

@@ -73,7 +73,11 @@ public:
     bool hasNonDelta() const {
         return _dispersed ? _dispersed->hasNonDelta() : _bsdf.hasNonDelta();
     }
-    float ior() const { return _bsdf.ior(); } ///< the hero's
+    float ior() const { return _bsdf.ior(); }  ///< the hero's
+    const Bsdf& bsdf() const { return _bsdf; } ///< likewise
+    BsdfSample sample(const vec4& u, HeroWavelengths& waves) const {
+        return _dispersed ? _dispersed->sample(vec3(u), u.w, waves) : _bsdf.sample(vec3(u), u.w);
+    }
 
 private:
     const Bsdf& _bsdf;

@@ -27,11 +27,54 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
       _cullBack(settings.cullStyle.rfind("back", 0) == 0),
       _cullFront(settings.cullStyle.rfind("front", 0) == 0),
       _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos),
-      _ambientOcclusion(settings.integrator == "ambientOcclusion"),
-      _lightSamples(settings.lightSamples > 0 ? settings.lightSamples
-                                              : lights.worthwhileSamples()) {
+      _ambientOcclusion(settings.integrator == "ambientOcclusion") {
     const vec3 eye = vec3(glm::inverse(camera.worldToCamera())[3]);
     if (std::isfinite(eye.x + eye.y + eye.z)) _cameraMedia = mediaAround(scene, eye, 0.5f);
+}
+
+/// Lets a path begin at the camera.
+void Integrator::start(Path& path, const CameraRay& ray) const {
+    path.indirectClamp = _settings.indirectClamp;
+    path.origin = ray.origin;
+    path.direction = ray.direction;
+    path.near = ray.near;
+    path.far = ray.far;
+    path.time = ray.time;
+    path.coneWidth = ray.coneWidth;
+    path.coneSpread = ray.coneSpread;
+    path.media = _cameraMedia;
+}
+
+void Integrator::split() {
+    const Splitting wanted{_settings.lightSamples, _settings.branches};
+    _splitting = SplitProbe::splitting;
+    _splitting = _ambientOcclusion
+                     ? Splitting()
+                     : chooseSplitting(_settings.width, _settings.height, wanted,
+                                       [this](int x, int y, uint32_t i) { return probe(x, y, i); });
+    _isSplit = true;
+}
+
+SplitProbe Integrator::probe(int x, int y, uint32_t index) const {
+    SplitProbe result;
+    Path path(Sampler(uint32_t(x), uint32_t(y), 0, index));
+    const vec4 uFilm = path.sampler.next4();
+    const float uTime = path.sampler.next2().x;
+    const vec2 pixel = vec2(x, y) + 0.5f + _filter.sample(vec2(uFilm));
+    const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime, vec2(x, y) + 0.5f);
+    if (!ray.seen) {
+        result.end(vec3(0.0f), 0.0f);
+        return result;
+    }
+    start(path, ray);
+    path.shown = path.featured = true;
+    path.probe = &result;
+    TraceCounters counters;
+    Film nowhere;
+    while (advance(path, {nowhere, x, y, 0.0f}, counters)) {
+    }
+    result.end(path.radiance, counters.cost());
+    return result;
 }
 
 void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const {
@@ -54,18 +97,10 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     }
 
     Path path(sampler);
-    path.indirectClamp = _settings.indirectClamp;
+    start(path, ray);
     std::optional<DeepRay> deep;
     if (film.deep()) path.deep = &deep.emplace();
     path.shown = _writer.aovs().empty() && !path.deep;
-    path.origin = ray.origin;
-    path.direction = ray.direction;
-    path.near = ray.near;
-    path.far = ray.far;
-    path.time = ray.time;
-    path.coneWidth = ray.coneWidth;
-    path.coneSpread = ray.coneSpread;
-    path.media = _cameraMedia;
     std::optional<LightPathRecord> record;
     if (!_writer.lightPaths().empty()) path.lightPaths = &record.emplace(_writer.lightPaths());
     while (advance(path, target, counters)) {
@@ -96,15 +131,13 @@ bool Integrator::advance(Path& path, const AovTarget& target, TraceCounters& cou
     if (step != Step::Arrives) return step == Step::GoesOn;
     if (path.fromCamera() && !caught) path.alpha = 1.0f;
     path.alpha += std::exchange(path.caught, 0.0f);
-    // The camera's first hit counts most, and its vertex is paid for.
-    path.lightSamples = path.fromCamera() ? _lightSamples : 1;
-
-    const bool goesOn = caught                ? shadeCatcher(path, point, hit, target, counters)
-                        : program.disperses() ? disperse(path, point, hit, width, target, counters)
-                                              : scatter(path, point, hit, width, target, counters);
+    path.lightSamples = path.seen ? _splitting.lightSamples : 1;
     path.coneWidth = width;
     path.travelled = 0.0f;
-    return goesOn;
+
+    return caught                ? shadeCatcher(path, point, hit, target, counters)
+           : program.disperses() ? disperse(path, point, hit, target, counters)
+                                 : scatter(path, point, hit, target, counters);
 }
 
 /// Traces the path's ray, and adds the lights that it meets on its way.
@@ -194,26 +227,26 @@ bool Integrator::shadeCatcher(Path& path, const SurfacePoint& point, const Hit& 
 }
 
 /// Takes the path through a vertex of one wavelength, or of three channels.
-bool Integrator::scatter(Path& path, const SurfacePoint& point, const Hit& hit, float width,
+bool Integrator::scatter(Path& path, const SurfacePoint& point, const Hit& hit,
                          const AovTarget& target, TraceCounters& counters) const {
     LightSampling::Draws draws = _lightSampling.beginAll(path, point, _settings.maxDepth);
     Bsdf bsdf;
     setUpLobes(point, bsdf);
     prepare(path, point, bsdf, target);
     if (endsAt(path, hit)) return false;
-    if (_photons) _photons->meet(path, point, bsdf, width, _camera, _settings.maxDepth);
+    if (_photons) _photons->meet(path, point, bsdf, path.coneWidth, _camera, _settings.maxDepth);
     if (bsdf.stochastic() || bsdf.transmits() != draws.twoSided) draws.count = 0;
-    return goOn(path, point, hit, bsdf, nullptr, draws, counters);
+    return goOn(path, point, hit, bsdf, nullptr, draws, target, counters);
 }
 
 /// Takes the path through a vertex whose lobes differ between wavelengths. They are chosen where it
 /// first meets such a material: until then its three channels stand for all of the spectrum.
-bool Integrator::disperse(Path& path, SurfacePoint& point, const Hit& hit, float width,
-                          const AovTarget& target, TraceCounters& counters) const {
+bool Integrator::disperse(Path& path, SurfacePoint& point, const Hit& hit, const AovTarget& target,
+                          TraceCounters& counters) const {
     HeroWavelengths& waves = path.waves;
     if (waves.alone) { // as without dispersion, then
         point.shading.wavelength = waves.nm[0];
-        return scatter(path, point, hit, width, target, counters);
+        return scatter(path, point, hit, target, counters);
     }
     path.onPhotons = path.throughCasters = false;
     const MaterialProgram& program = *point.slot->program;
@@ -233,43 +266,85 @@ bool Integrator::disperse(Path& path, SurfacePoint& point, const Hit& hit, float
     }
     prepare(path, point, bsdf, target);
     return !endsAt(path, hit) && goOn(path, point, hit, bsdf, dispersed ? &*dispersed : nullptr,
-                                      LightSampling::Draws(), counters);
+                                      LightSampling::Draws(), target, counters);
 }
 
-/// Takes light samples at a vertex, and the path on from it.
+/// Takes light samples at a vertex, and the path on from it. What the camera sees is left by
+/// several branches, of which all but the last are followed to their end here.
 /// @param dispersed the lobes of several wavelengths, or null
 bool Integrator::goOn(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
                       const DispersedBsdf* dispersed, const LightSampling::Draws& draws,
-                      TraceCounters& counters) const {
+                      const AovTarget& target, TraceCounters& counters) const {
     const VertexBsdf vertex(bsdf, dispersed);
-    const Sampler::Set uLight = path.sampler.nextSet(uint32_t(path.lightSamples));
-    if (vertex.hasNonDelta() && !path.throughCasters && !_lightSampling.empty())
-        for (int i = 0; i < path.lightSamples; ++i) {
-            const LightDraw draw = i < draws.count
-                                       ? draws.begun[i]
-                                       : _lightSampling.begin(path, point, vertex.transmits(),
-                                                              vec3(uLight.point4(uint32_t(i))));
-            path.add(_lightSampling.atSurface(path, point, vertex, hit, draw, counters));
-        }
-
+    const bool splits = path.seen && vertex.hasNonDelta();
+    path.branches = splits ? _splitting.branches : 1;
+    addLightSamples(path, point, hit, vertex, draws, counters);
     const bool litBySplats = vertex.hasNonDelta() && !_scene.splats().lights().empty();
     if (litBySplats) path.add(sampleSplats(_scene, path, point, vertex, counters));
 
-    const vec4 u = path.sampler.next4();
-    const BsdfSample next =
-        dispersed ? dispersed->sample(vec3(u), u.w, path.waves) : bsdf.sample(vec3(u), u.w);
+    if (path.branches > 1)
+        return branch(path, point, hit, vertex, litBySplats, target, counters);
+    return leave(path, point, hit, vertex, litBySplats, path.sampler.next4(), counters);
+}
+
+bool Integrator::branch(Path& path, const SurfacePoint& point, const Hit& hit,
+                        const VertexBsdf& vertex, bool litBySplats, const AovTarget& target,
+                        TraceCounters& counters) const {
+    const uint32_t branches = uint32_t(path.branches);
+    const Sampler::Set u = path.sampler.nextSet(branches);
+    path.throughput *= path.share = 1.0f / float(branches);
+    std::optional<LightPathRecord> record;
+    if (path.lightPaths) record.emplace(*path.lightPaths);
+    for (uint32_t i = 0;; ++i) {
+        const bool isLast = i + 1 == branches; // it goes on as the path itself
+        std::optional<Path> copy;
+        Path& own = isLast ? path : copy.emplace(path);
+        own.sampler.split(i, branches);
+        if (path.probe)
+            path.probe->begin(SplitProbe::Branch + int(i), path.radiance, counters.cost());
+        bool goesOn = leave(own, point, hit, vertex, litBySplats, u.point4(i), counters);
+        if (isLast) return goesOn;
+        while (goesOn)
+            goesOn = advance(own, target, counters);
+        path.radiance = own.radiance;
+        if (record) path.lightPaths->goBack(*record);
+    }
+}
+
+void Integrator::addLightSamples(Path& path, const SurfacePoint& point, const Hit& hit,
+                                 const VertexBsdf& vertex, const LightSampling::Draws& draws,
+                                 TraceCounters& counters) const {
+    const Sampler::Set u = path.sampler.nextSet(uint32_t(path.lightSamples));
+    if (!vertex.hasNonDelta() || path.throughCasters || _lightSampling.empty()) return;
+    for (int i = 0; i < path.lightSamples; ++i) {
+        if (path.probe && path.seen) path.probe->begin(i, path.radiance, counters.cost());
+        const LightDraw draw = i < draws.count
+                                   ? draws.begun[i]
+                                   : _lightSampling.begin(path, point, vertex.transmits(),
+                                                          vec3(u.point4(uint32_t(i))));
+        path.add(_lightSampling.atSurface(path, point, vertex, hit, draw, counters));
+    }
+    if (path.probe && path.seen)
+        path.probe->begin(SplitProbe::Between, path.radiance, counters.cost());
+}
+
+/// Takes a path on from a vertex. @param u of the choice
+bool Integrator::leave(Path& path, const SurfacePoint& point, const Hit& hit,
+                       const VertexBsdf& vertex, bool litBySplats, const vec4& u,
+                       TraceCounters& counters) const {
+    const BsdfSample next = vertex.sample(u, path.waves);
     if (next.event == 0) return false;
     path.throughput *= next.weight;
     if (!(luminance(path.throughput) > 0.0f)) return false;
     if ((next.event & LOBE_SUBSURFACE) != 0) {
         path.onPhotons = false;
-        if (!scatterBeneath(_scene, _lightSampling, path, point, hit, bsdf.subsurface(next),
-                            counters))
+        if (!scatterBeneath(_scene, _lightSampling, path, point, hit,
+                            vertex.bsdf().subsurface(next), counters))
             return false;
     } else {
         if ((next.event & sh::LOBE_TRANSMIT) != 0)
             path.media.cross(*point.slot->program, point.shading, _scene.priorityOf(hit),
-                             bsdf.ior() * point.shading.surroundingIor);
+                             vertex.bsdf().ior() * point.shading.surroundingIor);
         path.depart(point, hit, vertex, next, _lights.splitsLobes());
         path.splatsSampled = litBySplats && !path.specular && staysOutside(point, next.wi);
     }

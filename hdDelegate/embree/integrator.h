@@ -6,6 +6,7 @@
 #include "hdDelegate/embree/lightSampling.h"
 #include "hdDelegate/embree/metLights.h"
 #include "hdDelegate/embree/sampleWriter.h"
+#include "hdDelegate/embree/splitting.h"
 #include "hdDelegate/film/pixelFilter.h"
 
 namespace patina {
@@ -24,6 +25,11 @@ public:
     /// Caustics come from photons from now on, until the next call. @param pass null: from paths
     void usePhotons(const PhotonPass* pass) { _photons = pass; }
 
+    /// Chooses how often paths are split, as the settings ask or as it pays. Before the first
+    /// sample.
+    void split();
+    bool isSplit() const { return _isSplit; }
+    const Splitting& splitting() const { return _splitting; }
     /// Traces one sample of a pixel and adds it to the film.
     void sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const;
 
@@ -36,13 +42,22 @@ private:
     Step meet(Path& path, SurfacePoint& point, const Hit& hit, bool caught) const;
     bool shadeCatcher(Path& path, const SurfacePoint& point, const Hit& hit,
                       const AovTarget& target, TraceCounters& counters) const;
-    bool scatter(Path& path, const SurfacePoint& point, const Hit& hit, float width,
-                 const AovTarget& target, TraceCounters& counters) const;
-    bool disperse(Path& path, SurfacePoint& point, const Hit& hit, float width,
-                  const AovTarget& target, TraceCounters& counters) const;
+    bool scatter(Path& path, const SurfacePoint& point, const Hit& hit, const AovTarget& target,
+                 TraceCounters& counters) const;
+    bool disperse(Path& path, SurfacePoint& point, const Hit& hit, const AovTarget& target,
+                  TraceCounters& counters) const;
     bool goOn(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
               const DispersedBsdf* dispersed, const LightSampling::Draws& draws,
-              TraceCounters& counters) const;
+              const AovTarget& target, TraceCounters& counters) const;
+    bool branch(Path& path, const SurfacePoint& point, const Hit& hit, const VertexBsdf& vertex,
+                bool litBySplats, const AovTarget& target, TraceCounters& counters) const;
+    void addLightSamples(Path& path, const SurfacePoint& point, const Hit& hit,
+                         const VertexBsdf& vertex, const LightSampling::Draws& draws,
+                         TraceCounters& counters) const;
+    bool leave(Path& path, const SurfacePoint& point, const Hit& hit, const VertexBsdf& vertex,
+               bool litBySplats, const vec4& u, TraceCounters& counters) const;
+    void start(Path& path, const CameraRay& ray) const;
+    SplitProbe probe(int x, int y, uint32_t index) const;
     void prepare(Path& path, const SurfacePoint& point, Bsdf& bsdf, const AovTarget& target) const;
     bool endsAt(const Path& path, const Hit& hit) const {
         return path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface);
@@ -67,7 +82,8 @@ private:
     const PhotonPass* _photons = nullptr; ///< of the samples that are taken now
     MediumStack _cameraMedia;             ///< that the camera stands in
     const bool _cullBack, _cullFront, _cullDoubleSided, _ambientOcclusion;
-    const int _lightSamples; ///< at the first vertex
+    Splitting _splitting;
+    bool _isSplit = false;
 };
 
 } // namespace patina

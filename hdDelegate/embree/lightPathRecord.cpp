@@ -46,6 +46,15 @@ LightPathRecord::LightPathRecord(const LightPathAovs& aovs)
     _before = _weights;
 }
 
+void LightPathRecord::goBack(const LightPathRecord& event) {
+    _weights = event._weights;
+    _before = event._before;
+    _lastDiffuse = event._lastDiffuse;
+    _lastOther = event._lastOther;
+    _lastShare = event._lastShare;
+    beneath = event.beneath;
+}
+
 int LightPathRecord::symbol(EventType type, EventScatter scatter) const {
     const bool walked = beneath && type != EventType::Camera;
     return _aovs.set().symbol(

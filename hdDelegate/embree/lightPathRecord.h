@@ -65,6 +65,10 @@ public:
     ///        the singular one
     void scatter(EventType type, bool singular, const vec3& diffuseShare);
 
+    /// Goes back to an event of the path, from where it is followed once more. What was added
+    /// stays.
+    void goBack(const LightPathRecord& event);
+
     vec3 shadow{0.0f};
     bool beneath = false; ///< what scatters is where a walk beneath a surface ends
 

@@ -62,7 +62,7 @@ vec3 LightSampling::atSurface(Path& path, const SurfacePoint& point, const Verte
     vec3 radiance = _lights.radiance(light, s.position, path.time);
     if (radiance == vec3(0.0f) && info->triangles) return radiance;
     const float lightPdf = float(path.lightSamples) * light.pdf;
-    const float weight = weightOf(light, *info, lightPdf, f.pdf);
+    const float weight = weightOf(light, *info, lightPdf, f.pdf * float(path.branches));
     const ShadowRays::Way way{point.departure(light.direction), light.direction, light.distance,
                               path.time};
     const MaterialProgram& program = *point.slot->program;

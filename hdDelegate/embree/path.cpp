@@ -56,7 +56,8 @@ void Path::depart(const SurfacePoint& point, const Hit& hit, const VertexBsdf& b
                                                  : RaySpecular;
     specular = (next.event & sh::LOBE_DELTA) != 0;
     splatsSampled = false;
-    pdf = next.pdf;
+    pdf = next.pdf * float(branches);
+    seen = seen && specular && branches == 1;
     vertex = s.position;
     vertexNormal = back ? -s.normal : s.normal;
     vertexTwoSided = bsdf.transmits();
@@ -85,7 +86,7 @@ void Path::depart(const SurfacePoint& point, const Hit& hit, const VertexBsdf& b
 bool Path::survivesRoulette(int rouletteDepth) {
     if (depth + scatterings <= rouletteDepth) return true;
     const float bound = scatterings > 0 || depth <= endlessDepth ? 1.0f : 0.95f;
-    const float left = std::max({throughput.x, throughput.y, throughput.z});
+    const float left = std::max({throughput.x, throughput.y, throughput.z}) / share;
     const float survive = std::min(bound, left / rouletteBelow);
     if (survive >= 1.0f) return true;
     if (sampler.next2().x >= survive) return false;

@@ -13,11 +13,15 @@ namespace patina {
 
 class DeepRay;
 class LightPathRecord;
+struct SplitProbe;
 
 /// Counts of one thread; summed up for the statistics.
 struct TraceCounters {
     uint64_t rays = 0, shadowRays = 0, paths = 0;
     MaterialClock clock;
+
+    /// Time that was spent, where one ray with its vertex takes 1.
+    float cost() const { return float(rays) + 0.6f * float(shadowRays); }
 };
 
 constexpr int maxPassThroughs = 256; ///< surfaces that presence lets one ray through
@@ -38,6 +42,8 @@ struct PathState {
     int depth = 0;             ///< bounces off surfaces so far
     int scatterings = 0;       ///< inside media
     unsigned rays = RayCamera; ///< kind of the ray, of RayMask
+    bool seen = true;    ///< the camera sees the next vertex, if only in mirrors and clear glass
+    float share = 1.0f;  ///< that it has of a path that was split
     float caught = 0.0f; ///< alpha that a reflection catcher has where the ray meets something
     bool shown = false;  ///< AOVs have what they show of the first surface
     int screen = -1;     ///< AOV primId of splats that hide it: half of the light is theirs
@@ -46,7 +52,8 @@ struct PathState {
     // the last vertex that scattered
     bool specular = true; ///< no light sample could have found this ray
     int lightSamples = 1; ///< that it took
-    float pdf = 0.0f;
+    int branches = 1;     ///< paths that went on from it
+    float pdf = 0.0f;     ///< of all branches together
     vec3 vertex{0.0f}, vertexNormal{0.0f};
     bool vertexTwoSided = false;
     vec3 diffuseShare{1.0f}, specularShare{0.0f}; ///< of the throughput's last factor, sum 1
@@ -78,6 +85,7 @@ struct Path : PathState {
     HeroWavelengths waves;
     float indirectClamp = 0.0f;             ///< of luminance from the second vertex on; 0: none
     DeepRay* deep = nullptr;                ///< null where no deep image is made
+    SplitProbe* probe = nullptr;            ///< null but where splitting is chosen
     LightPathRecord* lightPaths = nullptr;  ///< shares radiance out; null where no AOV asks
     const Surface* vertexSurface = nullptr; ///< of the last vertex, for light linking
     const std::vector<int>* vertexInstanceCategories = nullptr;

@@ -167,12 +167,6 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene, L
     }
 }
 
-int SceneLights::worthwhileSamples() const {
-    constexpr int many = 16;
-    if (_set->lightCount() > many) return 4;
-    return _set->infiniteLights().empty() ? 1 : 2;
-}
-
 int SceneLights::triangleLight(const Hit& hit) const {
     const auto [place, triangle] = _glowing.find(hit);
     return place < 0 ? -1 : _set->lightCount() + _set->glowing(place).first + triangle;

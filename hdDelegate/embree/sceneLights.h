@@ -42,10 +42,6 @@ public:
     /// Some light has LightInfo::ownShadows.
     bool hasOwnShadows() const { return _hasOwnShadows; }
 
-    /// Light samples that pay where the camera sees a surface: further ones cost shadow rays and
-    /// save noise that is there, between the lights of many and in a sky.
-    int worthwhileSamples() const;
-
     /// Light index of a triangle that was hit; -1 when it does not emit.
     int triangleLight(const Hit& hit) const;
     /// The surface of a light that is a triangle; null for others.

@@ -73,6 +73,9 @@ public:
     glm::vec3 next3() { return glm::vec3(nextSet().point4()); }
     glm::vec4 next4() { return nextSet().point4(); }
 
+    /// One of `count` samples that go on in place of this one, stratified all together.
+    void split(uint32_t i, uint32_t count) { _index = _index * count + i; }
+
     /// A number that is not stratified, for decisions that are rarely taken.
     float random() { return toUnit(randomBits()); }
 

@@ -91,10 +91,12 @@ def closed_room(albedo, glowing=1.0):
     return both + prim("Cube", "room", bind="walls", size=60, doubleSided=1)
 
 
-def test_each_order_of_a_furnace_has_its_power_of_the_albedo(tmp_path):
+@pytest.mark.parametrize("branches", [1, 3])
+def test_each_order_of_a_furnace_has_its_power_of_the_albedo(branches, tmp_path):
+    """Each branch goes on from the same event."""
     albedo, orders = 0.5, range(5)
     names = [f"order{k}=lpe:C<RD>{{{k}}}O" for k in orders]
-    image = render(tmp_path, names, closed_room(albedo), samples=64)
+    image = render(tmp_path, names, closed_room(albedo), samples=64, arguments=("--branches", branches))
     for k in orders:
         assert_mean(layer(image, f"order{k}"), albedo**k)
 

@@ -100,7 +100,7 @@ Path::Step MediaTransport::scatter(Path& path, const Medium& medium, float dista
 
     if (path.lightPaths) path.lightPaths->scatter(EventType::Volume, false, vec3(1.0f));
     path.rays = RayVolume;
-    path.specular = path.splatsSampled = false;
+    path.specular = path.splatsSampled = path.seen = false;
     path.pdf = next.pdf;
     path.vertex = position;
     path.vertexNormal = vec3(0.0f);

@@ -102,7 +102,7 @@ vec3 sampleSplats(const EmbreeScene& scene, Path& path, const SurfacePoint& poin
     float left;
     const float end = found ? hit.distance : INFINITY;
     const vec3 incident = splatsAlong(scene, there, end, end, left) *
-                          (misWeight(drawn.pdf, f.pdf, false) / drawn.pdf);
+                          (misWeight(drawn.pdf, f.pdf * float(path.branches), false) / drawn.pdf);
     path.sampler = there.sampler;
     if (path.lightPaths)
         path.lightPaths->lit(EventType::Reflect, f.diffuse * incident, f.specular * incident,

@@ -50,7 +50,8 @@ bool scatterBeneath(const EmbreeScene& scene, const LightSampling& lights, Path&
     bsdf.makeDiffuse(back ? -there.normal : there.normal, up);
     const Hit& exitHit = exit.found ? exit.hit : hit;
     const vec4 uLight = path.sampler.next4();
-    path.lightSamples = 1;
+    path.lightSamples = path.branches = 1;
+    path.seen = false;
     if (path.lightPaths) path.lightPaths->beneath = true;
     if (!lights.empty())
         path.add(lights.atSurface(path, leaving, bsdf, exitHit,

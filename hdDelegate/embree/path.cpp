@@ -35,7 +35,7 @@ void Path::add(const vec3& light) {
     float clamp = 1.0f;
     if (indirectClamp > 0.0f && indirect()) {
         const float l = std::abs(luminance(contribution));
-        if (l > indirectClamp) contribution *= clamp = indirectClamp / l;
+        if (l > indirectClamp * share) contribution *= clamp = indirectClamp * share / l;
     }
     radiance += contribution;
     if (lightPaths) lightPaths->add(light, throughput * clamp);

@@ -40,8 +40,8 @@ private:
 };
 
 /// The numbers of light samples and of branches, powers of two, with the least product of time and
-/// variance over some pixels (cost and variance of a product of samples: Bolin and Meyer 1997).
-/// Time is counted in rays, so that all machines choose alike.
+/// variance over some pixels (after Bolin and Meyer 1997). Time is counted in rays, so that all
+/// machines choose alike.
 /// @param width,height of the image; it depends on nothing else but the probes
 /// @param wanted numbers that are fixed; 0: to be chosen
 /// @param probe of a sample of a pixel; called by many threads

@@ -13,7 +13,7 @@ namespace patina {
 
 namespace {
 
-constexpr int mostPixels = 256, leastPixels = 16, pixelsForEach = 16;
+constexpr int mostPixels = 1024, leastPixels = 16, pixelsForEach = 16;
 constexpr int samples = 2;          // of each of them
 constexpr double dark = 0.1;        // of the mean luminance: darker pixels do not decide
 constexpr double worthwhile = 0.95; // of the product of a cheaper choice

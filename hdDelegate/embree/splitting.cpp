@@ -32,6 +32,7 @@ struct Parts {
 };
 
 double relative(const vec3& difference, const vec3& mean, double floor) {
+    if (difference == vec3(0.0f)) return 0.0; // of a black image, say
     double sum = 0.0;
     for (int c = 0; c < 3; ++c)
         sum += double(difference[c]) * difference[c] / (double(mean[c]) * mean[c] + floor * floor);
@@ -108,15 +109,14 @@ Splitting chooseSplitting(int width, int height, const Splitting& wanted,
         for (int branches : options(wanted.branches, Splitting::mostBranches))
             choices.push_back({lightSamples, branches});
     const auto product = [&](const Splitting& s) { return cost.with(s) * variance.divided(s); };
-    double least = product(choices.front());
+    Splitting best = choices.front(), cheapest = best;
     for (const Splitting& choice : choices)
-        least = std::min(least, product(choice));
-    const Splitting* best = nullptr;
+        if (product(choice) < product(best)) best = cheapest = choice;
     for (const Splitting& choice : choices)
-        if (worthwhile * product(choice) <= least &&
-            (!best || cost.with(choice) < cost.with(*best)))
-            best = &choice;
-    return *best;
+        if (worthwhile * product(choice) <= product(best) &&
+            cost.with(choice) < cost.with(cheapest))
+            cheapest = choice;
+    return cheapest;
 }
 
 } // namespace patina

@@ -12,7 +12,8 @@ namespace {
 
 /// A number in [0, 1) for each sample of each pixel.
 float noise(int x, int y, uint32_t index, int salt) {
-    const double n = std::sin(x * 12.9898 + y * 78.233 + index * 37.719 + salt * 4.581) * 43758.5453;
+    const double n =
+        std::sin(x * 12.9898 + y * 78.233 + index * 37.719 + salt * 4.581) * 43758.5453;
     return float(n - std::floor(n));
 }
 
@@ -53,6 +54,17 @@ TEST(Splitting, GoesWhereTheNoiseIs) {
     EXPECT_EQ(bounced.lightSamples, 1);
     EXPECT_EQ(bounced.branches, Splitting::mostBranches);
     EXPECT_EQ((Image{0.0f, 1.0f, 0.1f, 100.0f}.choose().branches), 1);
+}
+
+TEST(Splitting, BlackImagesTakeOneOfEach) {
+    const auto black = [](int, int, uint32_t) {
+        SplitProbe probe;
+        probe.end(vec3(0.0f), 1.0f);
+        return probe;
+    };
+    const Splitting choice = chooseSplitting(64, 64, {0, 0}, black);
+    EXPECT_EQ(choice.lightSamples, 1);
+    EXPECT_EQ(choice.branches, 1);
 }
 
 TEST(Splitting, KeepsWhatIsAskedFor) {

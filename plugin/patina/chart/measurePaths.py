@@ -103,7 +103,7 @@ class _Pictures:
         """:returns: luminance, mean relative variance of a sample, and ns of a sample"""
         film = _patina.Film()
         settings = {"width": _WIDTH, "height": _WIDTH, "samples": samples or self.samples, "seed": seed, "maxDepth": maxDepth,
-                    "methods": methods or {}, "checkpointSeconds": 0.0, **more}
+                    "methods": methods or {}, "checkpointSeconds": 0.0, "lightSamples": 1, "branches": 1, **more}
         begin = time.process_time()
         draw(self.renderer, self.scene, "/camera", settings, film)
         spent = time.process_time() - begin

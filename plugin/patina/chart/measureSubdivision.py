@@ -102,7 +102,7 @@ class _Column:
             self.material = b
         film = _patina.Film()
         settings = {"width": self.width, "height": self.width, "samples": samples or self.samples, "filterRadius": 0.5,
-                    "seed": 7, "methods": {POINT: method}, "checkpointSeconds": 0.0}
+                    "seed": 7, "lightSamples": 2, "branches": 1, "methods": {POINT: method}, "checkpointSeconds": 0.0}
         state = draw(self.renderer, self.scene, "/camera", settings, film)
         spent = time.process_time() - begin
         image = np.asarray(film.resolve("color"), np.float64) @ LUMINANCE + _BACKGROUND * (1.0 - film.resolve("alpha"))

@@ -80,7 +80,7 @@ def compare(shot, image, scene_index, bound=0.0, reason=""):
         return
     if not scene_index and "\nImplicit " in shot.scene.dump():
         # Of the light, not of the mean: where a light takes some away, the mean is near zero.
-        assert image.mean() == pytest.approx(wanted.mean(), abs=MEAN_DIFFERS * np.abs(wanted).mean())
+        assert image.mean() == pytest.approx(wanted.mean(), abs=MEAN_DIFFERS * float(np.abs(wanted).mean()))
     elif bound > 0:
         assert rel_mse(image, wanted) <= bound, reason
     else:

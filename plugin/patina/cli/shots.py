@@ -52,10 +52,12 @@ def size_of(shot, camera, pixel_aspect):
     :raises CommandError: where they are too large"""
     width, height = shot.size
     aspect = camera["image_aspect"] / pixel_aspect
+    most = recordFlags.LARGEST_SIZE + 1  # an aspect may be near 0 or infinite
     if width is None:
-        width = DEFAULT_WIDTH if height is None else max(1, round(height * aspect))
-    if height is None:
-        height = max(1, int(np.float32(width) / np.float32(aspect)))  # cut in single precision, as usdrecord does
+        width = DEFAULT_WIDTH if height is None else max(1, round(min(height * aspect, most)))
+    if height is None:  # cut in single precision, as usdrecord does
+        single = np.float32(aspect)
+        height = max(1, int(min(np.float32(width) / single, most))) if single > 0 else most
     if width * height > recordFlags.MAX_PIXELS or max(width, height) > recordFlags.LARGEST_SIZE:
         raise CommandError(f"an image of {width} x {height} pixels is too large")
     return width, height

@@ -72,7 +72,8 @@ def _usable(context, schema, count):
         for at in times or [Usd.TimeCode.Default()]:
             value = attribute.Get(at) if attribute else None
             if value is not None and hasattr(value, "__len__"):
-                value = value[:count]
+                if len(value) > count:
+                    value = value[:count] if count else type(value)()  # of nothing, a slice is None
                 if name in turns:
                     value = type(value)([q.GetNormalized() for q in value])
                 own.GetPrim().GetAttribute(name).Set(value, at)

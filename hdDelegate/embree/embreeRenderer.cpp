@@ -138,7 +138,7 @@ PhotonMap EmbreeRenderer::photons(const PhotonTracer& tracer, const CausticCaste
 }
 
 void EmbreeRenderer::split(Integrator& integrator, Arena& arena) {
-    arena.execute([&] { integrator.split(); });
+    arena.execute([&] { integrator.split(stopFlag()); });
     report([&](RenderProgress& progress) {
         progress.statistics["lightSamples"] = integrator.splitting().lightSamples;
         progress.statistics["branches"] = integrator.splitting().branches;

@@ -45,13 +45,15 @@ void Integrator::start(Path& path, const CameraRay& ray) const {
     path.media = _cameraMedia;
 }
 
-void Integrator::split() {
+void Integrator::split(const std::atomic<bool>& stopped) {
     const Splitting wanted{_settings.lightSamples, _settings.branches};
     _splitting = SplitProbe::splitting;
     _splitting = _ambientOcclusion
                      ? Splitting()
                      : chooseSplitting(_settings.width, _settings.height, wanted,
-                                       [this](int x, int y, uint32_t i) { return probe(x, y, i); });
+                                       [&](int x, int y, uint32_t i) {
+                                           return stopped ? SplitProbe() : probe(x, y, i);
+                                       });
     _isSplit = true;
 }
 
@@ -62,10 +64,7 @@ SplitProbe Integrator::probe(int x, int y, uint32_t index) const {
     const float uTime = path.sampler.next2().x;
     const vec2 pixel = vec2(x, y) + 0.5f + _filter.sample(vec2(uFilm));
     const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime, vec2(x, y) + 0.5f);
-    if (!ray.seen) {
-        result.end(vec3(0.0f), 0.0f);
-        return result;
-    }
+    if (!ray.seen) return result;
     start(path, ray);
     path.shown = path.featured = true;
     path.probe = &result;
@@ -282,8 +281,7 @@ bool Integrator::goOn(Path& path, const SurfacePoint& point, const Hit& hit, con
     const bool litBySplats = vertex.hasNonDelta() && !_scene.splats().lights().empty();
     if (litBySplats) path.add(sampleSplats(_scene, path, point, vertex, counters));
 
-    if (path.branches > 1)
-        return branch(path, point, hit, vertex, litBySplats, target, counters);
+    if (path.branches > 1) return branch(path, point, hit, vertex, litBySplats, target, counters);
     return leave(path, point, hit, vertex, litBySplats, path.sampler.next4(), counters);
 }
 

@@ -9,6 +9,8 @@
 #include "hdDelegate/embree/splitting.h"
 #include "hdDelegate/film/pixelFilter.h"
 
+#include <atomic>
+
 namespace patina {
 
 /// A unidirectional path tracer: the stages of a path, in their order. Others have their parts:
@@ -27,7 +29,8 @@ public:
 
     /// Chooses how often paths are split, as the settings ask or as it pays. Before the first
     /// sample.
-    void split();
+    /// @param stopped the render needs no answer any more
+    void split(const std::atomic<bool>& stopped);
     bool isSplit() const { return _isSplit; }
     const Splitting& splitting() const { return _splitting; }
     /// Traces one sample of a pixel and adds it to the film.

@@ -13,7 +13,7 @@ namespace patina {
 
 class DeepRay;
 class LightPathRecord;
-struct SplitProbe;
+class SplitProbe;
 
 /// Counts of one thread; summed up for the statistics.
 struct TraceCounters {

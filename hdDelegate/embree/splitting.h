@@ -35,7 +35,7 @@ public:
 
 private:
     bool _begun[End] = {};
-    vec3 _radiance[End + 1];
+    vec3 _radiance[End + 1] = {};
     float _cost[End + 1] = {};
 };
 

@@ -59,7 +59,8 @@ def size_of(shot, camera, pixel_aspect):
         single = np.float32(aspect)
         height = max(1, int(min(np.float32(width) / single, most))) if single > 0 else most
     if width * height > recordFlags.MAX_PIXELS or max(width, height) > recordFlags.LARGEST_SIZE:
-        raise CommandError(f"an image of {width} x {height} pixels is too large")
+        told = (f"more than {most - 1}" if n >= most else str(n) for n in (width, height))
+        raise CommandError(f"an image of {' x '.join(told)} pixels is too large")
     return width, height
 
 

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+import usda
 from rendering import assert_same_mean, color, record, scene
 
 
@@ -16,6 +17,16 @@ def test_light_samples_do_not_change_the_mean(name):
 @pytest.mark.parametrize("name", ["lightMesh", "lightDome", "media", "plastic", "prism", "roughGlass", "motionBlur"])
 def test_branches_do_not_change_the_mean(name):
     assert_same_mean(name, "--branches", 1, 3, "--maxDepth", 4)
+
+
+def test_each_branch_walks_beneath_the_surface(tmp_path):
+    """Where it comes out it takes one light sample, and is one branch."""
+    stage = tmp_path / "skin.usda"
+    stage.write_text(usda.stage(
+        usda.camera(at=(0, 0.4, 5)), usda.floor("floor", 8, y=-1), usda.prim("Sphere", "ball", bind="skin", radius=1),
+        usda.prim("SphereLight", "key", radius=0.4, intensity=60, at=(2, 3, 2)), usda.prim("DomeLight", "sky", intensity=0.3),
+        usda.lobe("skin", "subsurface_bsdf", color=(0.9, 0.5, 0.4), radius=(0.4, 0.2, 0.1))))
+    assert_same_mean(str(stage), "--branches", 1, 3, "--maxDepth", 5)
 
 
 @pytest.mark.parametrize("name", ["lightRect", "lightDome", "manyLights"])

@@ -20,7 +20,7 @@ def test_branches_do_not_change_the_mean(name):
 
 
 def test_each_branch_walks_beneath_the_surface(tmp_path):
-    """Where it comes out it takes one light sample, and is one branch."""
+    """Light that comes out again counts once, whatever the number of branches."""
     stage = tmp_path / "skin.usda"
     stage.write_text(usda.stage(
         usda.camera(at=(0, 0.4, 5)), usda.floor("floor", 8, y=-1), usda.prim("Sphere", "ball", bind="skin", radius=1),

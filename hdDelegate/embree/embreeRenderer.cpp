@@ -123,7 +123,7 @@ PhotonMap EmbreeRenderer::photons(const PhotonTracer& tracer, const CausticCaste
     constexpr double perPath = 1.0 / 16.0;
     constexpr int min = 1 << 11, max = 1 << 20; // 1 << 20 take 72 MB
     const double wanted =
-        perPath * PhotonPass::samples * _settings.width * double(_settings.height);
+        perPath * SampleBlock::samples * _settings.width * double(_settings.height);
     const int count = int(std::clamp(wanted, double(min), double(max)));
     std::vector<Photon> sent(static_cast<size_t>(count));
     constexpr int batch = 1024;
@@ -137,6 +137,40 @@ PhotonMap EmbreeRenderer::photons(const PhotonTracer& tracer, const CausticCaste
     return PhotonMap(std::move(sent));
 }
 
+bool EmbreeRenderer::sharesLight(const RenderSettings& settings, const Camera& camera,
+                                 const std::vector<AovSpec>& aovs) const {
+    if (chosenMethod(settings.methods, "indirectLight") != "shared") return false;
+    const char* reason = _lights->linksSurfaces()       ? "a light is linked to some surfaces"
+                         : !LightPathAovs(aovs).empty() ? "an AOV asks for light paths"
+                         : settings.enableMotionBlur && camera.shutterOpen < camera.shutterClose
+                             ? "the shutter is open"
+                             : nullptr;
+    if (!reason) return true;
+    _scene->diagnostics().warn(camera.path, "method:indirectLight",
+                               messages::lightNotShared(reason));
+    return false;
+}
+
+SharedLight EmbreeRenderer::shared(const Integrator& integrator, int block) {
+    constexpr double perSample = 1.0 / 8.0;
+    constexpr int min = 1 << 11, max = 1 << 17; // 1 << 17 take some 100 MB
+    const double wanted =
+        perSample * SampleBlock::samples * _settings.width * double(_settings.height);
+    const int count = int(std::clamp(wanted, double(min), double(max)));
+    constexpr int batch = 256;
+    std::vector<SharedPoints> found(size_t(count) / batch + 1);
+    parallelFor(0, int(found.size()), [&](int b) {
+        TraceCounters counters;
+        for (int i = b * batch; i < std::min(count, (b + 1) * batch) && !stopped(); ++i)
+            integrator.findLight(uint32_t(block), uint32_t(i), found[size_t(b)], counters);
+        addCounts(counters);
+    });
+    std::vector<SharedPoint> points;
+    for (const SharedPoints& some : found)
+        points.insert(points.end(), some.points.begin(), some.points.end());
+    return SharedLight(points, SampleBlock::radius(block));
+}
+
 void EmbreeRenderer::split(Integrator& integrator, Arena& arena) {
     arena.execute([&] { integrator.split(stopFlag()); });
     report([&](RenderProgress& progress) {
@@ -145,32 +179,37 @@ void EmbreeRenderer::split(Integrator& integrator, Arena& arena) {
     });
 }
 
-void EmbreeRenderer::takeBlocks(Integrator& integrator, const CausticCasters& casters,
-                                const TileSchedule& schedule, const std::vector<int>& tiles,
-                                Arena& arena, const std::function<void(int end)>& take) {
+void EmbreeRenderer::takeBlocks(Integrator& integrator, const CausticCasters* casters,
+                                bool sharesLight, const TileSchedule& schedule,
+                                const std::vector<int>& tiles, Arena& arena,
+                                const std::function<void(int end)>& take) {
     int begin = INT_MAX, end = 0;
     for (int tile : tiles) {
         begin = std::min(begin, schedule.count(tile));
         end = std::max(end, schedule.target(tile));
     }
-    const auto send = [&](int block) {
-        if (!_photonPass || _photonPass->block != block) {
-            _photonPass = std::make_unique<PhotonPass>();
-            _photonPass->block = block;
-            _photonPass->radius = PhotonPass::radiusOf(block);
-            arena.execute(
-                [&] { _photonPass->map = photons(integrator.photonTracer(), casters, block); });
-        }
-        integrator.usePhotons(_photonPass.get());
+    const auto prepare = [&](int block) {
+        if (std::exchange(_block, block) == block) return;
+        integrator.useShared(nullptr);
+        arena.execute([&] {
+            if (casters) {
+                _photonPass.radius = PhotonPass::firstRadius * SampleBlock::radius(block);
+                _photonPass.map = photons(integrator.photonTracer(), *casters, block);
+                integrator.usePhotons(&_photonPass);
+            }
+            if (!sharesLight) return;
+            _sharedLight = shared(integrator, block);
+            integrator.useShared(&_sharedLight);
+        });
     };
     if (!integrator.isSplit()) { // by the first block, wherever samples begin
-        send(0);
+        prepare(0);
         split(integrator, arena);
     }
-    for (int block = begin / PhotonPass::samples; block * PhotonPass::samples < end; ++block) {
-        send(block);
+    for (int block = begin / SampleBlock::samples; block * SampleBlock::samples < end; ++block) {
+        prepare(block);
         if (interrupted()) return;
-        take((block + 1) * PhotonPass::samples);
+        take((block + 1) * SampleBlock::samples);
     }
 }
 
@@ -287,14 +326,16 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     sampled.rouletteDepth = plan.rouletteDepth(_settings);
     Integrator integrator(*_embree, *_lights, rays, sampled, aovs);
     const std::unique_ptr<CausticCasters> glass = casters(sampled, camera, aovs);
-    _photonPass.reset();
-    if (!glass) split(integrator, arena);
-    TileSchedule schedule(*_film, sampled, glass != nullptr);
+    const bool isShared = sharesLight(sampled, camera, aovs);
+    const bool hasBlocks = glass || isShared;
+    _block = -1;
+    if (!hasBlocks) split(integrator, arena);
+    TileSchedule schedule(*_film, sampled, hasBlocks);
     beginSampling(schedule.outlook().taken);
     report(
         [&](RenderProgress& progress) { progress.noiseWanted = std::max(sampled.tolerance, 0.0); });
     bool haveImage = schedule.samplesDone() > 0; // the time limit never leaves holes
-    if (!glass) showBlocks(integrator, schedule, arena);
+    if (!hasBlocks) showBlocks(integrator, schedule, arena);
     if (!waitWhilePaused()) return;
     while (!stopped()) {
         const std::vector<int> tiles = schedule.pending();
@@ -307,10 +348,10 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
                 });
             });
         };
-        if (!glass)
+        if (!hasBlocks)
             take(INT_MAX);
         else
-            takeBlocks(integrator, *glass, schedule, tiles, arena, take);
+            takeBlocks(integrator, glass.get(), isShared, schedule, tiles, arena, take);
         if (schedule.samplesDone() > 0) _film->showBlocks(1, {});
         publish(schedule);
         maybeCheckpoint();

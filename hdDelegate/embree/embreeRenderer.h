@@ -5,6 +5,7 @@
 #include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/integrator.h"
 #include "hdDelegate/embree/lightsKey.h"
+#include "hdDelegate/embree/sampleBlock.h"
 #include "hdDelegate/embree/tileSchedule.h"
 #include "hdDelegate/parallel.h"
 #include "hdDelegate/renderer/renderLoop.h"
@@ -32,13 +33,19 @@ private:
     /// The casters of the scene, where photons are asked for and show all that paths would.
     std::unique_ptr<CausticCasters> casters(const RenderSettings& settings, const Camera& camera,
                                             const std::vector<AovSpec>& aovs) const;
+    /// Whether paths share light: it is asked for, and cells know all that tells paths apart.
+    bool sharesLight(const RenderSettings& settings, const Camera& camera,
+                     const std::vector<AovSpec>& aovs) const;
     void split(Integrator& integrator, Arena& arena);
-    /// Takes samples up to the schedule's targets in blocks, each with photons of its own.
-    void takeBlocks(Integrator& integrator, const CausticCasters& casters,
+    /// Takes samples up to the schedule's targets in blocks, each with photons and light of its
+    /// own. @param casters null: without photons
+    void takeBlocks(Integrator& integrator, const CausticCasters* casters, bool sharesLight,
                     const TileSchedule& schedule, const std::vector<int>& tiles, Arena& arena,
                     const std::function<void(int end)>& take);
     /// Sends out the photons of a block of samples.
     PhotonMap photons(const PhotonTracer& tracer, const CausticCasters& casters, int block);
+    /// Finds the light that a block of samples shares.
+    SharedLight shared(const Integrator& integrator, int block);
     void updateScene(const SceneState& state, const Camera& camera);
     /// The camera's map, from the render before where that has the same.
     const std::shared_ptr<const DistortionMap>& distortionOf(const Camera& camera);
@@ -55,7 +62,9 @@ private:
     std::unique_ptr<SceneLights> _lights;
     std::shared_ptr<const DistortionMap> _distortion;
     std::string _distortionFile;
-    std::unique_ptr<PhotonPass> _photonPass;    ///< of the last block; null without photons
+    int _block = -1; ///< that has these:
+    PhotonPass _photonPass;
+    SharedLight _sharedLight;
     std::map<std::string, double> _builtBefore; ///< counts of scenes rendered earlier
     size_t _lightsBuilt = 0;
     dvec3 _origin{0.0}; ///< of all that is built, see originOfSeen()

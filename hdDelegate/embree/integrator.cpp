@@ -45,6 +45,36 @@ void Integrator::start(Path& path, const CameraRay& ray) const {
     path.media = _cameraMedia;
 }
 
+/// Lets a path begin that shows nothing. @returns false where the camera sees nothing
+bool Integrator::start(Path& path, const vec2& place) const {
+    const vec4 uFilm = path.sampler.next4();
+    const float uTime = path.sampler.next2().x;
+    const CameraRay ray =
+        _camera.ray(place + _filter.sample(vec2(uFilm)), vec2(uFilm.z, uFilm.w), uTime, place);
+    if (!ray.seen) return false;
+    start(path, ray);
+    path.shown = path.featured = true;
+    return true;
+}
+
+void Integrator::findLight(uint32_t block, uint32_t index, SharedPoints& found,
+                           TraceCounters& counters) const {
+    constexpr uint32_t own = 0x5a4ed119u; // numbers that no pixel has
+    Path path(Sampler(own, block, _settings.seed, index));
+    const vec2 size(_settings.width, _settings.height);
+    const vec2 place = glm::min(glm::floor(path.sampler.next2() * size), size - 1.0f);
+    if (!start(path, place + 0.5f)) return;
+    path.seen = false; // it does not split
+    path.indirectClamp = 0.0f;
+    path.found = &found;
+    found.begin();
+    Film nowhere;
+    while (advance(path, {nowhere, int(place.x), int(place.y), 0.0f}, counters)) {
+    }
+    ++counters.paths;
+    found.end(path.radiance);
+}
+
 void Integrator::split(const std::atomic<bool>& stopped) {
     const Splitting wanted{_settings.lightSamples, _settings.branches};
     _splitting = SplitProbe::splitting;
@@ -60,13 +90,7 @@ void Integrator::split(const std::atomic<bool>& stopped) {
 SplitProbe Integrator::probe(int x, int y, uint32_t index) const {
     SplitProbe result;
     Path path(Sampler(uint32_t(x), uint32_t(y), 0, index));
-    const vec4 uFilm = path.sampler.next4();
-    const float uTime = path.sampler.next2().x;
-    const vec2 pixel = vec2(x, y) + 0.5f + _filter.sample(vec2(uFilm));
-    const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime, vec2(x, y) + 0.5f);
-    if (!ray.seen) return result;
-    start(path, ray);
-    path.shown = path.featured = true;
+    if (!start(path, vec2(x, y) + 0.5f)) return result;
     path.probe = &result;
     TraceCounters counters;
     Film nowhere;
@@ -226,14 +250,18 @@ bool Integrator::shadeCatcher(Path& path, const SurfacePoint& point, const Hit& 
 }
 
 /// Takes the path through a vertex of one wavelength, or of three channels.
-bool Integrator::scatter(Path& path, const SurfacePoint& point, const Hit& hit,
-                         const AovTarget& target, TraceCounters& counters) const {
-    LightSampling::Draws draws = _lightSampling.beginAll(path, point, _settings.maxDepth);
+bool Integrator::scatter(Path& path, SurfacePoint& point, const Hit& hit, const AovTarget& target,
+                         TraceCounters& counters) const {
+    const bool shares = (_shared || path.found) && comesFromRough(path);
+    LightSampling::Draws draws;
+    if (!shares) draws = _lightSampling.beginAll(path, point, _settings.maxDepth);
     Bsdf bsdf;
     setUpLobes(point, bsdf);
     prepare(path, point, bsdf, target);
     if (endsAt(path, hit)) return false;
     if (_photons) _photons->meet(path, point, bsdf, path.coneWidth, _camera, _settings.maxDepth);
+    if (shares && path.found) path.found->meet(path, point, bsdf);
+    if (shares && !path.found && !takeShared(*_shared, path, point, bsdf)) return false;
     if (bsdf.stochastic() || bsdf.transmits() != draws.twoSided) draws.count = 0;
     return goOn(path, point, hit, bsdf, nullptr, draws, target, counters);
 }

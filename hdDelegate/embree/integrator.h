@@ -6,6 +6,7 @@
 #include "hdDelegate/embree/lightSampling.h"
 #include "hdDelegate/embree/metLights.h"
 #include "hdDelegate/embree/sampleWriter.h"
+#include "hdDelegate/embree/sharing/sharedVertex.h"
 #include "hdDelegate/embree/splitting.h"
 #include "hdDelegate/film/pixelFilter.h"
 
@@ -26,6 +27,11 @@ public:
     const PhotonTracer& photonTracer() const { return _photonTracer; }
     /// Caustics come from photons from now on, until the next call. @param pass null: from paths
     void usePhotons(const PhotonPass* pass) { _photons = pass; }
+    /// Paths take diffuse light from others from now on. @param light null: they do not
+    void useShared(const SharedLight* light) { _shared = light; }
+    /// Follows a path for others. @param index of the block's paths
+    void findLight(uint32_t block, uint32_t index, SharedPoints& found,
+                   TraceCounters& counters) const;
 
     /// Chooses how often paths are split, as the settings ask or as it pays. Before the first
     /// sample.
@@ -45,7 +51,7 @@ private:
     Step meet(Path& path, SurfacePoint& point, const Hit& hit, bool caught) const;
     bool shadeCatcher(Path& path, const SurfacePoint& point, const Hit& hit,
                       const AovTarget& target, TraceCounters& counters) const;
-    bool scatter(Path& path, const SurfacePoint& point, const Hit& hit, const AovTarget& target,
+    bool scatter(Path& path, SurfacePoint& point, const Hit& hit, const AovTarget& target,
                  TraceCounters& counters) const;
     bool disperse(Path& path, SurfacePoint& point, const Hit& hit, const AovTarget& target,
                   TraceCounters& counters) const;
@@ -59,6 +65,7 @@ private:
                          TraceCounters& counters) const;
     bool leave(Path& path, const SurfacePoint& point, const Hit& hit, const VertexBsdf& vertex,
                bool litBySplats, const vec4& u, TraceCounters& counters) const;
+    bool start(Path& path, const vec2& pixel) const;
     void start(Path& path, const CameraRay& ray) const;
     SplitProbe probe(int x, int y, uint32_t index) const;
     void prepare(Path& path, const SurfacePoint& point, Bsdf& bsdf, const AovTarget& target) const;
@@ -83,6 +90,7 @@ private:
     const PixelFilter _filter;
     const Wavelengths& _wavelengths;      ///< of the rendering space
     const PhotonPass* _photons = nullptr; ///< of the samples that are taken now
+    const SharedLight* _shared = nullptr; ///< likewise
     MediumStack _cameraMedia;             ///< that the camera stands in
     const bool _cullBack, _cullFront, _cullDoubleSided, _ambientOcclusion;
     Splitting _splitting;

@@ -13,6 +13,7 @@ namespace patina {
 
 class DeepRay;
 class LightPathRecord;
+class SharedPoints;
 class SplitProbe;
 
 /// Counts of one thread; summed up for the statistics.
@@ -86,6 +87,7 @@ struct Path : PathState {
     float indirectClamp = 0.0f;             ///< of luminance from the second vertex on; 0: none
     DeepRay* deep = nullptr;                ///< null where no deep image is made
     SplitProbe* probe = nullptr;            ///< null but where splitting is chosen
+    SharedPoints* found = nullptr;          ///< null but of paths that are followed for others
     LightPathRecord* lightPaths = nullptr;  ///< shares radiance out; null where no AOV asks
     const Surface* vertexSurface = nullptr; ///< of the last vertex, for light linking
     const std::vector<int>* vertexInstanceCategories = nullptr;

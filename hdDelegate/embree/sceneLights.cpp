@@ -65,6 +65,7 @@ LightInfo SceneLights::describe(const std::shared_ptr<const Light>& light, const
     info.ownShadows |= !info.castsShadows || info.shadowColor != vec3(0.0f) ||
                        info.shadowDistance > 0.0f || info.shadowCategory != everything;
     _hasOwnShadows |= info.ownShadows;
+    _linksSurfaces |= info.lightCategory != everything;
     _splitsLobes |= info.diffuse != 1.0f || info.specular != 1.0f;
     return info;
 }

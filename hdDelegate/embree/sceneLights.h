@@ -39,6 +39,8 @@ public:
     }
     /// Some light treats diffuse and other lobes differently.
     bool splitsLobes() const { return _splitsLobes; }
+    /// Some light is linked to a part of the surfaces.
+    bool linksSurfaces() const { return _linksSurfaces; }
     /// Some light has LightInfo::ownShadows.
     bool hasOwnShadows() const { return _hasOwnShadows; }
 
@@ -94,7 +96,8 @@ private:
     GlowingSurfaces _glowing;
     std::map<const Surface*, MeshLight> _meshLights;
     int _glowInfo = 0;
-    bool _splitsLobes = false, _hasOwnShadows = false, _hidesMaterials = false;
+    bool _splitsLobes = false, _linksSurfaces = false, _hasOwnShadows = false,
+         _hidesMaterials = false;
 };
 
 } // namespace patina

@@ -11,13 +11,13 @@
 
 namespace patina {
 
-TileSchedule::TileSchedule(const Film& film, const RenderSettings& settings, bool photons)
+TileSchedule::TileSchedule(const Film& film, const RenderSettings& settings, bool sharesLight)
     : _film(film), _begin(std::max(0, settings.sampleBegin)),
       _samples(std::max(1, settings.samples)), _minSamples(std::max(2, settings.minSamples)),
       _tolerance(_begin > 0 ? 0.0 : settings.tolerance),
       _isWhole(settings.tileParts == 1 && settings.tilePart == 0),
       _tiles(tilesOf(film.width(), film.height(), settings.dataWindow)), _threads(settings.threads),
-      _hasHalves(_tolerance > 0.0 && _isWhole && !photons && hasHalves(film) &&
+      _hasHalves(_tolerance > 0.0 && _isWhole && !sharesLight && hasHalves(film) &&
                  denoiserMissing().empty()) {
     if (settings.sampleEnd > 0) _samples = std::min(_samples, settings.sampleEnd);
     if (settings.tileParts != 1 || settings.tilePart != 0)

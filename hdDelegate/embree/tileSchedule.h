@@ -24,8 +24,8 @@ namespace patina {
 /// within the tolerance after denoising (film/denoiser.h).
 class TileSchedule {
 public:
-    /// @param photons both halves of the samples share these: they do not tell of each other then
-    TileSchedule(const Film& film, const RenderSettings& settings, bool photons = false);
+    /// @param sharesLight both halves of the samples do: they do not tell of each other then
+    TileSchedule(const Film& film, const RenderSettings& settings, bool sharesLight = false);
 
     const std::vector<Tile>& tiles() const { return _tiles; }
     /// The sample count that a tile should reach next; 0 when it has enough. One thread may ask for

@@ -4,6 +4,7 @@
 #include "hdDelegate/backends/backends.h"
 #include "hdDelegate/film/denoiser.h"
 #include "hdDelegate/film/relativeError.h"
+#include "materialNetwork/plan/methods.h"
 
 #include <algorithm>
 #include <chrono>
@@ -14,12 +15,12 @@ namespace patina {
 namespace {
 
 /// AOVs for the denoiser, as `patina record` asks for them: halves of the samples tell of
-/// its error, unless they share photons.
+/// its error, unless they share photons or light.
 std::vector<const char*> denoisingAovs(const RenderSettings& settings, const std::string& backend) {
     std::vector<const char*> aovs = {denoisingAlbedoAov, denoisingNormalAov};
-    const auto caustics = settings.methods.find("caustics");
-    const bool sharesPhotons = caustics != settings.methods.end() && caustics->second == "photons";
-    if (settings.tolerance > 0.0 && backend == "embree" && !sharesPhotons)
+    const bool shares = chosenMethod(settings.methods, "caustics") == "photons" ||
+                        chosenMethod(settings.methods, "indirectLight") == "shared";
+    if (settings.tolerance > 0.0 && backend == "embree" && !shares)
         aovs.insert(aovs.end(),
                     {denoisingHalfColorAov, denoisingHalfAlbedoAov, denoisingHalfNormalAov});
     return aovs;

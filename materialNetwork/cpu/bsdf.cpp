@@ -48,7 +48,7 @@ BsdfEval Bsdf::evalLobes(const glm::vec3& wi, Lobes which) const {
     for (int i = 0; i < _lobeCount; ++i) {
         const BsdfLobe& l = _lobes[i];
         const BsdfFrame& f = _frames[l.frame];
-        if (_walks && l.kind == LobeKind::Subsurface) continue;
+        if (walks(l)) continue;
         if (l.frame != frame) {
             local = sh::toLocal(f, wi);
             frame = l.frame;
@@ -109,7 +109,7 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     if (drawn.lobe < 0) return result;
     const int chosen = drawn.lobe;
     const BsdfLobe& l = _lobes[chosen];
-    if (_walks && l.kind == LobeKind::Subsurface) {
+    if (walks(l)) {
         result.lobe = chosen;
         result.wi = _woOutside ? -_geometricNormal : _geometricNormal;
         result.weight = l.weight / l.probability;
@@ -137,7 +137,7 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     for (int i = 0; i < _lobeCount; ++i) {
         if (i == chosen) continue;
         const BsdfLobe& other = _lobes[i];
-        if (_walks && other.kind == LobeKind::Subsurface) continue;
+        if (walks(other)) continue;
         const BsdfFrame& frame = _frames[other.frame];
         const glm::vec3 theirs = other.frame == l.frame ? local : sh::toLocal(frame, s.wi);
         if (other.kind != LobeKind::Layered && !sh::lobeAgrees(frame.wo.z, theirs.z, reflects))
@@ -233,6 +233,36 @@ void Bsdf::makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal
     l.probability = 1.0f;
     l.weight = l.albedo = glm::vec3(1.0f);
     l.orenNayar = sh::orenNayarSetup(glm::vec3(1.0f), 0.0f, false);
+}
+
+DiffuseAlbedo Bsdf::diffuseAlbedo() const {
+    DiffuseAlbedo sum;
+    for (int i = 0; i < _lobeCount; ++i) {
+        const BsdfLobe& l = _lobes[i];
+        if (l.diffuse && !walks(l))
+            (lobeTransmits(l) ? sum.transmitted : sum.reflected) +=
+                l.weight * lobeAlbedo(l, _frames[l.frame].wo);
+    }
+    return sum;
+}
+
+float Bsdf::dropDiffuse() {
+    int kept = 0;
+    float left = 0.0f;
+    _nonDelta = _transmits = false;
+    for (int i = 0; i < _lobeCount; ++i) {
+        const BsdfLobe& l = _lobes[i];
+        if (l.diffuse && !walks(l)) continue;
+        left += l.probability;
+        _nonDelta |= !walks(l) && lobeNonDelta(l);
+        _transmits |= lobeTransmits(l);
+        if (i != kept) _lobes[kept] = l;
+        ++kept;
+    }
+    _lobeCount = kept;
+    for (int i = 0; i < kept; ++i)
+        _lobes[i].probability /= left;
+    return left;
 }
 
 glm::vec3 Bsdf::sampledAlbedo() const {

@@ -29,6 +29,11 @@ struct SubsurfaceEntry {
     float anisotropy = 0.0f;
 };
 
+/// Directional albedos of the diffuse lobes of a point, on both sides of the surface.
+struct DiffuseAlbedo {
+    glm::vec3 reflected{0.0f}, transmitted{0.0f};
+};
+
 struct LayeredPoint;
 
 struct BsdfSample {
@@ -105,6 +110,11 @@ public:
     /// Makes this a white Lambert reflector of the normal.
     void makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal);
 
+    /// Those of walkSubsurface() do not count. Not where stochastic().
+    DiffuseAlbedo diffuseAlbedo() const;
+    /// Takes out the lobes of diffuseAlbedo(). @returns the probability of those that are left
+    float dropDiffuse();
+
     /// @returns directional albedo of the whole material at wo (reflection and transmission); an
     /// estimate by a few samples when stochastic()
     glm::vec3 albedo() const;
@@ -158,6 +168,7 @@ private:
     BsdfSample sampleLobe(const BsdfLobe& lobe, const glm::vec3& u, glm::vec3& local) const;
     glm::vec3 sampledAlbedo() const;
     void preferWalks();
+    bool walks(const BsdfLobe& lobe) const { return _walks && lobe.kind == LobeKind::Subsurface; }
 
     int _lobeCount = 0;
     bool _nonDelta = false;

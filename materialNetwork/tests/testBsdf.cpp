@@ -55,6 +55,42 @@ TEST(Bsdf, WhiteLambertIsExact) {
     EXPECT_NEAR(bsdf.eval(wi).pdf, 0.31830989f * wi.z, 1e-6f);
 }
 
+TEST(Bsdf, DiffuseLobesComeOut) {
+    for (const auto& [name, inputs] : variants) {
+        SCOPED_TRACE(name);
+        const Compiled c(previewNetwork(inputs));
+        const Bsdf whole = c.lobes(direction(50.0f, 20.0f));
+        const DiffuseAlbedo diffuse = whole.diffuseAlbedo();
+        Bsdf others = whole;
+        const float left = others.dropDiffuse();
+        EXPECT_EQ(others.diffuseAlbedo().reflected, glm::vec3(0.0f));
+        const glm::vec3 sum = diffuse.reflected + diffuse.transmitted + others.albedo();
+        EXPECT_NEAR(glm::length(sum - whole.albedo()), 0.0f, 1e-6f);
+        float probability = 0.0f, kept = 0.0f;
+        for (int i = 0; i < others.lobeCount(); ++i)
+            probability += others.lobe(i).probability;
+        for (int i = 0; i < whole.lobeCount(); ++i)
+            kept += whole.lobe(i).diffuse ? 0.0f : whole.lobe(i).probability;
+        EXPECT_NEAR(left, kept, 1e-6f);
+        EXPECT_EQ(others.empty(), left == 0.0f);
+        EXPECT_NEAR(probability, others.empty() ? 0.0f : 1.0f, 1e-6f);
+        for (const float theta : {10.0f, 60.0f, 120.0f}) {
+            const glm::vec3 wi = direction(theta, 200.0f);
+            EXPECT_EQ(others.eval(wi).diffuse, glm::vec3(0.0f));
+            EXPECT_EQ(others.eval(wi).specular, whole.eval(wi).specular);
+        }
+    }
+    const Compiled leaf(lobeNetwork("ND_translucent_bsdf", {{"color", grey(0.7f)}}));
+    EXPECT_NEAR(leaf.lobes(direction(50.0f)).diffuseAlbedo().transmitted.x, 0.7f, 1e-6f);
+    EXPECT_EQ(leaf.lobes(direction(50.0f)).diffuseAlbedo().reflected, glm::vec3(0.0f));
+    const Compiled skin(lobeNetwork("ND_subsurface_bsdf", {{"color", grey(0.7f)}}));
+    Bsdf walked = skin.lobes(direction(50.0f));
+    EXPECT_NEAR(walked.diffuseAlbedo().reflected.x, 0.7f, 1e-6f);
+    walked.walkSubsurface();
+    EXPECT_EQ(walked.diffuseAlbedo().reflected, glm::vec3(0.0f));
+    EXPECT_EQ(walked.dropDiffuse(), 1.0f);
+}
+
 TEST(Bsdf, SampleAgreesWithEval) {
     for (const auto& [name, inputs] : variants) {
         SCOPED_TRACE(name);

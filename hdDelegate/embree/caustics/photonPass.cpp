@@ -9,14 +9,6 @@
 
 namespace patina {
 
-float PhotonPass::radiusOf(int block) {
-    constexpr float alpha = 2.0f / 3.0f;
-    float square = firstRadius * firstRadius;
-    for (int k = 1; k <= block; ++k)
-        square *= (float(k) + alpha) / (float(k) + 1.0f);
-    return std::sqrt(square);
-}
-
 vec3 PhotonPass::light(const Path& path, const SurfacePoint& point, const Bsdf& bsdf, float width,
                        const CameraRays& camera, int maxDepth) const {
     constexpr float flat = 0.9f;  // cosine between surfaces that share photons

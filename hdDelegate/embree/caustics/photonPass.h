@@ -11,16 +11,11 @@ namespace patina {
 /// are no glass by way of glass (Jensen 1996). docs/design/pathTracer.md has the partition between
 /// photons and paths.
 struct PhotonPass {
-    static constexpr int samples = 16; ///< that share photons
-    /// Width of a pixel's cone at the surface, in the first block.
+    /// Widths of a pixel's cone at the surface, in the first block.
     static constexpr float firstRadius = 2.0f;
 
-    int block = 0;
     PhotonMap map;
-    float radius = 0.0f; ///< in which photons count, over that width
-
-    /// Shrinks such that noise and blur both go to zero (Knaus and Zwicker 2011).
-    static float radiusOf(int block);
+    float radius = firstRadius; ///< in which photons count, likewise
 
     /// Shows photons where a path meets a surface that is no glass, and notes which light they have
     /// from there. @param width of the ray's cone

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree of photons, and the radius in which they count.
+// The tree of photons, and the radius that blocks have.
 #include "hdDelegate/embree/caustics/photonPass.h"
+#include "hdDelegate/embree/sampleBlock.h"
 
 #include <gtest/gtest.h>
 
@@ -52,10 +53,10 @@ TEST(PhotonMap, LeavesOutWhatCameNowhere) {
     PhotonMap().visit(vec3(0.0f), 1.0f, [](const Photon&) { FAIL(); });
 }
 
-TEST(PhotonMap, RadiusShrinksAsKnausAndZwickerSay) {
+TEST(SampleBlock, RadiusShrinksAsKnausAndZwickerSay) {
     // Their sequence falls as a power of the number of passes: r^2 ~ k^(2/3 - 1).
-    EXPECT_FLOAT_EQ(PhotonPass::radiusOf(0), PhotonPass::firstRadius);
-    const float far = PhotonPass::radiusOf(8000), near = PhotonPass::radiusOf(1000);
+    EXPECT_EQ(SampleBlock::radius(0), 1.0f);
+    const float far = SampleBlock::radius(8000), near = SampleBlock::radius(1000);
     EXPECT_NEAR(std::pow(far / near, 2.0f), 0.5f, 1e-3f); // 8^(-1/3)
 }
 

@@ -25,8 +25,10 @@ def prepare(module, asked="--denoise"):
 
 def aovs(settings, backend):
     """:param settings: of the render
-    :returns: AOVs that it needs to be denoised. Halves tell nothing of photons that they share"""
-    tells = settings["tolerance"] > 0.0 and backend == "embree" and settings["methods"].get("caustics") != "photons"
+    :returns: AOVs that it needs to be denoised. Halves tell nothing of photons or light that they share"""
+    methods = settings["methods"]
+    shares = methods.get("caustics") == "photons" or methods.get("indirectLight") == "shared"
+    tells = settings["tolerance"] > 0.0 and backend == "embree" and not shares
     return GUIDES + (HALVES if tells else ())
 
 

@@ -168,7 +168,7 @@ SharedLight EmbreeRenderer::shared(const Integrator& integrator, int block) {
     std::vector<SharedPoint> points;
     for (const SharedPoints& some : found)
         points.insert(points.end(), some.points.begin(), some.points.end());
-    return SharedLight(points, SampleBlock::radius(block));
+    return SharedLight(points, SharedLight::firstWidth * SampleBlock::radius(block));
 }
 
 void EmbreeRenderer::split(Integrator& integrator, Arena& arena) {

@@ -60,6 +60,11 @@ const SharedLight::Cell& SharedLight::Level::at(const SharedPoint& point, float 
     return _cells[placeOf(keyOf(point, point.position + size * moved, size))];
 }
 
+int SharedLight::levelOf(const SharedPoint& point) const {
+    if (!(point.width > leastWidth)) return -1;
+    return int(std::floor(std::log2(_scale * point.width))) - _finest;
+}
+
 float SharedLight::sizeOf(int level) const {
     return std::ldexp(1.0f, _finest + level);
 }
@@ -76,17 +81,16 @@ SharedLight::SharedLight(const std::vector<SharedPoint>& points, float scale) : 
     _levels.resize(levelCount);
     parallelFor(0, levelCount, [&](int level) {
         for (const SharedPoint& p : points)
-            _levels[size_t(level)].add(p, sizeOf(level));
+            if (levelOf(p) >= level) _levels[size_t(level)].add(p, sizeOf(level));
     });
 }
 
 bool SharedLight::find(const SharedPoint& at, const vec2& u, vec3& light) const {
-    if (_levels.empty() || !(at.width > leastWidth)) return false;
+    if (_levels.empty()) return false;
     const auto cellOf = [&](int level) -> const Cell& {
         return _levels[size_t(level)].at(at, sizeOf(level), u);
     };
-    const int most =
-        std::min(int(std::floor(std::log2(_scale * at.width))) - _finest, levelCount - 1);
+    const int most = std::min(levelOf(at), levelCount - 1);
     if (most < 0) return false;
     const Cell* cell = &cellOf(most);
     if (cell->count < least) return false;

@@ -22,6 +22,8 @@ struct SharedPoint {
 /// spatial hashing). Immutable; equal points give equal means.
 class SharedLight {
 public:
+    /// Width of cells over that of cones, at most, in the first block.
+    static constexpr float firstWidth = 0.5f;
     static constexpr int least = 8;   ///< points that have a mean
     static constexpr int wanted = 32; ///< points of a cell, where smaller cells have so many
 
@@ -56,6 +58,8 @@ private:
 
     static constexpr int levelCount = 8; ///< each twice as wide as the one before
 
+    /// The widest cells that a point may share light in; below 0: none
+    int levelOf(const SharedPoint& point) const;
     float sizeOf(int level) const;
 
     std::vector<Level> _levels; ///< empty: there is no light

@@ -139,7 +139,9 @@ PhotonMap EmbreeRenderer::photons(const PhotonTracer& tracer, const CausticCaste
 
 bool EmbreeRenderer::sharesLight(const RenderSettings& settings, const Camera& camera,
                                  const std::vector<AovSpec>& aovs) const {
-    if (chosenMethod(settings.methods, "indirectLight") != "shared") return false;
+    if (chosenMethod(settings.methods, "indirectLight") != "shared" ||
+        settings.integrator == "ambientOcclusion")
+        return false;
     const char* reason = _lights->linksSurfaces()       ? "a light is linked to some surfaces"
                          : !LightPathAovs(aovs).empty() ? "an AOV asks for light paths"
                          : settings.enableMotionBlur && camera.shutterOpen < camera.shutterClose
@@ -329,6 +331,8 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     const bool isShared = sharesLight(sampled, camera, aovs);
     const bool hasBlocks = glass || isShared;
     _block = -1;
+    _photonPass = PhotonPass();
+    _sharedLight = SharedLight();
     if (!hasBlocks) split(integrator, arena);
     TileSchedule schedule(*_film, sampled, hasBlocks);
     beginSampling(schedule.outlook().taken);

@@ -86,6 +86,7 @@ def _cards():
                    for i, (left, right, near, far) in enumerate(parts))
 
 
+DEEP = ("--maxDepth", "8")
 MANY = 24  # balls along a side
 PAINT = material("paint", {"surface": ("UsdPreviewSurface", {"color3f diffuseColor": "<tint>"}),
                            "tint": ("UsdPrimvarReader_float3", {"varname": "tint"})})
@@ -120,7 +121,7 @@ def _copied():
 class Curve:
     """A chart: error over time of the renderer with the feature and without it."""
     title: str
-    variants: dict  # name of a line -> Variant; the first has the feature and makes the reference
+    variants: dict  # name of a line -> Variant; the first has the feature, or no bias, and makes the reference
     samples: tuple = (4, 16, 64)
     reference: int = 1024
     width: int = 48
@@ -128,7 +129,7 @@ class Curve:
 
 def curves():
     """:returns: dict: name of a file -> Curve"""
-    portals, caustics = scene("portals"), scene("caustics")
+    portals, caustics, box = scene("portals"), scene("caustics"), scene("diffuseBox")
     return {
         "feature_portals": Curve("A room with a window, lit by a dome", {
             "with a portal": Variant(portals),
@@ -136,6 +137,9 @@ def curves():
         "feature_caustics": Curve("Glass under a small lamp", {
             "photons": Variant(caustics, ("--method", "caustics=photons")),
             "paths alone": Variant(caustics)}),
+        "feature_sharedLight": Curve("A closed room", {
+            "each path its own light": Variant(box, DEEP),
+            "shared": Variant(box, (*DEEP, "--method", "indirectLight=shared"))}, reference=2048, width=160),
         "feature_filters": Curve("A lamp over an opening", {
             "barn doors": Variant(FLOOR + _lamp("rel light:filters = </opening>") + BARN),
             "a sheet with a hole": Variant(FLOOR + _lamp() + _cards())}),

@@ -235,24 +235,41 @@ void Bsdf::makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal
     l.orenNayar = sh::orenNayarSetup(glm::vec3(1.0f), 0.0f, false);
 }
 
-DiffuseAlbedo Bsdf::diffuseAlbedo() const {
-    DiffuseAlbedo sum;
-    for (int i = 0; i < _lobeCount; ++i) {
-        const BsdfLobe& l = _lobes[i];
-        if (l.diffuse && !walks(l))
-            (lobeTransmits(l) ? sum.transmitted : sum.reflected) +=
-                l.weight * lobeAlbedo(l, _frames[l.frame].wo);
-    }
-    return sum;
+bool Bsdf::isLambert(const BsdfLobe& l) const {
+    return l.kind == LobeKind::Translucent || (l.kind == LobeKind::Subsurface && !_walks) ||
+           (l.kind == LobeKind::OrenNayar && l.orenNayar.b == 0.0f);
 }
 
-float Bsdf::dropDiffuse() {
+/// @returns -1 where there is no such lobe
+int Bsdf::lambertFrame() const {
+    for (int i = 0; i < _lobeCount; ++i)
+        if (isLambert(_lobes[i])) return _lobes[i].frame;
+    return -1;
+}
+
+LambertPart Bsdf::lambertPart() const {
+    LambertPart part;
+    const int frame = lambertFrame();
+    if (frame < 0) return part;
+    const BsdfFrame& f = _frames[frame];
+    part.normal = f.wo.z < 0.0f ? -f.normal : f.normal;
+    for (int i = 0; i < _lobeCount; ++i) {
+        const BsdfLobe& l = _lobes[i];
+        if (isLambert(l) && l.frame == frame)
+            (lobeTransmits(l) ? part.transmitted : part.reflected) +=
+                l.weight * lobeAlbedo(l, f.wo);
+    }
+    return part;
+}
+
+float Bsdf::dropLambert() {
+    const int frame = lambertFrame();
     int kept = 0;
     float left = 0.0f;
     _nonDelta = _transmits = false;
     for (int i = 0; i < _lobeCount; ++i) {
         const BsdfLobe& l = _lobes[i];
-        if (l.diffuse && !walks(l)) continue;
+        if (isLambert(l) && l.frame == frame) continue;
         left += l.probability;
         _nonDelta |= !walks(l) && lobeNonDelta(l);
         _transmits |= lobeTransmits(l);

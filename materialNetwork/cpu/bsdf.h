@@ -29,9 +29,12 @@ struct SubsurfaceEntry {
     float anisotropy = 0.0f;
 };
 
-/// Directional albedos of the diffuse lobes of a point, on both sides of the surface.
-struct DiffuseAlbedo {
-    glm::vec3 reflected{0.0f}, transmitted{0.0f};
+/// What the lobes of a point send on by Lambert's law: albedo times irradiance over pi.
+struct LambertPart {
+    glm::vec3 reflected{0.0f}, transmitted{0.0f}; ///< albedos
+    glm::vec3 normal{0.0f};                       ///< of these lobes, towards the viewer
+
+    bool empty() const { return reflected + transmitted == glm::vec3(0.0f); }
 };
 
 struct LayeredPoint;
@@ -110,10 +113,10 @@ public:
     /// Makes this a white Lambert reflector of the normal.
     void makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal);
 
-    /// Those of walkSubsurface() do not count. Not where stochastic().
-    DiffuseAlbedo diffuseAlbedo() const;
-    /// Takes out the lobes of diffuseAlbedo(). @returns the probability of those that are left
-    float dropDiffuse();
+    /// Of Lambert lobes of one normal, without those of walkSubsurface(). Not where stochastic().
+    LambertPart lambertPart() const;
+    /// Takes out the lobes of lambertPart(). @returns the probability of those that are left
+    float dropLambert();
 
     /// @returns directional albedo of the whole material at wo (reflection and transmission); an
     /// estimate by a few samples when stochastic()
@@ -169,6 +172,8 @@ private:
     glm::vec3 sampledAlbedo() const;
     void preferWalks();
     bool walks(const BsdfLobe& lobe) const { return _walks && lobe.kind == LobeKind::Subsurface; }
+    int lambertFrame() const;
+    bool isLambert(const BsdfLobe& lobe) const;
 
     int _lobeCount = 0;
     bool _nonDelta = false;

@@ -55,16 +55,17 @@ TEST(Bsdf, WhiteLambertIsExact) {
     EXPECT_NEAR(bsdf.eval(wi).pdf, 0.31830989f * wi.z, 1e-6f);
 }
 
-TEST(Bsdf, DiffuseLobesComeOut) {
+TEST(Bsdf, LambertLobesComeOut) {
+    const glm::vec3 none(0.0f);
     for (const auto& [name, inputs] : variants) {
         SCOPED_TRACE(name);
         const Compiled c(previewNetwork(inputs));
         const Bsdf whole = c.lobes(direction(50.0f, 20.0f));
-        const DiffuseAlbedo diffuse = whole.diffuseAlbedo();
+        const LambertPart part = whole.lambertPart();
         Bsdf others = whole;
-        const float left = others.dropDiffuse();
-        EXPECT_EQ(others.diffuseAlbedo().reflected, glm::vec3(0.0f));
-        const glm::vec3 sum = diffuse.reflected + diffuse.transmitted + others.albedo();
+        const float left = others.dropLambert();
+        EXPECT_TRUE(others.lambertPart().empty());
+        const glm::vec3 sum = part.reflected + part.transmitted + others.albedo();
         EXPECT_NEAR(glm::length(sum - whole.albedo()), 0.0f, 1e-6f);
         float probability = 0.0f, kept = 0.0f;
         for (int i = 0; i < others.lobeCount(); ++i)
@@ -76,19 +77,32 @@ TEST(Bsdf, DiffuseLobesComeOut) {
         EXPECT_NEAR(probability, others.empty() ? 0.0f : 1.0f, 1e-6f);
         for (const float theta : {10.0f, 60.0f, 120.0f}) {
             const glm::vec3 wi = direction(theta, 200.0f);
-            EXPECT_EQ(others.eval(wi).diffuse, glm::vec3(0.0f));
+            EXPECT_EQ(others.eval(wi).diffuse, none);
             EXPECT_EQ(others.eval(wi).specular, whole.eval(wi).specular);
         }
     }
-    const Compiled leaf(lobeNetwork("ND_translucent_bsdf", {{"color", grey(0.7f)}}));
-    EXPECT_NEAR(leaf.lobes(direction(50.0f)).diffuseAlbedo().transmitted.x, 0.7f, 1e-6f);
-    EXPECT_EQ(leaf.lobes(direction(50.0f)).diffuseAlbedo().reflected, glm::vec3(0.0f));
-    const Compiled skin(lobeNetwork("ND_subsurface_bsdf", {{"color", grey(0.7f)}}));
-    Bsdf walked = skin.lobes(direction(50.0f));
-    EXPECT_NEAR(walked.diffuseAlbedo().reflected.x, 0.7f, 1e-6f);
-    walked.walkSubsurface();
-    EXPECT_EQ(walked.diffuseAlbedo().reflected, glm::vec3(0.0f));
-    EXPECT_EQ(walked.dropDiffuse(), 1.0f);
+}
+
+TEST(Bsdf, LambertPartIsOfLambertLobesAlone) {
+    const auto lobes = [](const char* id, Inputs inputs) {
+        inputs["color"] = grey(0.7f);
+        const Compiled c(lobeNetwork(id, inputs));
+        return c.lobes(direction(50.0f));
+    };
+    EXPECT_NEAR(lobes("ND_translucent_bsdf", {}).lambertPart().transmitted.x, 0.7f, 1e-6f);
+    EXPECT_EQ(lobes("ND_translucent_bsdf", {}).lambertPart().reflected, glm::vec3(0.0f));
+    EXPECT_NEAR(lobes("ND_oren_nayar_diffuse_bsdf", {}).lambertPart().reflected.x, 0.7f, 1e-6f);
+    Bsdf skin = lobes("ND_subsurface_bsdf", {});
+    EXPECT_NEAR(skin.lambertPart().reflected.x, 0.7f, 1e-6f);
+    skin.walkSubsurface();
+    EXPECT_TRUE(skin.lambertPart().empty());
+    EXPECT_EQ(skin.dropLambert(), 1.0f);
+    for (const char* id : {"ND_oren_nayar_diffuse_bsdf", "ND_burley_diffuse_bsdf", "ND_sheen_bsdf"})
+        EXPECT_TRUE(lobes(id, {{"roughness", 0.5f}}).lambertPart().empty()) << id;
+    const glm::vec3 tilted = direction(30.0f, 40.0f);
+    const Bsdf bent =
+        lobes("ND_oren_nayar_diffuse_bsdf", {{"normal", vector(tilted.x, tilted.y, tilted.z)}});
+    EXPECT_NEAR(glm::dot(bent.lambertPart().normal, tilted), 1.0f, 1e-6f);
 }
 
 TEST(Bsdf, SampleAgreesWithEval) {

@@ -70,6 +70,27 @@ def test_both_sides_of_a_leaf_have_their_light(tmp_path, name, channel):
     assert found[:, others].max() < 1e-12
 
 
+@pytest.mark.parametrize("node, inputs", [
+    ("oren_nayar_diffuse_bsdf", {"vector3f normal": (0.7071068, 0.7071068, 0)}), ("oren_nayar_diffuse_bsdf", {"roughness": 1}),
+    ("burley_diffuse_bsdf", {"roughness": 1}), ("sheen_bsdf", {"roughness": 0.5})])
+def test_what_lobes_make_of_light_stays_theirs(tmp_path, node, inputs):
+    """The wall sees a floor, under a low sun that does not reach the wall, whose lobes are no Lambert lobes or have a normal of
+    their own."""
+    path = tmp_path / "tilted.usda"
+    path.write_text(usda.stage(
+        camera(flat=(10, 10), at=(0, 1, 5)), usda.floor("ground", 50, bind="soil", doubleSided=True),
+        mesh("wall", [(-9, 0.1, 0), (9, 0.1, 0), (9, 9, 0), (-9, 9, 0)], bind="white", doubleSided=True),
+        lobe("soil", node, color=(0.8, 0.8, 0.8), **inputs), lobe("white", "oren_nayar_diffuse_bsdf", color=(1, 1, 1)),
+        prim("DistantLight", "sun", intensity=1, angle=0, turn=(-20, 90, 0))))
+    found = {}
+    for method in ("shared", "paths"):
+        stage = Stage(path, "--imageWidth", 96, "--samples", 16, "--disableCameraLight", "--maxDepth", 2, "--method",
+                      f"indirectLight={method}")
+        found[method] = [stage.image(seed).mean() for seed in range(4)]
+    assert scipy.stats.ttest_ind(*found.values(), equal_var=False).pvalue > SIGNIFICANCE, found
+    assert np.mean(found["shared"]) == pytest.approx(np.mean(found["paths"]), rel=0.01)
+
+
 @pytest.mark.parametrize("name", ["diffuseBox", "lightMesh", "plastic", "roughGlass", "media", "prism"])
 def test_means_are_those_of_paths(name):
     """What cells blur shows in no mean: their error is smaller than the noise."""

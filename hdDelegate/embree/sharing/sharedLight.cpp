@@ -6,23 +6,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace patina {
 
 namespace {
 
-constexpr float leastWidth = 1e-20f;
+constexpr float leastWidth = 1e-20f, mostWidth = 1e30f; // of cones
 
-/// The cell of a place, the axis that its surface faces most, and the depth; never 0.
+/// One of 54 parts of the sphere: three by three of each side of a cube.
+uint64_t partOf(const vec3& normal) {
+    const vec3 a = glm::abs(normal);
+    const int axis = a.x > a.y && a.x > a.z ? 0 : a.y > a.z ? 1 : 2;
+    const auto third = [&](int i) {
+        return std::clamp(int(1.5f * (normal[i % 3] / a[axis] + 1.0f)), 0, 2);
+    };
+    return uint64_t(((2 * axis + (normal[axis] < 0.0f ? 1 : 0)) * 3 + third(axis + 1)) * 3 +
+                    third(axis + 2));
+}
+
+/// The cell of a place, and the direction and the depth; never 0.
 uint64_t keyOf(const SharedPoint& point, const vec3& place, float size) {
     // Flat surfaces often lie where cells would border on each other.
-    const vec3 cell = glm::floor((place + point.normal * (0.05f * size)) / size);
-    const vec3 a = glm::abs(point.normal);
-    const int axis = a.x > a.y && a.x > a.z ? 0 : a.y > a.z ? 1 : 2;
-    uint64_t key = uint64_t(2 * axis + (point.normal[axis] < 0.0f ? 1 : 2));
-    key = key << 4 | uint64_t(std::min(point.depth, 15));
-    for (int i = 0; i < 3; ++i) // cells as far apart as 2^19 of them do not meet
-        key = key << 19 | (uint64_t(int64_t(std::clamp(cell[i], -1e9f, 1e9f))) & 0x7ffff);
+    const vec3 cell = glm::floor((place + point.side * (0.05f * size)) / size);
+    uint64_t key = partOf(point.normal) << 4 | uint64_t(point.depth + 1);
+    for (int i = 0; i < 3; ++i) // cells as far apart as 2^18 of them do not meet
+        key = key << 18 | (uint64_t(int64_t(std::clamp(cell[i], -1e9f, 1e9f))) & 0x3ffff);
     return key;
 }
 
@@ -37,32 +46,39 @@ size_t SharedLight::Level::placeOf(uint64_t key) const {
     return place;
 }
 
-void SharedLight::Level::add(const SharedPoint& point, float size) {
-    if (2 * _count >= _cells.size()) {
-        std::vector<Cell> cells(2 * _cells.size());
-        cells.swap(_cells);
-        for (const Cell& cell : cells)
-            if (cell.key != 0) _cells[placeOf(cell.key)] = cell;
+void SharedLight::Level::add(const std::vector<SharedPoint>& points,
+                             const std::vector<uint32_t>& which, float size) {
+    std::vector<std::pair<uint64_t, uint32_t>> keys;
+    keys.reserve(which.size());
+    for (const uint32_t i : which)
+        keys.emplace_back(keyOf(points[i], points[i].position, size), i);
+    std::sort(keys.begin(), keys.end());
+    std::vector<Cell> cells;
+    for (size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
+        Cell cell{keys[begin].first};
+        for (; end < keys.size() && keys[end].first == cell.key; ++end, ++cell.count)
+            cell.sum += points[keys[end].second].light;
+        if (cell.count >= least) cells.push_back(cell);
     }
-    const uint64_t key = keyOf(point, point.position, size);
-    Cell& cell = _cells[placeOf(key)];
-    if (cell.key == 0) ++_count;
-    cell.key = key;
-    cell.sum += point.light;
-    ++cell.count;
+    size_t room = 1;
+    while (room < 2 * cells.size())
+        room *= 2;
+    _cells.assign(room, Cell());
+    for (const Cell& cell : cells)
+        _cells[placeOf(cell.key)] = cell;
 }
 
 const SharedLight::Cell& SharedLight::Level::at(const SharedPoint& point, float size,
                                                 const vec2& u) const {
     vec3 tangent, bitangent;
-    orthonormalBasis(point.normal, tangent, bitangent);
+    orthonormalBasis(point.side, tangent, bitangent);
     const vec3 moved = tangent * (u.x - 0.5f) + bitangent * (u.y - 0.5f);
     return _cells[placeOf(keyOf(point, point.position + size * moved, size))];
 }
 
 int SharedLight::levelOf(const SharedPoint& point) const {
-    if (!(point.width > leastWidth)) return -1;
-    return int(std::floor(std::log2(_scale * point.width))) - _finest;
+    if (!(point.width > leastWidth) || point.depth > SharedPoint::mostDepth) return -1;
+    return int(std::floor(std::log2(_scale * std::min(point.width, mostWidth)))) - _finest;
 }
 
 float SharedLight::sizeOf(int level) const {
@@ -77,11 +93,13 @@ SharedLight::SharedLight(const std::vector<SharedPoint>& points, float scale) : 
     // Few cones are wider, and few of those would have wider cells.
     const auto widest = widths.begin() + long(widths.size() * 9 / 10);
     std::nth_element(widths.begin(), widest, widths.end());
-    _finest = int(std::floor(std::log2(_scale * *widest))) - levelCount + 1;
+    _finest = int(std::floor(std::log2(_scale * std::min(*widest, mostWidth)))) - levelCount + 1;
     _levels.resize(levelCount);
     parallelFor(0, levelCount, [&](int level) {
-        for (const SharedPoint& p : points)
-            if (levelOf(p) >= level) _levels[size_t(level)].add(p, sizeOf(level));
+        std::vector<uint32_t> which;
+        for (size_t i = 0; i < points.size(); ++i)
+            if (levelOf(points[i]) >= level) which.push_back(uint32_t(i));
+        _levels[size_t(level)].add(points, which, sizeOf(level));
     });
 }
 
@@ -93,12 +111,12 @@ bool SharedLight::find(const SharedPoint& at, const vec2& u, vec3& light) const 
     const int most = std::min(levelOf(at), levelCount - 1);
     if (most < 0) return false;
     const Cell* cell = &cellOf(most);
-    if (cell->count < least) return false;
+    if (cell->count == 0) return false;
     // Of a surface, a cell half as wide has a quarter of the points.
     const int halvings = int(0.5f * std::log2(float(cell->count) / float(wanted)));
     if (halvings > 0) {
         const Cell& inner = cellOf(std::max(most - halvings, 0));
-        if (inner.count >= least) cell = &inner;
+        if (inner.count > 0) cell = &inner;
     }
     light = cell->sum / float(cell->count);
     return true;

@@ -8,10 +8,13 @@
 
 namespace patina {
 
-/// Where a path comes to a surface, and the diffuse light that it finds there.
+/// Where a path comes to a surface, and the light that it finds there.
 struct SharedPoint {
+    static constexpr int mostDepth = 14;
+
     vec3 position{0.0f}; ///< world space
-    vec3 normal{0.0f};   ///< unit, of the surface's geometry, on the side of the light
+    vec3 side{0.0f};     ///< unit: the geometry's normal, on the side of the light
+    vec3 normal{0.0f};   ///< unit: of the lobes, on the same side
     int depth = 0;       ///< surfaces before it: light of equal depth is missing beyond maxDepth
     float width = 0.0f;  ///< of the ray's cone, scene units
     vec3 light{0.0f};    ///< irradiance over pi
@@ -43,17 +46,18 @@ private:
         int count = 0;
     };
 
-    /// The cells of one width, as a hash table with open addresses.
+    /// The cells of one width that have enough points, as a hash table with open addresses.
     class Level {
     public:
-        void add(const SharedPoint& point, float size);
+        /// @param which of the points
+        void add(const std::vector<SharedPoint>& points, const std::vector<uint32_t>& which,
+                 float size);
         const Cell& at(const SharedPoint& point, float size, const vec2& u) const;
 
     private:
         size_t placeOf(uint64_t key) const;
 
-        std::vector<Cell> _cells = std::vector<Cell>(64);
-        size_t _count = 0; ///< that are not empty
+        std::vector<Cell> _cells = std::vector<Cell>(1);
     };
 
     static constexpr int levelCount = 8; ///< each twice as wide as the one before

@@ -15,7 +15,7 @@ constexpr int least = SharedLight::least;
 const vec3 up(0, 1, 0);
 
 SharedPoint pointAt(const vec3& position, const vec3& normal, float light, int depth = 1) {
-    return {position, normal, depth, 1.0f, vec3(light)};
+    return {position, normal, normal, depth, 1.0f, vec3(light)};
 }
 
 /// Points of one light in the middle of a cell, so that a cell that moves by half keeps them.
@@ -58,11 +58,14 @@ TEST(SharedLight, SidesAxesDepthsAndPlacesAreApart) {
                                   pointAt(vec3(0.5f), up, 5.0f, 2),
                                   pointAt(vec3(5.5f, 0.5f, 0.5f), up, 6.0f),
                                   pointAt(vec3(0.5f, -3.5f, 0.5f), up, 7.0f)};
-    std::vector<SharedPoint> points = heap(least, here);
+    SharedPoint bent = pointAt(vec3(0.5f), up, 8.0f); // by a map
+    bent.normal = glm::normalize(vec3(0.6f, 1.0f, 0.0f));
+    std::vector<SharedPoint> points = heap(least, here) + heap(least, bent);
     for (const SharedPoint& other : others)
         points = points + heap(least, other);
     const SharedLight shared(points, 1.0f);
     EXPECT_EQ(lightAt(shared, here), vec3(1.0f));
+    EXPECT_EQ(lightAt(shared, bent), bent.light);
     for (const SharedPoint& other : others)
         EXPECT_EQ(lightAt(shared, other), other.light);
 }
@@ -118,9 +121,11 @@ TEST(SharedLight, TakesAnythingThatPathsFind) {
     narrow.width = 0.0f;
     EXPECT_EQ(lightAt(SharedLight(heap(least, far), 1.0f), far), vec3(1.0f));
     EXPECT_TRUE(isDark(SharedLight(heap(least, narrow), 1.0f), narrow));
-    EXPECT_EQ(lightAt(SharedLight(heap(least, pointAt(vec3(0.0f), up, 1.0f, 1 << 20)), 1.0f),
-                      pointAt(vec3(0.0f), up, 0.0f, 15)),
-              vec3(1.0f));
+    const SharedPoint deep = pointAt(vec3(0.0f), up, 1.0f, SharedPoint::mostDepth + 1);
+    EXPECT_TRUE(isDark(SharedLight(heap(least, deep), 1.0f), deep));
+    SharedPoint wide = pointAt(vec3(0.5f), up, 1.0f);
+    wide.width = INFINITY;
+    EXPECT_EQ(lightAt(SharedLight(heap(least, wide), 1.0f), wide), vec3(1.0f));
 }
 
 } // namespace patina

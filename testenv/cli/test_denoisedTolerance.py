@@ -91,5 +91,6 @@ def test_halves_are_asked_for_where_they_tell_something():
     settings = {"tolerance": 0.02, "methods": {}}
     assert denoiser.aovs(settings, "embree") == denoiser.GUIDES + denoiser.HALVES
     for without in (denoiser.aovs({**settings, "tolerance": -1.0}, "embree"), denoiser.aovs(settings, "raster"),
-                    denoiser.aovs({**settings, "methods": {"caustics": "photons"}}, "embree")):
+                    denoiser.aovs({**settings, "methods": {"caustics": "photons"}}, "embree"),
+                    denoiser.aovs({**settings, "methods": {"indirectLight": "shared"}}, "embree")):
         assert without == denoiser.GUIDES

@@ -77,7 +77,10 @@ const SharedLight::Cell& SharedLight::Level::at(const SharedPoint& point, float 
 }
 
 int SharedLight::levelOf(const SharedPoint& point) const {
-    if (!(point.width > leastWidth) || point.depth > SharedPoint::mostDepth) return -1;
+    const vec3 place = point.position + point.side + point.normal;
+    if (!(point.width > leastWidth) || point.depth > SharedPoint::mostDepth ||
+        !std::isfinite(place.x + place.y + place.z) || point.normal == vec3(0.0f))
+        return -1;
     return int(std::floor(std::log2(_scale * std::min(point.width, mostWidth)))) - _finest;
 }
 

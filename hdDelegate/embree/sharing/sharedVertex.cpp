@@ -22,8 +22,8 @@ SharedPoint pointOf(const Path& path, const SurfacePoint& point, const vec3& nor
             vec3(0.0f)};
 }
 
-/// Empty where the light of a point is not to be shared: the lobes differ from one time to the
-/// next, or light comes from the inside of an object.
+/// Empty where the light of a point is not to be shared: the lobes give random values, or light
+/// comes from the inside of an object.
 LambertPart partOf(const SurfacePoint& point, const Bsdf& bsdf) {
     if (bsdf.stochastic() || point.fibre) return {};
     const LambertPart part = bsdf.lambertPart();

@@ -123,6 +123,11 @@ TEST(SharedLight, TakesAnythingThatPathsFind) {
     EXPECT_TRUE(isDark(SharedLight(heap(least, narrow), 1.0f), narrow));
     const SharedPoint deep = pointAt(vec3(0.0f), up, 1.0f, SharedPoint::mostDepth + 1);
     EXPECT_TRUE(isDark(SharedLight(heap(least, deep), 1.0f), deep));
+    for (const vec3& normal : {vec3(0.0f), vec3(NAN)}) {
+        SharedPoint bad = pointAt(vec3(0.5f), up, 1.0f);
+        bad.normal = normal;
+        EXPECT_TRUE(isDark(SharedLight(heap(least, bad), 1.0f), bad));
+    }
     SharedPoint wide = pointAt(vec3(0.5f), up, 1.0f);
     wide.width = INFINITY;
     EXPECT_EQ(lightAt(SharedLight(heap(least, wide), 1.0f), wide), vec3(1.0f));

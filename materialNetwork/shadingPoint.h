@@ -57,6 +57,9 @@ struct ShadingPoint {
     float wavelength = 0.0f;
     /// Ior of what the surface borders on: on the side that its own ior is not of.
     float surroundingIor = 1.0f;
+    /// GGX alpha that microfacets have at least, but for materials that let light pass straight on:
+    /// their opacity() depends on their lobes, and shadow rays ask for it too.
+    float leastRoughness = 0.0f;
 
     glm::vec3 worldPosition() const { return position + worldOrigin; }
 };

@@ -6,6 +6,7 @@
 #include "hdDelegate/embree/media/mediaAround.h"
 #include "hdDelegate/embree/media/splatsAlong.h"
 #include "hdDelegate/embree/media/subsurface.h"
+#include "hdDelegate/embree/sampleBlock.h"
 #include "hdDelegate/embree/vertex.h"
 
 #include <cmath>
@@ -32,9 +33,11 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
     if (std::isfinite(eye.x + eye.y + eye.z)) _cameraMedia = mediaAround(scene, eye, 0.5f);
 }
 
-/// Lets a path begin at the camera.
-void Integrator::start(Path& path, const CameraRay& ray) const {
+/// Lets a path of a block of samples begin at the camera.
+void Integrator::start(Path& path, const CameraRay& ray, uint32_t block) const {
     path.indirectClamp = _settings.indirectClamp;
+    if (_settings.indirectRoughness > 0.0f)
+        path.indirectRoughness = _settings.indirectRoughness * SampleBlock::radius(int(block));
     path.origin = ray.origin;
     path.direction = ray.direction;
     path.near = ray.near;
@@ -46,13 +49,13 @@ void Integrator::start(Path& path, const CameraRay& ray) const {
 }
 
 /// Lets a path begin that shows nothing. @returns false where the camera sees nothing
-bool Integrator::start(Path& path, const vec2& place) const {
+bool Integrator::start(Path& path, const vec2& place, uint32_t block) const {
     const vec4 uFilm = path.sampler.next4();
     const float uTime = path.sampler.next2().x;
     const CameraRay ray =
         _camera.ray(place + _filter.sample(vec2(uFilm)), vec2(uFilm.z, uFilm.w), uTime, place);
     if (!ray.seen) return false;
-    start(path, ray);
+    start(path, ray, block);
     path.shown = path.featured = true;
     return true;
 }
@@ -63,7 +66,7 @@ void Integrator::findLight(uint32_t block, uint32_t index, SharedPoints& found,
     Path path(Sampler(own, block, _settings.seed, index));
     const vec2 size(_settings.width, _settings.height);
     const vec2 place = glm::min(glm::floor(path.sampler.next2() * size), size - 1.0f);
-    if (!start(path, place + 0.5f)) return;
+    if (!start(path, place + 0.5f, block)) return;
     path.seen = false; // it does not split
     path.indirectClamp = 0.0f;
     path.found = &found;
@@ -90,7 +93,7 @@ void Integrator::split(const std::atomic<bool>& stopped) {
 SplitProbe Integrator::probe(int x, int y, uint32_t index) const {
     SplitProbe result;
     Path path(Sampler(uint32_t(x), uint32_t(y), 0, index));
-    if (!start(path, vec2(x, y) + 0.5f)) return result;
+    if (!start(path, vec2(x, y) + 0.5f, 0)) return result;
     path.probe = &result;
     TraceCounters counters;
     Film nowhere;
@@ -120,7 +123,7 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     }
 
     Path path(sampler);
-    start(path, ray);
+    start(path, ray, index / SampleBlock::samples);
     std::optional<DeepRay> deep;
     if (film.deep()) path.deep = &deep.emplace();
     path.shown = _writer.aovs().empty() && !path.deep;
@@ -157,6 +160,7 @@ bool Integrator::advance(Path& path, const AovTarget& target, TraceCounters& cou
     path.lightSamples = path.seen ? _splitting.lightSamples : 1;
     path.coneWidth = width;
     path.travelled = 0.0f;
+    point.shading.leastRoughness = path.indirectRoughness * path.blur;
 
     return caught                ? shadeCatcher(path, point, hit, target, counters)
            : program.disperses() ? disperse(path, point, hit, target, counters)

@@ -65,8 +65,8 @@ private:
                          TraceCounters& counters) const;
     bool leave(Path& path, const SurfacePoint& point, const Hit& hit, const VertexBsdf& vertex,
                bool litBySplats, const vec4& u, TraceCounters& counters) const;
-    bool start(Path& path, const vec2& pixel) const;
-    void start(Path& path, const CameraRay& ray) const;
+    bool start(Path& path, const vec2& pixel, uint32_t block) const;
+    void start(Path& path, const CameraRay& ray, uint32_t block) const;
     SplitProbe probe(int x, int y, uint32_t index) const;
     void prepare(Path& path, const SurfacePoint& point, Bsdf& bsdf, const AovTarget& target) const;
     bool endsAt(const Path& path, const Hit& hit) const {

@@ -78,6 +78,7 @@ void Path::depart(const SurfacePoint& point, const Hit& hit, const VertexBsdf& b
     near = 0.0f;
     far = INFINITY;
     coneSpread = std::min(1.0f, coneSpread + 0.5f * next.roughness);
+    blur = std::min(1.0f, blur + next.roughness);
 }
 
 /// Those of little light alone: what ends sooner saves less time than its noise costs. A path that

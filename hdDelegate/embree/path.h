@@ -38,6 +38,7 @@ struct PathState {
     vec3 throughput{1.0f}, radiance{0.0f};
     float alpha = 0.0f;
     float coneWidth = 0.0f, coneSpread = 0.0f;
+    float blur = 0.0f;         ///< how far its vertices scatter: their GGX alphas, at most 1
     float travelled = 0.0f;    ///< since the last vertex, over surfaces that were passed through
     int passThroughs = 0;      ///< of these
     int depth = 0;             ///< bounces off surfaces so far
@@ -85,6 +86,7 @@ struct Path : PathState {
     MediumStack media;
     HeroWavelengths waves;
     float indirectClamp = 0.0f;             ///< of luminance from the second vertex on; 0: none
+    float indirectRoughness = 0.0f;         ///< GGX alpha of surfaces after a diffuse one, at least
     DeepRay* deep = nullptr;                ///< null where no deep image is made
     SplitProbe* probe = nullptr;            ///< null but where splitting is chosen
     SharedPoints* found = nullptr;          ///< null but of paths that are followed for others

@@ -15,7 +15,7 @@ namespace patina {
 
 namespace {
 
-const EnergyCurve unknownEnergy; ///< of a lobe whose ior another one divides
+const EnergyCurve unknownEnergy; ///< of a lobe that is not as its program keeps it
 
 } // namespace
 
@@ -99,23 +99,14 @@ void BsdfBuilder::instantiate(const ProgramCode& code, const ShadingPoint& point
             l.weight = glm::vec3(0.0f);
             continue;
         }
-        const bool surrounded = point.surroundingIor != 1.0f;
-        if (t.constant) {
-            l = code.prebuilt[i];
-            if (surrounded) setupLobe(t, code.constants.data(), l, point.surroundingIor);
-        } else {
-            l.kind = t.kind;
-            l.diffuse = t.diffuse;
-            l.frame = t.frame;
-            setupLobe(t, registers, l, point.surroundingIor);
-        }
+        const bool isKept = setupLobeAt(code, i, registers, point, l);
         l.place = uint8_t(i);
         l.stochastic = t.walks && canWalkMicrosurface(l);
         l.weight = glm::vec3(0.0f);
         l.albedo = glm::vec3(0.0f);
         if (registers[t.weight].x > 0.0f) {
             const glm::vec3 fixed =
-                lobeFixWo(l, out._frames[l.frame].wo, surrounded ? unknownEnergy : t.energy);
+                lobeFixWo(l, out._frames[l.frame].wo, isKept ? t.energy : unknownEnergy);
             const bool tinted = code.layerTransmittance == LayerTransmittance::Tinted &&
                                 lobeHas(l.kind, lobe::Covers) && !lobeTransmits(l);
             coverage[i] = coverOf(code.layerTransmittance, tinted ? l.albedo : fixed, numbers);

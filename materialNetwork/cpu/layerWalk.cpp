@@ -48,8 +48,7 @@ LayerWalk::LayerWalk(const LayeredPoint& point, int op, const glm::vec3& wo)
     const ClosureOp& top = point.code->bsdf[size_t(_op.a)];
     const LobeTemplate& t = point.code->lobes[size_t(top.lobe)];
     const glm::vec4* registers = point.registers.data();
-    _top = point.code->prebuilt[size_t(top.lobe)];
-    if (!t.constant) setupLobe(t, registers, _top);
+    setupLobeAt(*point.code, size_t(top.lobe), registers, point.point, _top);
     if (_top.kind == LobeKind::Dielectric) {
         std::swap(_tint, _top.dielectric.tint);
         if (!_top.dielectric.full) _top.dielectric.mode = sh::SCATTER_RT;

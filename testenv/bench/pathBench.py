@@ -95,7 +95,8 @@ def measure(name, commands, options, pictures):
     with benchRun.Workers(name) as workers:
         scene = pathScenes.SCENES[name](workers.folder)
         for who, command in commands.items():
-            workers.start(who, command, scene, {**settings_of(options), "methods": options.method})
+            workers.start(who, command, scene, {**settings_of(options), "methods": options.method,
+                                                "blur": options.blur})
         runs = experiment.turns(options.runs, [(who, n) for n in options.samples for who in workers],
                                 lambda asked, run: workers.image(*asked, run))
     few, many = options.samples
@@ -141,6 +142,8 @@ def main(arguments):
     parser.add_argument("--samples", default="8,64", help="few and many (default: 8,64)")
     parser.add_argument("--target", type=float, default=1e-3, help="relMSE (default: 1e-3)")
     parser.add_argument("--method", action="append", default=[], metavar="CHOICE=METHOD", help="of Patina (repeatable)")
+    parser.add_argument("--blur", type=float, default=0.0, metavar="ALPHA",
+                        help="Patina's indirectRoughness; above 0 Cycles has its Filter Glossy 1, Blender's own default")
     parser.add_argument("--without", action="append", default=[], help="leaves a renderer out, as 'Cycles guided' (repeatable)")
     parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew")
     options = parser.parse(arguments)

@@ -133,7 +133,8 @@ def main(folder, guided=""):
     cycles = scene.cycles
     cycles.device, cycles.use_adaptive_sampling, cycles.use_denoising = "CPU", False, False
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = held["depth"]
-    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0.0
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
+    cycles.blur_glossy = 1.0 if held.get("blur") else 0.0
     cycles.caustics_reflective = cycles.caustics_refractive = True
     cycles.pixel_filter_type = "BOX"
     cycles.filter_width = 1.0

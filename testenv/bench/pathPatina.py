@@ -116,7 +116,7 @@ def prepare(folder):
             "maxDepth": scene["depth"], "filterRadius": 0.5, "checkpointSeconds": 0.0,
             "aovs": list(denoiser.GUIDES) if denoise else [],
             "rouletteDepth": 1 if scene.get("roulette", True) else 4096,
-            "methods": scene.get("methods", {})}, film)
+            "methods": scene.get("methods", {}), "indirectRoughness": scene.get("blur", 0.0)}, film)
         if denoise:
             denoiser.run(module, film, scene["threads"])
         if file != os.devnull:

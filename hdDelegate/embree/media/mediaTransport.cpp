@@ -111,6 +111,7 @@ Path::Step MediaTransport::scatter(Path& path, const Medium& medium, float dista
     path.specularShare = vec3(0.0f);
     path.coneWidth += path.coneSpread * distance;
     path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f);
+    path.blur = 1.0f;
     path.origin = position;
     path.direction = next.wi;
     path.departs = true;

@@ -2,6 +2,7 @@
 #include "hdDelegate/embree/integrator.h"
 
 #include "hdDelegate/embree/ambientOcclusion.h"
+#include "hdDelegate/embree/caustics/causticCasters.h"
 #include "hdDelegate/embree/deepRay.h"
 #include "hdDelegate/embree/media/mediaAround.h"
 #include "hdDelegate/embree/media/splatsAlong.h"
@@ -160,7 +161,9 @@ bool Integrator::advance(Path& path, const AovTarget& target, TraceCounters& cou
     path.lightSamples = path.seen ? _splitting.lightSamples : 1;
     path.coneWidth = width;
     path.travelled = 0.0f;
-    point.shading.leastRoughness = path.indirectRoughness * path.blur;
+    // What photons went through as it is stays so: the two have the light of one surface together.
+    if (!(path.onPhotons && castsCaustics(program)))
+        point.shading.leastRoughness = path.indirectRoughness * path.blur;
 
     return caught                ? shadeCatcher(path, point, hit, target, counters)
            : program.disperses() ? disperse(path, point, hit, target, counters)

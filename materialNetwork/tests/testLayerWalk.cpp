@@ -48,6 +48,22 @@ TEST(LayerWalk, SmoothOverDiffuseIsAGeometricSeries) {
         }
 }
 
+// Inside of its own ior an interface is none.
+TEST(LayerWalk, TheTopBordersOnWhatSurroundsIt) {
+    const auto program = walked(layered({coat("top", 1.5f, 0.0f), diffuse("base", 0.5f)}));
+    ShadingPoint point = seenFrom(direction(30.0f));
+    point.surroundingIor = 1.5f;
+    Random random(3);
+    Mean found;
+    for (uint32_t i = 1; i <= 20000; ++i) {
+        Bsdf bsdf = lobesAt(*program, point);
+        bsdf.seed(i);
+        const BsdfSample s = drawn(bsdf, random);
+        found.add(s.event ? double(s.weight.x) : 0.0);
+    }
+    EXPECT_NEAR(found.mean(), 0.5, 4.0 * std::sqrt(found.variance()) + 1e-3);
+}
+
 // Nothing is lost and nothing won where neither top nor base absorbs. 4 standard errors.
 TEST(LayerWalk, WhiteLosesNothing) {
     for (const float alpha : {0.0f, 0.3f, 0.8f})

@@ -3,7 +3,7 @@
 import dataclasses
 import os
 
-from usda import camera, floor, material, mesh, prim, stage
+from usda import camera, floor, lobe, material, mesh, prim, stage
 
 SCENES = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scenes"))
 
@@ -91,6 +91,9 @@ MANY = 24  # balls along a side
 PAINT = material("paint", {"surface": ("UsdPreviewSurface", {"color3f diffuseColor": "<tint>"}),
                            "tint": ("UsdPrimvarReader_float3", {"varname": "tint"})})
 SKY = prim("DomeLight", "sky", intensity=1)
+POLISHED = FLOOR + SKY + prim("DistantLight", "sun", intensity=1e5, angle=0.53, turn=(-50, 30, 0)) + "".join(
+    prim("Sphere", f"ball{i}", bind="metal", radius=0.3, at=(0.7 * i - 0.7, 0.3, 0)) for i in range(3)) + lobe(
+        "metal", "conductor_bsdf", roughness=(0.05, 0.05))
 
 
 def _ball(name, *lines, **more):
@@ -140,6 +143,10 @@ def curves():
         "feature_sharedLight": Curve("A closed room", {
             "each path its own light": Variant(box, DEEP),
             "shared": Variant(box, (*DEEP, "--method", "indirectLight=shared"))}, reference=2048, width=160),
+        "feature_indirectRoughness": Curve("Polished metal in the sun", {
+            "every surface as it is": Variant(POLISHED, DEEP),
+            "rougher to paths from rough ones": Variant(POLISHED, (*DEEP, "--indirectRoughness", "0.3"))},
+            reference=4096, width=160),
         "feature_filters": Curve("A lamp over an opening", {
             "barn doors": Variant(FLOOR + _lamp("rel light:filters = </opening>") + BARN),
             "a sheet with a hole": Variant(FLOOR + _lamp() + _cards())}),

@@ -73,6 +73,23 @@ def test_no_light_is_lost(tmp_path):
     assert scipy.stats.ttest_1samp(found, 1.0).pvalue > SIGNIFICANCE, found
 
 
+def test_light_of_photons_and_of_paths_stays_one(tmp_path):
+    """A white floor under a slab of glass shows a white sky. Photons have what comes from the sky through the slab, and paths
+    what comes from the floor by way of it."""
+    path, h = tmp_path / "slab.usda", 1.5
+    corners = [(x, y, z) for y in (0.02, 0.2) for x, z in ((-h, -h), (h, -h), (h, h), (-h, h))]
+    faces = [(0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
+    path.write_text(usda.stage(
+        camera(flat=(20, 20), at=(0, 5, 0), turn=(-90, 0, 0)), usda.floor("ground", 1.4, bind="chalk", doubleSided=True),
+        mesh("slab", corners, faces=faces, bind="glass"),
+        lobe("glass", "dielectric_bsdf", ior=2.4, roughness=(0, 0), scatter_mode="RT"),
+        lobe("chalk", "oren_nayar_diffuse_bsdf", color=(1, 1, 1)), prim("DomeLight", "sky", intensity=1)))
+    stage = stage_of(path, "--maxDepth", 64, "--method", "caustics=photons", width=24, samples=64, roughness=0.5)
+    found = [stage.image(seed).mean() for seed in SEEDS]
+    assert scipy.stats.sem(found) < 0.01
+    assert scipy.stats.ttest_1samp(found, 1.0).pvalue > SIGNIFICANCE, found
+
+
 def test_caustics_have_less_noise():
     """Light by way of glossy surfaces. Levene's test of all pixels' spread over their mean."""
     noise = []

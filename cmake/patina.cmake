@@ -44,7 +44,7 @@ if(PATINA_PRECOMPILED)
     endif()
 endif()
 
-# patina_unity(targets...): their files are compiled six at once, since OpenUSD's headers take most of the time of each.
+# patina_unity(targets...): their files are compiled six at once, since headers take most of the time of each.
 # Names in anonymous namespaces have to differ within a target.
 function(patina_unity)
     foreach(target ${ARGN})

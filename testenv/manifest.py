@@ -185,6 +185,17 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     # test_no_region_of_the_first_image_is_wrong holds the same images to the same truth, tile by tile.
     *((f"testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]{name}[]]", "long", None)
       for name in ("lightRect", "lightSphere")),
+    # A quarter of a minute each, where neighbours show much the same: emitters out of view, the atlas' other rows, levels
+    # without a tolerance, a board before mirrors, other scenes.
+    ("testenv/raster/test_emitters.py::test_a_small_lamp_in_view_hides_its_own_far_side", "long", None),
+    ("testenv/stability/test_atlas.py::test_bounds_hold_and_failures_show[[]film[]]", "long", None),
+    ("testenv/render/test_measuredLevels.py::test_a_larger_tolerance_takes_a_coarser_level_and_roots_share_it", "long", None),
+    ("testenv/raster/test_byDesign.py::test_mirrors_show_the_environment", "long", None),
+    ("testenv/raster/test_firstPass.py::test_no_region_of_the_first_image_is_wrong[[]instances[]]", "long", None),
+    ("testenv/raster/test_manyLights.py::test_choosing_among_just_enough_lights_changes_no_mean[[]mirror[]]", "long", None),
+    *((f"testenv/cli/test_denoisedTolerance.py::test_fewer_samples_bring_the_denoised_image_within_the_tolerance[[]{name}[]]",
+       "long", None) for name in ("shaderball-0.05", "hair-0.06")),
+    ("testenv/render/test_furnace.py::test_diffuse_sphere_shows_its_albedo[[]0.5[]]", "long", None),
     # Each light of manyLinks is linked to one prim, too.
     ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]lightLink[]]", "long", None),
     # An inclined cone is a cone. A mesh light goes the way of a glowing mesh, which stays at these places.

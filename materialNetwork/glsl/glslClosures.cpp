@@ -7,10 +7,6 @@ namespace patina {
 
 namespace {
 
-std::string number(int i) {
-    return std::to_string(i);
-}
-
 void line(std::string& text, const std::string& more) {
     text += more + "\n";
 }
@@ -78,20 +74,21 @@ GlslProfileTable::GlslProfileTable(const EmissionProfile& profile) : angles(91),
 }
 
 std::string glslProfile(const std::string& name, const GlslProfileTable& table, size_t first) {
-    const std::string angles = number(table.angles), steps = number(table.angles - 1) + ".0";
+    const std::string angles = std::to_string(table.angles),
+                      steps = std::to_string(table.angles - 1) + ".0";
     std::string text;
     line(text, "float " + name + "At(int i) {");
-    line(text, "    return materialParameter(" + number(int(first)) + " + i / 4)[i % 4];");
+    line(text, "    return materialParameter(" + std::to_string(int(first)) + " + i / 4)[i % 4];");
     line(text, "}");
     line(text, "float " + name + "(vec3 wo, vec3 n) {");
     line(text, "    float t = acos(min(abs(dot(wo, n)), 1.0)) * 0.636619772 * " + steps + ";");
-    line(text, "    int i = min(int(t), " + number(table.angles - 2) + ");");
+    line(text, "    int i = min(int(t), " + std::to_string(table.angles - 2) + ");");
     line(text, "    t -= float(i);");
     if (table.turns < 2) {
         line(text, "    return mix(" + name + "At(i), " + name + "At(i + 1), t);");
     } else {
-        line(text, "    float u = turnAbout(wo, n) * " + number(table.turns - 1) + ".0;");
-        line(text, "    int k = min(int(u), " + number(table.turns - 2) + ");");
+        line(text, "    float u = turnAbout(wo, n) * " + std::to_string(table.turns - 1) + ".0;");
+        line(text, "    int k = min(int(u), " + std::to_string(table.turns - 2) + ");");
         line(text, "    i += k * " + angles + ";");
         line(text, "    float low = mix(" + name + "At(i), " + name + "At(i + 1), t);");
         line(text, "    i += " + angles + ";");

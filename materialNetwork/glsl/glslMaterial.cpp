@@ -16,10 +16,6 @@ namespace patina {
 
 namespace {
 
-std::string number(int i) {
-    return std::to_string(i);
-}
-
 /// OpenGL promises uniform blocks of 1024 vectors, and all drivers have room for four times that.
 constexpr size_t maxWithCurves = 2048;
 
@@ -35,14 +31,14 @@ public:
              {&_code.surfaceCode, &_code.emissionCode, &_code.opacityCode, &_code.interiorCode})
             declareRegisters(*list);
         for (size_t i = 0; i < _code.lobes.size(); ++i)
-            line(glslLobeType(_code.lobes[i].kind) + " lobe" + number(int(i)) + ";");
+            line(glslLobeType(_code.lobes[i].kind) + " lobe" + std::to_string(int(i)) + ";");
         const int lobes = std::max(1, int(_code.lobes.size()));
-        line("vec3 lobeWeight[" + number(lobes) + "];");
-        line("vec3 lobeAlbedo[" + number(lobes) + "];");
-        line("float lobeChance[" + number(lobes) + "];");
+        line("vec3 lobeWeight[" + std::to_string(lobes) + "];");
+        line("vec3 lobeAlbedo[" + std::to_string(lobes) + "];");
+        line("float lobeChance[" + std::to_string(lobes) + "];");
         if (std::any_of(_code.lobes.begin(), _code.lobes.end(), glslRefracts))
-            line("vec3 lobeTransmittance[" + number(lobes) + "];");
-        line("Frame frames[" + number(std::max(1, int(_code.frames.size()))) + "];");
+            line("vec3 lobeTransmittance[" + std::to_string(lobes) + "];");
+        line("Frame frames[" + std::to_string(std::max(1, int(_code.frames.size()))) + "];");
         line("vec3 passThrough;");
         _out.leftOut = glslWalksLeftOut(_code);
         if (asksForDispersion()) _out.leftOut.push_back(messages::dispersionLeftOut);
@@ -59,7 +55,7 @@ public:
         for (const std::string& file : _files)
             head += "#include \"" + file + "\"\n";
         head += "layout(std140, binding = 1) uniform Parameters { vec4 parameters[" +
-                number(std::max(1, int(_out.parameters.size()))) +
+                std::to_string(std::max(1, int(_out.parameters.size()))) +
                 "]; };\nvec4 materialParameter(int i) { return parameters[i]; }\n" + textures;
         _out.text = head + _text;
         _out.albedoText = glslAlbedo(_code);
@@ -81,9 +77,9 @@ private:
     void line(const std::string& text) { _text += text + "\n"; }
 
     std::string reg(Register r) {
-        if (r >= _code.constants.size()) return "r" + number(r);
+        if (r >= _code.constants.size()) return "r" + std::to_string(r);
         _out.parameters.push_back(_code.constants[r]);
-        return "parameters[" + number(int(_out.parameters.size()) - 1) + "]";
+        return "parameters[" + std::to_string(int(_out.parameters.size()) - 1) + "]";
     }
     std::string reg(int r) { return reg(Register(r)); }
 
@@ -102,7 +98,7 @@ private:
         for (const Instruction& i : code)
             for (int k = 0; k < i.pattern->outputRows(); ++k)
                 if (_declared.insert(i.output + k).second)
-                    line("vec4 r" + number(i.output + k) + ";");
+                    line("vec4 r" + std::to_string(i.output + k) + ";");
     }
 
     void instructions(const std::vector<Instruction>& code) {
@@ -112,7 +108,7 @@ private:
                                      return reg(_code.inputPool[i.firstInput + uint32_t(input)] +
                                                 row);
                                  },
-                                 [&](int row) { return "r" + number(i.output + row); },
+                                 [&](int row) { return "r" + std::to_string(i.output + row); },
                                  [&](int handle) { return texture(handle); }}));
             if (i.pattern->file) _files.insert(i.pattern->file);
         }
@@ -122,7 +118,7 @@ private:
         const FrameTemplate& f = _code.frames[size_t(i)];
         const std::string n = f.normal >= 0 ? reg(f.normal) + ".xyz" : "vec3(0.0)";
         const std::string t = f.tangent >= 0 ? reg(f.tangent) + ".xyz" : "vec3(0.0)";
-        line("    frames[" + number(i) + "] = makeFrame(" + n + ", " + t + ", " +
+        line("    frames[" + std::to_string(i) + "] = makeFrame(" + n + ", " + t + ", " +
              (f.flips ? "true, " : "false, ") + (f.bends ? "true);" : "false);"));
     }
 
@@ -147,15 +143,16 @@ private:
         line("    passThrough = vec3(0.0);");
         for (size_t i = 0; i < _code.lobes.size(); ++i)
             if (_code.lobes[i].passThrough)
-                line("    passThrough += lobeWeight[" + number(int(i)) + "] * slab" +
-                     number(int(i)) + ".transmittance;");
+                line("    passThrough += lobeWeight[" + std::to_string(int(i)) + "] * slab" +
+                     std::to_string(int(i)) + ".transmittance;");
         if (_code.hasPassThrough) {
             line("    passThrough = unitColor(passThrough);");
             line("    float scale = slabScale(passThrough);");
             for (size_t i = 0; i < _code.lobes.size(); ++i)
-                line("    lobeWeight[" + number(int(i)) + "] *= " +
-                     (_code.lobes[i].passThrough ? "slab" + number(int(i)) + ".reflected * scale;"
-                                                 : "scale;"));
+                line("    lobeWeight[" + std::to_string(int(i)) + "] *= " +
+                     (_code.lobes[i].passThrough
+                          ? "slab" + std::to_string(int(i)) + ".reflected * scale;"
+                          : "scale;"));
         }
         line("}");
     }
@@ -179,15 +176,15 @@ private:
                 *out++ = {e.kr.x, e.kt.x, e.r.x, e.t.x};
             }
         }
-        return number(int(first));
+        return std::to_string(int(first));
     }
 
     void instantiateLobe(size_t i) {
         const LobeTemplate& t = _code.lobes[i];
-        const std::string n = number(int(i)), lobe = "lobe" + n;
+        const std::string n = std::to_string(int(i)), lobe = "lobe" + n;
         const auto registers = [&](Register r) { return reg(r); };
         line("    " + lobe + " = " + glslLobeSetup(t, registers) + ";");
-        if (t.ndf != 0) line("    " + lobe + ".ndf = " + number(t.ndf) + ";");
+        if (t.ndf != 0) line("    " + lobe + ".ndf = " + std::to_string(t.ndf) + ";");
         _text += glslLobeMethods(t, lobe);
         const LobeKind kind = t.kind;
         const bool interface = lobeHas(kind, lobe::Interface);
@@ -216,19 +213,19 @@ private:
         line("    float sum = 0.0;");
         line("    int present = 0;");
         for (size_t i = 0; i < _code.lobes.size(); ++i) {
-            const std::string n = "[" + number(int(i)) + "]";
-            line("    bool has" + number(int(i)) + " = hasWeight(lobeWeight" + n + ");");
-            line("    present += has" + number(int(i)) + " ? 1 : 0;");
+            const std::string n = "[" + std::to_string(int(i)) + "]";
+            line("    bool has" + std::to_string(int(i)) + " = hasWeight(lobeWeight" + n + ");");
+            line("    present += has" + std::to_string(int(i)) + " ? 1 : 0;");
         }
         for (size_t i = 0; i < _code.lobes.size(); ++i) {
-            const std::string n = "[" + number(int(i)) + "]";
-            line("    lobeChance" + n + " = !has" + number(int(i)) +
+            const std::string n = "[" + std::to_string(int(i)) + "]";
+            line("    lobeChance" + n + " = !has" + std::to_string(int(i)) +
                  " ? 0.0 : selectionShare(lobeWeight" + n + ", lobeAlbedo" + n +
                  ", present == 1);");
             line("    sum += lobeChance" + n + ";");
         }
         for (size_t i = 0; i < _code.lobes.size(); ++i) {
-            const std::string n = "[" + number(int(i)) + "]";
+            const std::string n = "[" + std::to_string(int(i)) + "]";
             line("    lobeChance" + n + " /= sum > 0.0 ? sum : 1.0;");
             line("    if (!(sum > 0.0)) lobeWeight" + n + " = vec3(0.0);");
         }
@@ -265,7 +262,8 @@ private:
                 break;
             }
             _out.parameters.insert(_out.parameters.end(), table.values.begin(), table.values.end());
-            profiles.emplace_back(op.profile.get(), "profile" + number(int(profiles.size())));
+            profiles.emplace_back(op.profile.get(),
+                                  "profile" + std::to_string(int(profiles.size())));
             _text += glslProfile(profiles.back().second, table, first);
         }
         line("vec3 materialEmission(vec3 wo) {");

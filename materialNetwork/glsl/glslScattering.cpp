@@ -9,10 +9,6 @@ namespace patina {
 
 namespace {
 
-std::string number(int i) {
-    return std::to_string(i);
-}
-
 /// A lobe for lights that go through lobes one by one, as GLSL.
 struct Trait {
     std::string kind = "LOBE_OTHER", alpha = "0.0", round = "true";
@@ -40,14 +36,14 @@ struct Common {
         ++count;
     }
     std::string definition(const std::string& name) const {
-        return same && count > 0 ? "#define " + name + " " + number(value) + "\n" : "";
+        return same && count > 0 ? "#define " + name + " " + std::to_string(value) + "\n" : "";
     }
 };
 
 } // namespace
 
 std::string glslFrameOf(const MaterialIr& code, size_t lobe) {
-    return "frames[" + number(code.lobes[lobe].frame) + "]";
+    return "frames[" + std::to_string(code.lobes[lobe].frame) + "]";
 }
 
 std::string glslEval(const MaterialIr& code) {
@@ -55,12 +51,12 @@ std::string glslEval(const MaterialIr& code) {
                        "    MaterialEval sum = materialEvalNone();\n"
                        "    bool reflects = isReflected(wi, point.geometricNormal, woOutside());\n";
     for (size_t i = 0; i < code.frames.size(); ++i)
-        text +=
-            "    vec3 wi" + number(int(i)) + " = toLocal(frames[" + number(int(i)) + "], wi);\n";
+        text += "    vec3 wi" + std::to_string(int(i)) + " = toLocal(frames[" +
+                std::to_string(int(i)) + "], wi);\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const LobeTemplate& t = code.lobes[i];
-        const std::string n = number(int(i)), wo = glslFrameOf(code, i) + ".wo",
-                          wi = "wi" + number(t.frame), weight = "lobeWeight[" + n + "]";
+        const std::string n = std::to_string(int(i)), wo = glslFrameOf(code, i) + ".wo",
+                          wi = "wi" + std::to_string(t.frame), weight = "lobeWeight[" + n + "]";
         text += "    if (without != " + n + ") addLobe(sum, lobeAgrees(" + wo + ".z, " + wi +
                 ".z, reflects) && hasWeight(" + weight + "), " +
                 (t.diffuse ? "true, " : "false, ") + weight + ", lobeChance[" + n + "], " +
@@ -74,7 +70,7 @@ std::string glslSample(const MaterialIr& code) {
     std::string text = "MaterialSample materialSample(vec3 u, float uLobe) {\n"
                        "    Selection drawn = selectionNone();\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
-        const std::string n = number(int(i));
+        const std::string n = std::to_string(int(i));
         text += "    selectLobe(drawn, " + n + ", lobeChance[" + n + "], uLobe);\n";
     }
     text += "    MaterialSample s = materialSampleNone();\n"
@@ -83,7 +79,7 @@ std::string glslSample(const MaterialIr& code) {
             "    float chance = 0.0;\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const LobeTemplate& t = code.lobes[i];
-        const std::string n = number(int(i)), frame = glslFrameOf(code, i);
+        const std::string n = std::to_string(int(i)), frame = glslFrameOf(code, i);
         text += "    if (drawn.lobe == " + n + ") {\n";
         text += "        l = " + std::string(lobeRow(t.kind).prefix) + "Sample(lobe" + n + ", " +
                 frame + ".wo, u);\n";
@@ -98,7 +94,7 @@ std::string glslSample(const MaterialIr& code) {
 std::string glslAlbedo(const MaterialIr& code) {
     std::string text = "vec3 materialAlbedo() {\n    vec3 sum = vec3(0.0);\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
-        const std::string n = number(int(i));
+        const std::string n = std::to_string(int(i));
         text += "    if (hasWeight(lobeWeight[" + n + "])) sum += lobeWeight[" + n + "] * " +
                 lobeRow(code.lobes[i].kind).prefix + "Albedo(lobe" + n + ", " +
                 glslFrameOf(code, i) + ".wo);\n";
@@ -113,7 +109,7 @@ bool glslRefracts(const LobeTemplate& t) {
 std::string glslPasses(const MaterialIr& code) {
     std::string sum;
     for (size_t i = 0; i < code.lobes.size(); ++i) {
-        const std::string n = number(int(i));
+        const std::string n = std::to_string(int(i));
         if (glslRefracts(code.lobes[i]))
             sum += (sum.empty() ? "" : " + ") +
                    ("lobeWeight[" + n + "] * lobeTransmittance[" + n + "]");
@@ -125,8 +121,8 @@ std::string glslTraits(const MaterialIr& code) {
     std::string kinds = "int lobeKind(int i) {\n", alphas = "float lobeAlpha(int i) {\n",
                 places = "Frame lobeFrame(int i) {\n", rounds = "bool lobeIsRound(int i) {\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
-        const std::string at = "    if (i == " + number(int(i)) + ") return ";
-        const Trait t = traitOf(code.lobes[i].kind, "lobe" + number(int(i)));
+        const std::string at = "    if (i == " + std::to_string(int(i)) + ") return ";
+        const Trait t = traitOf(code.lobes[i].kind, "lobe" + std::to_string(int(i)));
         kinds += at + t.kind + ";\n";
         alphas += at + t.alpha + ";\n";
         rounds += at + t.round + ";\n";
@@ -135,8 +131,8 @@ std::string glslTraits(const MaterialIr& code) {
     return "const int LOBE_DIFFUSE = 0, LOBE_SHEEN = 1, LOBE_OTHER = 3;\n"
            "const int LOBE_MIRROR = 2; // reflects, by facets\n"
            "const int LOBES = " +
-           number(int(code.lobes.size())) + ";\n" + kinds + "    return LOBE_OTHER;\n}\n" + alphas +
-           "    return 0.0;\n}\n" + rounds + "    return true;\n}\n" + places +
+           std::to_string(int(code.lobes.size())) + ";\n" + kinds + "    return LOBE_OTHER;\n}\n" +
+           alphas + "    return 0.0;\n}\n" + rounds + "    return true;\n}\n" + places +
            "    return frames[0];\n}\n";
 }
 

@@ -8,16 +8,7 @@
 
 namespace patina {
 
-namespace {
-
-Operand constantOf(ValueType type, float x) {
-    Operand operand;
-    operand.value.type = type;
-    operand.value.numbers.assign(size_t(valueTypeComponents(type)), x);
-    return operand;
-}
-
-Operand none(ValueType type) {
+Operand noClosure(ValueType type) {
     Operand operand;
     operand.value.type = type;
     return operand;
@@ -25,6 +16,15 @@ Operand none(ValueType type) {
 
 bool isNone(const Operand& operand) {
     return operand.isConstant() && isClosureType(operand.value.type);
+}
+
+namespace {
+
+Operand constantOf(ValueType type, float x) {
+    Operand operand;
+    operand.value.type = type;
+    operand.value.numbers.assign(size_t(valueTypeComponents(type)), x);
+    return operand;
 }
 
 ValueType typeOf(const Graph& graph, const Operand& operand) {
@@ -170,13 +170,13 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
     const auto& in = node.inputs;
     const ValueType type = node.def->outputs[0].type;
     const auto cut = [&](const char* why) {
-        out = none(type);
+        out = noClosure(type);
         reason = std::string(node.def->category) + " left out, " + why;
         return true;
     };
     const auto keep = [&](const Operand& operand, const char* why) {
         out = operand;
-        if (out.isConstant()) out = none(type);
+        if (out.isConstant()) out = noClosure(type);
         reason = why;
         return true;
     };

@@ -8,6 +8,10 @@
 
 namespace patina {
 
+/// The absence of a closure, as an input.
+Operand noClosure(ValueType type);
+bool isNone(const Operand& operand);
+
 /// Runs a pattern whose inputs are all constants. @returns false when it has strings or matrices
 bool foldPattern(const GraphNode& node, std::vector<Value>& outputs);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/graph/mergeSurfaceShaders.h"
 
+#include "materialNetwork/graph/algebra.h"
 #include "materialNetwork/nodes/nodeTable.h"
 
 #include <map>
@@ -8,16 +9,6 @@
 namespace patina {
 
 namespace {
-
-bool isNone(const Operand& operand) {
-    return operand.isConstant() && isClosureType(operand.value.type);
-}
-
-Operand noClosure(ValueType type) {
-    Operand operand;
-    operand.value.type = type;
-    return operand;
-}
 
 Operand numberOf(float x) {
     Operand operand;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int maxCandidates = 1 << 16; ///< along one ray
 constexpr int maxVolumes = 16;         ///< that one ray passes
-constexpr float rouletteBelow = 0.05f;
+constexpr float leastThroughput = 0.05f;
 
 float mean(const vec3& v) {
     return (v.x + v.y + v.z) / 3.0f;
@@ -207,8 +207,8 @@ vec3 VolumeScene::transmittance(const vec3& origin, const vec3& direction, float
             const vec3 extinction = tracker.medium().at(tracker.at(tracker.distance)).extinction();
             through *= glm::max(1.0f - extinction / tracker.majorant, vec3(0.0f));
             const float maximum = std::max({through.x, through.y, through.z});
-            if (maximum < rouletteBelow) {
-                const float survive = maximum / rouletteBelow;
+            if (maximum < leastThroughput) {
+                const float survive = maximum / leastThroughput;
                 if (!(sampler.random() < survive)) return vec3(0.0f);
                 through /= survive;
             }

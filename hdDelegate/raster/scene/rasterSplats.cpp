@@ -20,7 +20,7 @@ struct GpuSplatPlace {
 constexpr int tableRows = 4096;
 constexpr float tableEnd = 16.0f;
 
-size_t storageLimit() {
+size_t mostBytes() {
     GLint64 limit = 0;
     gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
     return size_t(std::clamp<GLint64>(limit, 1 << 24, INT32_MAX));
@@ -30,7 +30,7 @@ size_t storageLimit() {
 
 size_t RasterSplats::mostEntries() {
     constexpr size_t most = size_t(1) << 28; // bytes that a pass may write for its list
-    return std::min(storageLimit(), most) / (2 * sizeof(uint32_t));
+    return std::min(mostBytes(), most) / (2 * sizeof(uint32_t));
 }
 
 /// Three rows of numbers that add up to the colour in the rendering space: of red, green and blue.
@@ -51,7 +51,7 @@ void RasterSplats::addTable(Prim& prim, std::vector<vec4>& rows) const {
 }
 
 void RasterSplats::end() {
-    const size_t limit = storageLimit();
+    const size_t limit = mostBytes();
     std::vector<SplatKernel> kernels;
     std::vector<vec3> harmonics;
     std::vector<vec4> tables;

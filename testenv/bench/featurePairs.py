@@ -146,7 +146,7 @@ def curves():
         "feature_indirectRoughness": Curve("Polished metal in the sun", {
             "every surface as it is": Variant(POLISHED, DEEP),
             "rougher to paths from rough ones": Variant(POLISHED, (*DEEP, "--indirectRoughness", "0.3"))},
-            reference=4096, width=160),
+            reference=2048, width=96),
         "feature_filters": Curve("A lamp over an opening", {
             "barn doors": Variant(FLOOR + _lamp("rel light:filters = </opening>") + BARN),
             "a sheet with a hole": Variant(FLOOR + _lamp() + _cards())}),

@@ -31,19 +31,21 @@ def traced(tmp_path_factory):
     return pixels
 
 
-def test_a_method_of_the_path_tracer_is_a_setting(tmp_path):
-    """Light that paths share, in a room: another image of the same mean."""
-    means = {}
-    for method in ("paths", "shared"):
-        image = tmp_path / (method + ".exr")
-        process = hydraBuild.run_host(os.path.join(stages.SCENES, "diffuseBox.usda"), image, "--size", "48x48", "--camera",
-                                      "/World/camera", "--set", "samples=16", "--set", "backend=embree", "--set",
-                                      f"method:indirectLight={method}")
+@pytest.mark.parametrize("name, settings, noise", [
+    ("diffuseBox", ("method:indirectLight=paths", "method:indirectLight=shared"), 0.12),
+    ("plastic", ("indirectRoughness=0", "indirectRoughness=0.3"), 0.05)])
+def test_what_the_path_tracer_shares_or_blurs_is_a_setting(tmp_path, name, settings, noise):
+    """Another image of the same mean. :param noise: root of the relative variance of a pixel"""
+    images = []
+    for setting in settings:
+        image = tmp_path / (setting.replace(":", "_") + ".exr")
+        process = hydraBuild.run_host(os.path.join(stages.SCENES, f"{name}.usda"), image, "--size", "48x48", "--camera", "/World/camera", "--set",
+                                      "samples=16", "--set", "backend=embree", "--set", setting)
         assert not hydraBuild.warnings_of(process)
-        means[method] = color(image)
-    assert not np.array_equal(means["shared"], means["paths"])
-    # 2304 pixels of 12 % noise each (root of the relative variance of paths): five standard errors of the difference.
-    assert means["shared"].mean() == pytest.approx(means["paths"].mean(), rel=5 * 0.12 * (2 / 2304) ** 0.5)
+        images.append(color(image))
+    assert not np.array_equal(*images)
+    # 2304 pixels: five standard errors of the difference.
+    assert images[1].mean() == pytest.approx(images[0].mean(), rel=5 * noise * (2 / 2304) ** 0.5)
 
 
 @pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])

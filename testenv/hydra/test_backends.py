@@ -39,8 +39,8 @@ def test_what_the_path_tracer_shares_or_blurs_is_a_setting(tmp_path, name, setti
     images = []
     for setting in settings:
         image = tmp_path / (setting.replace(":", "_") + ".exr")
-        process = hydraBuild.run_host(os.path.join(stages.SCENES, f"{name}.usda"), image, "--size", "48x48", "--camera", "/World/camera", "--set",
-                                      "samples=16", "--set", "backend=embree", "--set", setting)
+        process = hydraBuild.run_host(os.path.join(stages.SCENES, name + ".usda"), image, "--size", "48x48", "--camera",
+                                      "/World/camera", "--set", "samples=16", "--set", "backend=embree", "--set", setting)
         assert not hydraBuild.warnings_of(process)
         images.append(color(image))
     assert not np.array_equal(*images)

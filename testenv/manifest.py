@@ -185,8 +185,8 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     # test_no_region_of_the_first_image_is_wrong holds the same images to the same truth, tile by tile.
     *((f"testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]{name}[]]", "long", None)
       for name in ("lightRect", "lightSphere")),
-    # A quarter of a minute each, where neighbours show much the same: emitters out of view, the atlas' other rows, levels
-    # without a tolerance, a board before mirrors, other scenes.
+    # A quarter of a minute each, where neighbours show much the same: the atlas' other rows, levels without a tolerance, a
+    # board before mirrors, other scenes. The small lamp has no neighbour, and takes half a minute.
     ("testenv/raster/test_emitters.py::test_a_small_lamp_in_view_hides_its_own_far_side", "long", None),
     ("testenv/stability/test_atlas.py::test_bounds_hold_and_failures_show[[]film[]]", "long", None),
     ("testenv/render/test_measuredLevels.py::test_a_larger_tolerance_takes_a_coarser_level_and_roots_share_it", "long", None),

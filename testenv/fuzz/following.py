@@ -17,6 +17,7 @@ _UNITS = re.compile(r"stat::number_of_executed_units: (\d+)|^Done (\d+) runs|^#(
 IN_MEMORY = "/dev/shm" if os.path.isdir("/dev/shm") else None  # for files of inputs, and what a program leaves when it dies
 ENDING_SECONDS = 30  # of a program that was asked to end
 LONGEST_INPUT = 4096  # bytes
+NEW_EDGES = 1000  # one in so many may be new on a plateau; none where there are fewer
 TOLD = 1 << 20  # characters that are kept of what a program says, of its end
 
 
@@ -31,24 +32,27 @@ def _processor_seconds(pid):
 
 
 class Plateau:
-    """For how long no new edge was reached, over runs that go on from each other. Seconds are those of processors: a program
-    that waits for one tries nothing."""
+    """For how long all but a thousandth of the edges are known, over runs that go on from each other. A program of a million
+    inputs an hour still meets a rare edge now and then. Seconds are those of processors: a program that waits for one tries
+    nothing."""
 
     def __init__(self):
-        self.edges, self.used, self.since = 0, 0.0, 0.0
+        self.edges, self.used = 0, 0.0
+        self._rises = [(0.0, 0)]  # when, how many from then on
 
     def hear(self, line):
         found = _COVERED.search(line)
         if found and int(found.group(1)) > self.edges:
-            self.edges, self.since = int(found.group(1)), self.used
+            self.edges = int(found.group(1))
+            self._rises.append((self.used, self.edges))
 
     def seconds(self):
-        return self.used - self.since
+        return self.used - next(when for when, edges in self._rises if edges >= self.edges - self.edges // NEW_EDGES)
 
 
 def run(command, plateau, most, **options):
     """:param plateau: Plateau, which hears each line
-    :param most: seconds of processors without a new edge after which the program is asked to end
+    :param most: seconds of a plateau after which the program is asked to end
     :param options: of subprocess.Popen
     :returns: (exit status, 0 where it was asked to end; what it said; inputs that it ran)"""
     told, size = [], 0
@@ -87,12 +91,12 @@ def search(name, command, corpus, seconds, plateau, seed, say, why, read, lines,
 
     :param command: the program and flags of its own
     :param corpus: folder of inputs; new ones that reach new code are added to that of the name
-    :param plateau: seconds of processors without a new edge after which it ends
+    :param plateau: seconds of a plateau after which it ends
     :param why: function of an input's file and of what was said -> (kind, reason)
     :param read: function of an input's file, its kind and a folder -> the bytes that are kept
     :param lines: function of the folder of inputs and another -> (lines that they reach, all)
     :param options: function of a folder -> those of subprocess.Popen
-    :returns: as generated.run(), with lines, and how long no edge was new at the end
+    :returns: as generated.run(), with lines, edges, and how long the plateau at the end is
     :raises RuntimeError: where it ends by itself without a finding"""
     work = os.path.join(corpus, name)
     os.makedirs(work, exist_ok=True)
@@ -123,4 +127,4 @@ def search(name, command, corpus, seconds, plateau, seed, say, why, read, lines,
     for kind, *_ in findings.values():
         counts[kind] = counts.get(kind, 0) + 1
     return {"inputs": inputs, "seconds": time.monotonic() - start, "counts": counts, "findings": list(findings.values()),
-            "lines": reached, "plateau": edges.seconds()}
+            "lines": reached, "plateau": edges.seconds(), "edges": edges.edges}

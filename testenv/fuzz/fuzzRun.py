@@ -41,8 +41,8 @@ def _in_turn(names):
 def run(names, seconds, plateau, seed, corpus, findings, build, say=print):
     """:param names: of fuzzers; none: all
     :param seconds: of all together
-    :param plateau: seconds of processors without a new edge after which a fuzzer that follows them ends; None: a third of its
-        share, at most an hour
+    :param plateau: seconds of following.Plateau after which a fuzzer that follows edges ends; None: a third of its share, at
+        most an hour
     :param corpus: folder of inputs that grows, or None: nothing is kept between runs
     :param findings: folder that findings are written to
     :param build: folder of the instrumented build
@@ -89,6 +89,6 @@ def run(names, seconds, plateau, seed, corpus, findings, build, say=print):
 
 def figures(results):
     """:returns: the numbers of a run without its inputs, for a file of JSON"""
-    return {name: {key: found[key] for key in ("inputs", "seconds", "counts", "lines", "plateau") if key in found} |
+    return {name: {key: found[key] for key in ("inputs", "seconds", "counts", "lines", "plateau", "edges") if key in found} |
             {"findings": [{"kind": kind, "reason": reason} for kind, reason, *_ in found["findings"]]}
             for name, found in results.items()}

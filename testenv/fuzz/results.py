@@ -72,7 +72,7 @@ def row(machine, seed, found):
             "counts": found["counts"], **({"sums": found["sums"]} if found.get("sums") else {}),
             **({"memory": found["memory"]} if found.get("memory") else {}),
             "lines": list(found["lines"]) if found.get("lines") else None,
-            **({"plateau": round(found["plateau"], 1)} if "plateau" in found else {}),
+            **({"plateau": round(found["plateau"], 1), "edges": found["edges"]} if "plateau" in found else {}),
             "findings": [signature.replace(ROOT, "") for _, signature, *_ in found["findings"]]}
 
 
@@ -162,8 +162,8 @@ def page():
             "page is made.", "",
             "## Runs", "",
             "*Lines reached* is the share of [a parser's sources](#coverage-of-the-parsers) that the",
-            "kept inputs run. *Plateau* is for how many minutes of a processor the longest such run reached no new edge",
-            "of the program. Where an hour reaches none, more inputs of the kind say little: such an hour is the aim, and no",
+            "kept inputs run. *Plateau* is for how many minutes of a processor the longest such run reached at most a",
+            "thousandth more edges of the program: more inputs of the kind say little. An hour of it is the aim, and no",
             "number of inputs. A fuzzer that has had it ends, and leaves the rest of its time to the others.", "",
             "The columns after *plateau* count inputs, not causes. All other inputs gave a result, or ended with a",
             "message.", "",

@@ -221,6 +221,20 @@ def test_a_program_that_waits_reaches_no_plateau():
     assert edges.seconds() < 1.0
 
 
+def test_a_plateau_allows_a_thousandth_of_the_edges():
+    edges = following.Plateau()
+    for edges.used, count in ((1.0, 2000), (5.0, 2996), (20.0, 2997), (60.0, 3000)):
+        edges.hear(f"#9\tNEW    cov: {count} ft: 1")
+    edges.used = 100.0
+    assert edges.seconds() == 80.0  # 2997 of 3000
+    edges.hear("#9\tNEW    cov: 3001")
+    assert edges.seconds() == 40.0
+    few = following.Plateau()
+    for few.used, count in ((1.0, 998), (5.0, 999)):
+        few.hear(f"#9\tNEW    cov: {count}")
+    assert few.seconds() == 0.0
+
+
 def test_crashes_of_libraries_are_theirs():
     text = ("==7==ERROR: AddressSanitizer: SEGV on unknown address 0x61 (pc 0x7f bp 0x7f sp 0x7f T0)\n"
             "==7==The signal is caused by a READ memory access.\n    #0 0x55 in __asan_memcpy (/b/texture+0x1)\n"

@@ -26,8 +26,9 @@ def add_arguments(parser):
     parser.add_argument("--list", action="store_true", help="print the fuzzers and end")
     parser.add_argument("--seconds", type=float, default=60.0, metavar="S", help="time of all fuzzers together (default: 60)")
     parser.add_argument("--plateau", type=float, metavar="S",
-                        help="a fuzzer that follows coverage ends after so many seconds of processors without a new edge, and "
-                             "leaves its time to the others (default: a third of its share, at most 3600)")
+                        help="a fuzzer that follows coverage ends after so many seconds of processors with at most a "
+                             "thousandth of its edges new, and leaves its time to the others (default: a third of its share, "
+                             "at most 3600)")
     parser.add_argument("--seed", type=int, default=1, metavar="N",
                         help="seed of the first input; the others count up (default: 1)")
     parser.add_argument("--corpus", metavar="FOLDER", help="inputs of the native fuzzers, kept small, that the next run goes "

@@ -85,10 +85,10 @@ class Worker:
                 return json.loads(after)
         raise RuntimeError(f"{os.path.basename(self.process.args[0])} ended with status {self.process.wait()}: {last}")
 
-    def draw(self, samples, seed, file=os.devnull, denoise=True):
-        """:param denoise: False: not even where the scene asks for it
+    def draw(self, samples, seed, file=os.devnull, plain=False):
+        """:param plain: without what the scene asks for that blurs: denoiser, methods and blur
         :returns: {seconds, processor}: wall and processor seconds of the image"""
-        self.process.stdin.write(json.dumps({"samples": samples, "seed": seed, "file": file, "denoise": denoise}) + "\n")
+        self.process.stdin.write(json.dumps({"samples": samples, "seed": seed, "file": file, "plain": plain}) + "\n")
         self.process.stdin.flush()
         return self._answer()
 
@@ -129,10 +129,10 @@ class Workers(dict):
             print(f"{self.name}: {who} is left out: {error}")
         return key in self
 
-    def image(self, key, samples, seed, denoise=True):
+    def image(self, key, samples, seed, plain=False):
         """:returns: what Worker.draw() does, and the pixels (height, width, 3)"""
         file = os.path.join(self.folder, "image.npy")
-        return self[key].draw(samples, seed, file, denoise), np.load(file)
+        return self[key].draw(samples, seed, file, plain), np.load(file)
 
     def title(self, key):
         """:returns: a renderer with its version"""

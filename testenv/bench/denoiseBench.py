@@ -2,10 +2,10 @@
 """Denoised images: seconds until they look like the reference, beside Cycles.
 
 The scenes are those of `patina bench path`. Every renderer draws them with ever more samples until the mean FLIP (HDR;
-Andersson et al. 2020) beside its own reference is below the last target. A reference is one image of many samples, not
-denoised. Times are of processors, with the denoiser's and without what is done once per scene; a row is the median of the runs,
-which have seeds of their own. Between two numbers of samples the error is taken for a power of time. Cycles is that of `patina
-bench path`, denoised by its own denoiser.
+Andersson et al. 2020) beside its own reference is below the last target. A reference is one image of many samples, without
+denoiser, methods and blur. Times are of processors, with the denoiser's and without what is done once per scene; a row is the
+median of the runs, which have seeds of their own. Between two numbers of samples the error is taken for a power of time. Cycles
+is that of `patina bench path`, denoised by its own denoiser.
 """
 import math
 import statistics
@@ -59,7 +59,7 @@ def measure(name, options):
         scene = pathScenes.SCENES[name](workers.folder)
         for who, command in commands(options.without).items():
             workers.start(who, command, scene, {**pathBench.settings_of(options), "denoise": True})
-        references = {who: workers.image(who, options.reference, 1000, denoise=False)[1] for who in workers}
+        references = {who: workers.image(who, options.reference, 1000, plain=True)[1] for who in workers}
         return {workers.title(who): climb(workers, who, reference, options) for who, reference in references.items()}
 
 
@@ -84,6 +84,7 @@ def main(arguments):
                                runs=(5, "images of each"), depth=(8, "bounces"), threads=(0, "of each renderer"))
     parser.add_argument("scenes", nargs="*", help=f"of {', '.join(pathScenes.SCENES)} (default: all)")
     parser.add_argument("--samples", default="1,2,4,8,16,32,64,128,256", help="ever more (default: 1,2,4 ... 256)")
+    pathBench.add_choices(parser)
     parser.add_argument("--targets", default="0.05,0.02", help="mean FLIP, falling (default: 0.05,0.02)")
     parser.add_argument("--without", action="append", default=[], choices=["Cycles", "Cycles guided"],
                         help="leaves a renderer out; Cycles: both")

@@ -13,6 +13,7 @@ All have the same geometry, camera, bounces, light and box filter; principled ma
 Cycles is that of PyPI's bpy, with its light tree, and a second time with path guiding. $PATINA_BPY_PYTHON names a Python that
 has bpy. Without it the benchmark installs bpy (requirements-cycles.txt) into an environment of its own, inside of Patina's.
 """
+import argparse
 import os
 import statistics
 import subprocess
@@ -71,7 +72,22 @@ def mitsuba():
 
 def settings_of(options):
     """:returns: what pathWorker.save() takes besides a scene"""
-    return {"width": options.pixels[0], "height": options.pixels[1], "depth": options.depth, "threads": options.threads}
+    return {"width": options.pixels[0], "height": options.pixels[1], "depth": options.depth, "threads": options.threads,
+            "methods": dict(options.method), "blur": options.blur}
+
+
+def add_choices(parser):
+    """Adds what of both path benchmarks blurs, besides the denoiser."""
+    def pair(word):
+        choice, _, method = word.partition("=")
+        if not method:
+            raise argparse.ArgumentTypeError("it takes CHOICE=METHOD")
+        return choice, method
+
+    parser.add_argument("--method", type=pair, action="append", default=[], metavar="CHOICE=METHOD",
+                        help="of Patina (repeatable)")
+    parser.add_argument("--blur", type=float, default=0.0, metavar="ALPHA",
+                        help="Patina's indirectRoughness; above 0 Cycles has its Filter Glossy 1, Blender's own default")
 
 
 def errors_of(few, many):
@@ -95,8 +111,7 @@ def measure(name, commands, options, pictures):
     with benchRun.Workers(name) as workers:
         scene = pathScenes.SCENES[name](workers.folder)
         for who, command in commands.items():
-            workers.start(who, command, scene, {**settings_of(options), "methods": options.method,
-                                                "blur": options.blur})
+            workers.start(who, command, scene, settings_of(options))
         runs = experiment.turns(options.runs, [(who, n) for n in options.samples for who in workers],
                                 lambda asked, run: workers.image(*asked, run))
     few, many = options.samples
@@ -141,15 +156,11 @@ def main(arguments):
     parser.add_argument("scenes", nargs="*", help=f"of {', '.join(pathScenes.SCENES)} (default: all)")
     parser.add_argument("--samples", default="8,64", help="few and many (default: 8,64)")
     parser.add_argument("--target", type=float, default=1e-3, help="relMSE (default: 1e-3)")
-    parser.add_argument("--method", action="append", default=[], metavar="CHOICE=METHOD", help="of Patina (repeatable)")
-    parser.add_argument("--blur", type=float, default=0.0, metavar="ALPHA",
-                        help="Patina's indirectRoughness; above 0 Cycles has its Filter Glossy 1, Blender's own default")
+    add_choices(parser)
     parser.add_argument("--without", action="append", default=[], help="leaves a renderer out, as 'Cycles guided' (repeatable)")
     parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew")
     options = parser.parse(arguments)
     options.samples = tuple(map(int, options.samples.split(",")))
-    options.method = dict(word.split("=", 1) if "=" in word else parser.error("--method takes CHOICE=METHOD")
-                          for word in options.method)
     names = parser.known(options.scenes, pathScenes.SCENES,
                          len(options.samples) == 2 and options.samples[0] < options.samples[1] and options.runs >= 2,
                          "--samples takes few and many, --runs at least 2")

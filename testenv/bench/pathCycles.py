@@ -134,16 +134,16 @@ def main(folder, guided=""):
     cycles.device, cycles.use_adaptive_sampling, cycles.use_denoising = "CPU", False, False
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = held["depth"]
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
-    cycles.blur_glossy = 1.0 if held.get("blur") else 0.0
     cycles.caustics_reflective = cycles.caustics_refractive = True
     cycles.pixel_filter_type = "BOX"
     cycles.filter_width = 1.0
     cycles.use_light_tree, cycles.use_guiding = True, bool(guided)
     file = os.path.join(tempfile.mkdtemp(prefix="pathCycles"), "image.exr")
 
-    def draw(samples, seed, to, denoise):
+    def draw(samples, seed, to, plain):
         cycles.samples, cycles.seed = samples, seed
-        cycles.use_denoising = bool(denoise and held.get("denoise"))
+        cycles.use_denoising = bool(held.get("denoise") and not plain)
+        cycles.blur_glossy = 1.0 if held.get("blur") and not plain else 0.0
         scene.render.filepath = file
         bpy.ops.render.render(write_still=True)
         if to == os.devnull:

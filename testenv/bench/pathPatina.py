@@ -109,14 +109,15 @@ def prepare(folder):
     with held.edit() as edit:
         reader.read_stage(reader.open_stage(path), edit, reader.StageOptions())
 
-    def draw(samples, seed, file, denoise):
-        denoise = denoise and scene.get("denoise", False)
+    def draw(samples, seed, file, plain):
+        asked = {} if plain else scene
+        denoise = asked.get("denoise", False)
         experiment.draw(renderer, held, "/camera", {
             "width": scene["width"], "height": scene["height"], "samples": samples, "seed": seed, "threads": scene["threads"],
             "maxDepth": scene["depth"], "filterRadius": 0.5, "checkpointSeconds": 0.0,
             "aovs": list(denoiser.GUIDES) if denoise else [],
             "rouletteDepth": 1 if scene.get("roulette", True) else 4096,
-            "methods": scene.get("methods", {}), "indirectRoughness": scene.get("blur", 0.0)}, film)
+            "methods": asked.get("methods", {}), "indirectRoughness": asked.get("blur", 0.0)}, film)
         if denoise:
             denoiser.run(module, film, scene["threads"])
         if file != os.devnull:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The common part of the renderers' processes in the path tracing benchmark: scenes on disk, and the talk with the benchmark.
 
-A worker is started with a folder and reads a line of JSON for each image: {"samples", "seed", "file", "denoise"}. It answers
+A worker is started with a folder and reads a line of JSON for each image: {"samples", "seed", "file", "plain"}. It answers
 with the seconds and the processor seconds that the image took; the first line tells the renderer's version, what it took to get
 ready, and what a first image of one sample took of that.
 """
@@ -47,14 +47,14 @@ def answer(values):
 
 
 def serve(draw, started, version=""):
-    """:param draw: function of samples, seed, a file's path and whether to denoise where the scene asks for that; writes an
+    """:param draw: function of samples, seed, a file's path and plain, as benchRun.Worker.draw() has it; writes an
         array (height, width, 3) there with numpy.save
     :param started: time.perf_counter() before the scene was made"""
     begin = time.perf_counter()
-    draw(1, 999, os.devnull, True)
+    draw(1, 999, os.devnull, False)
     answer({"version": version, "ready": time.perf_counter() - started, "first": time.perf_counter() - begin})
     for line in sys.stdin:
         asked = json.loads(line)
         wall, cpu = time.perf_counter(), time.process_time()
-        draw(asked["samples"], asked["seed"], asked["file"], asked["denoise"])
+        draw(asked["samples"], asked["seed"], asked["file"], asked["plain"])
         answer({"seconds": time.perf_counter() - wall, "processor": time.process_time() - cpu})

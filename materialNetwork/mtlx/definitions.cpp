@@ -204,6 +204,8 @@ void MtlxParser::indexNames(const Element& root) {
                 known[name] = child;
             else
                 spaced.push_back({child, &known});
+        } else if (!std::strcmp(child.name(), "output")) {
+            _outputs.emplace(name, child);
         } else if (isNode(child)) {
             _topmost.emplace(name, child);
         }

@@ -20,6 +20,9 @@ const std::set<std::string> otherElements = {
     "unittypedef", "targetdef",  "xi:include",     "input",    "output",      "token",
     "backdrop",    "comment",    "attributedef",   "parameter"};
 
+/// Outputs that lead to other outputs, and nodes that inherit from others: a circle has no end.
+constexpr int mostFollowed = 64;
+
 /// Of the paths of a graph's nodes.
 std::string prefixOf(const pugi::xml_node& graph) {
     return "/" + std::string(graph.attribute("name").value()) + "/";
@@ -50,8 +53,23 @@ bool MtlxParser::connect(const Element& port, const Scope& scope, Connection& ou
                output};
         return true;
     }
+    const auto follow = [&](const Element& to, const Scope& inner) {
+        if (_depth == mostFollowed) return false;
+        ++_depth;
+        const bool found = connect(to, inner, out);
+        --_depth;
+        return found;
+    };
     const auto graphName = port.attribute("nodegraph");
-    if (!graphName) return false;
+    if (!graphName) { // an output of the document itself
+        if (output.empty()) return false;
+        const auto found = _outputs.find(referenced(port, output, _outputs));
+        if (found != _outputs.end())
+            return follow(found->second, {found->second.parent(), "/", false});
+        _diagnostics.warn(where(port.parent()), port.attribute("name").value(),
+                          messages::documentOutputMissing(output));
+        return false;
+    }
     const auto graph = _graphs.find(referenced(port, graphName.value(), _graphs));
     if (graph == _graphs.end()) {
         _diagnostics.warn(where(port.parent()), port.attribute("name").value(),
@@ -61,17 +79,8 @@ bool MtlxParser::connect(const Element& port, const Scope& scope, Connection& ou
     const Element first = graph->second.child("output");
     const bool isOnly = first && !first.next_sibling("output"); // whatever it is called
     for (const Element& child : graph->second.children("output"))
-        if (isOnly || output.empty() || output == child.attribute("name").value()) {
-            // An output may itself lead to another graph; a circle of those has no end.
-            if (++_depth > 64) {
-                --_depth;
-                return false;
-            }
-            const Scope inner{graph->second, prefixOf(graph->second), false};
-            const bool found = connect(child, inner, out);
-            --_depth;
-            return found;
-        }
+        if (isOnly || output.empty() || output == child.attribute("name").value())
+            return follow(child, {graph->second, prefixOf(graph->second), false});
     _diagnostics.warn(where(port.parent()), port.attribute("name").value(),
                       messages::nodeGraphWithoutOutput(graphName.value(), output));
     return false;
@@ -130,19 +139,45 @@ bool MtlxParser::hasRoom(size_t bytes) {
     return _bytes <= most;
 }
 
+std::vector<pugi::xml_node> MtlxParser::portsOf(const Element& element, const Scope& scope) {
+    std::vector<Element> ports;
+    std::set<std::string> nearer;
+    Element from = element;
+    for (int depth = 0; depth < mostFollowed; ++depth) {
+        const size_t own = ports.size();
+        for (const Element& child : from.children())
+            if (const char* name = child.attribute("name").value();
+                isPort(child) && !nearer.count(name)) {
+                if (depth > 0 && !hasRoom(1 + std::strlen(name))) return ports;
+                ports.push_back(child);
+            }
+        const auto inherit = from.attribute("inherit");
+        if (!inherit || scope.prefix != "/") break; // only elements of the document are inherited
+        const auto above = _topmost.find(referenced(from, inherit.value(), _topmost));
+        if (above == _topmost.end()) {
+            _diagnostics.warn(where(from), "inherit",
+                              messages::nodeToInheritMissing(inherit.value()));
+            break;
+        }
+        for (size_t i = own; i < ports.size(); ++i)
+            nearer.insert(ports[i].attribute("name").value());
+        from = above->second;
+    }
+    return ports;
+}
+
 void MtlxParser::readNode(const Element& element, const Scope& scope,
                           std::vector<NetworkNode>& nodes) {
     NetworkNode node;
     node.path = scope.prefix + element.attribute("name").value();
     if (!hasRoom(node.path.size())) return;
+    const std::vector<Element> ports = portsOf(element, scope);
     std::map<std::string, ValueType> types;
-    for (const Element& child : element.children())
-        if (isPort(child))
-            types[child.attribute("name").value()] =
-                valueTypeFromName(child.attribute("type").value());
+    for (const Element& port : ports)
+        types[port.attribute("name").value()] = valueTypeFromName(port.attribute("type").value());
     node.id = resolveId(element, types);
-    for (const Element& child : element.children())
-        if (isPort(child)) readInput(child, scope, node);
+    for (const Element& port : ports)
+        readInput(port, scope, node);
     readTokens(element, node);
     if (isBefore139(element)) _before139.insert(node.path);
     nodes.push_back(std::move(node));

@@ -64,6 +64,8 @@ private:
     // parser.cpp
     void readNodes(const Scope& scope, std::vector<NetworkNode>& nodes);
     void readNode(const Element& element, const Scope& scope, std::vector<NetworkNode>& nodes);
+    /// @returns the inputs of a node, its own before those that it inherits
+    std::vector<Element> portsOf(const Element& element, const Scope& scope);
     void readInput(const Element& input, const Scope& scope, NetworkNode& node);
     bool connect(const Element& port, const Scope& scope, Connection& out);
     bool connectInterface(const Element& port, const Scope& scope, NetworkNode& node,
@@ -83,6 +85,7 @@ private:
     std::map<std::string, Element> _defs;    ///< node definitions by name, with namespace or not
     std::map<std::string, Element> _graphs;  ///< compound graphs of the document by name
     std::map<std::string, Element> _topmost; ///< nodes outside of graphs by name
+    std::map<std::string, Element> _outputs; ///< outputs of the document by name
     /// What definitions say beside their inputs and outputs, by their name.
     struct DefExtras {
         std::map<std::string, std::string> units; ///< of inputs

@@ -32,6 +32,50 @@ TEST_F(DocumentDefinitions, CirclesOfInheritanceEnd) {
     EXPECT_EQ(diagnostics.count(), 2) << warnings(diagnostics);
 }
 
+TEST_F(DocumentDefinitions, MaterialsAndNodesInherit) {
+    const std::string base = R"(
+      <surface_unlit name="S" type="surfaceshader">
+        <input name="emission_color" type="color3" value="0.3, 0.2, 0.1" />
+        <input name="emission" type="float" value="0.5" /></surface_unlit>
+      <surface_unlit name="T" type="surfaceshader" inherit="S">
+        <input name="emission" type="float" value="2" /></surface_unlit>
+      <surfacematerial name="B" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="S" /></surfacematerial>
+      <surfacematerial name="M" type="material" inherit="B"/>
+      <surfacematerial name="N" type="material" inherit="M">
+        <input name="surfaceshader" type="surfaceshader" nodename="T" /></surfacematerial>)";
+    const auto lightOfMaterial = [&](const std::string& name) {
+        for (const Network& network : read(base))
+            if (network.path.find(":" + name) != std::string::npos) return emitted(network);
+        return glm::vec3(-1);
+    };
+    expectVector(lightOfMaterial("B"), 0.15f, 0.1f, 0.05f);
+    expectVector(lightOfMaterial("M"), 0.15f, 0.1f, 0.05f);
+    expectVector(lightOfMaterial("N"), 0.6f, 0.4f, 0.2f);
+    EXPECT_TRUE(nothingTold(diagnostics));
+    read(R"(<surfacematerial name="M" type="material" inherit="nobody" />
+      <surfacematerial name="A" type="material" inherit="B" />
+      <surfacematerial name="B" type="material" inherit="A" />)");
+    EXPECT_TRUE(reported("'nobody'"));
+}
+
+TEST_F(DocumentDefinitions, OutputsOfTheDocument) {
+    const std::string outputs = constantOf("c", "color3", "0.3, 0.2, 0.1") + R"(
+      <output name="o" type="color3" nodename="c" /><output name="again" type="color3" output="o" />
+      <output name="circle" type="color3" output="circle" />)";
+    const auto through = [&](const std::string& output) {
+        return lightOf(outputs + R"(<constant name="p" type="color3">
+            <input name="value" type="color3" output=")" +
+                       output + R"(" /></constant>)");
+    };
+    expectVector(through("o"), 0.3f, 0.2f, 0.1f);
+    expectVector(through("again"), 0.3f, 0.2f, 0.1f);
+    expectVector(through("circle"), 0, 0, 0);
+    read(outputs + R"(<constant name="d" type="color3">
+        <input name="value" type="color3" output="nobody" /></constant>)");
+    EXPECT_TRUE(reported("no output 'nobody'"));
+}
+
 TEST_F(DocumentDefinitions, Versions) {
     const auto version = [](const std::string& number, const std::string& color,
                             const std::string& more = "") {

@@ -173,6 +173,23 @@ bool negativePhantom(const CurveBatch& batch, const CurveValues& widths) {
     return false;
 }
 
+/// Whether values on control points leave the line between the ends of any segment.
+bool anyBends(const CurveValues& values, const CurveBatch& batch) {
+    const int n = values.components();
+    float value[4 * 16];
+    for (size_t c = 0; c < batch.layouts.size(); ++c)
+        for (int s = 0; s < batch.layouts[c].segments; ++s) {
+            values.asBezier(batch, c, s, value);
+            for (int i = 0; i < n; ++i) {
+                const float a = value[i], b = value[3 * n + i], third = (b - a) / 3.0f;
+                const float off = std::max(std::abs(value[n + i] - a - third),
+                                           std::abs(value[2 * n + i] - b + third));
+                if (off > 1e-5f * std::max(std::abs(a), std::abs(b))) return true;
+            }
+        }
+    return false;
+}
+
 MeshAttribute makeAttribute(const Primvar& primvar, CurveValues& values, const CurveBatch& batch) {
     MeshAttribute out;
     out.name = primvar.name;
@@ -184,14 +201,20 @@ MeshAttribute makeAttribute(const Primvar& primvar, CurveValues& values, const C
         out.data = std::move(values.data());
         return out;
     }
-    out.rate = MeshAttribute::Rate::PerCorner;
-    float value[16];
+    const bool bends =
+        batch.basis != CurveBasis::Linear && !values.isVarying() && anyBends(values, batch);
+    out.rate = bends ? MeshAttribute::Rate::PerControl : MeshAttribute::Rate::PerCorner;
+    float value[4 * 16];
     for (size_t c = 0; c < batch.layouts.size(); ++c)
-        for (int s = 0; s < batch.layouts[c].segments; ++s)
-            for (int end = 0; end < 2; ++end) {
-                values.atSegmentEnd(batch, c, s, end, value);
-                out.data.insert(out.data.end(), value, value + out.components);
-            }
+        for (int s = 0; s < batch.layouts[c].segments; ++s) {
+            if (bends)
+                values.asBezier(batch, c, s, value);
+            else
+                for (int end = 0; end < 2; ++end)
+                    values.atSegmentEnd(batch, c, s, end, value + end * out.components);
+            out.data.insert(out.data.end(), value,
+                            value + valuesOfSegment(out.rate) * out.components);
+        }
     return out;
 }
 

@@ -59,6 +59,17 @@ vec4 basisWeights(CurveBasis basis, float u) {
     return vec4(v, u, 0, 0);
 }
 
+int valuesOfSegment(MeshAttribute::Rate rate) {
+    return rate == MeshAttribute::Rate::PerCorner    ? 2
+           : rate == MeshAttribute::Rate::PerControl ? 4
+                                                     : 0;
+}
+
+vec4 valueWeights(MeshAttribute::Rate rate, float u) {
+    return basisWeights(
+        rate == MeshAttribute::Rate::PerControl ? CurveBasis::Bezier : CurveBasis::Linear, u);
+}
+
 vec4 basisSlopes(CurveBasis basis, float u) {
     const float v = 1.0f - u;
     switch (basis) {

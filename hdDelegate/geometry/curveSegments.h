@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hdDelegate/scene/types.h"
-#include "hdDelegate/scene/geometry.h"
+#include "hdDelegate/geometry/triangleMesh.h"
 
 namespace patina {
 
@@ -33,6 +32,12 @@ vec4 basisWeights(CurveBasis basis, float u);
 
 /// Derivatives of basisWeights by u.
 vec4 basisSlopes(CurveBasis basis, float u);
+
+/// How many values of an attribute a segment has for itself: 0, 2 or 4.
+int valuesOfSegment(MeshAttribute::Rate rate);
+
+/// Weights of these values at u.
+vec4 valueWeights(MeshAttribute::Rate rate, float u);
 
 /// Bezier control points of a cubic segment. T is float, vec3...
 template <class T> void toBezier(CurveBasis basis, const T p[4], T out[4]) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/geometry/primvarEval.h"
 
+#include "hdDelegate/geometry/curveSegments.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -71,8 +73,10 @@ bool evalAttribute(const CurveSet& curves, const MeshAttribute& attribute, unsig
     } else if (attribute.rate == Rate::PerFace) {
         mixer.add(size_t(curves.segmentCurve[segment]), 1.0f);
     } else {
-        mixer.add(2 * size_t(segment), 1.0f - u);
-        mixer.add(2 * size_t(segment) + 1, u);
+        const int values = valuesOfSegment(attribute.rate);
+        const vec4 weights = valueWeights(attribute.rate, u);
+        for (int k = 0; k < values; ++k)
+            mixer.add(size_t(values) * segment + size_t(k), weights[k]);
     }
     return mixer.finish();
 }

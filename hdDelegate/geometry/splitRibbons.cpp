@@ -68,7 +68,7 @@ void splitRibbons(CurveSet& set) {
     out.normals.resize(1);
     for (const MeshAttribute& a : set.attributes) {
         out.attributes.push_back(a);
-        if (a.rate == MeshAttribute::Rate::PerCorner) out.attributes.back().data.clear();
+        if (valuesOfSegment(a.rate) > 0) out.attributes.back().data.clear();
     }
     for (size_t s = 0; s < set.segments.size(); ++s) {
         const uint32_t first = set.segments[s];
@@ -90,12 +90,21 @@ void splitRibbons(CurveSet& set) {
             if (!set.segmentSubset.empty()) out.segmentSubset.push_back(set.segmentSubset[s]);
             for (size_t k = 0; k < set.attributes.size(); ++k) {
                 const MeshAttribute& from = set.attributes[k];
-                if (from.rate != MeshAttribute::Rate::PerCorner) continue;
-                const size_t n = size_t(from.components);
-                for (const float at : {a, b})
-                    for (size_t c = 0; c < n; ++c)
-                        out.attributes[k].data.push_back(from.data[2 * s * n + c] * (1.0f - at) +
-                                                         from.data[(2 * s + 1) * n + c] * at);
+                const int values = valuesOfSegment(from.rate);
+                const size_t n = size_t(from.components), to = out.attributes[k].data.size();
+                out.attributes[k].data.resize(to + size_t(values) * n);
+                for (size_t c = 0; c < n && values > 0; ++c) {
+                    float in[4], part[4];
+                    for (int i = 0; i < values; ++i)
+                        in[i] = from.data[(size_t(values) * s + size_t(i)) * n + c];
+                    if (values == 4)
+                        partOf(in, a, b, part);
+                    else
+                        for (int i = 0; i < 2; ++i)
+                            part[i] = glm::mix(in[0], in[1], i == 0 ? a : b);
+                    for (int i = 0; i < values; ++i)
+                        out.attributes[k].data[to + size_t(i) * n + c] = part[i];
+                }
             }
         }
     }

@@ -18,7 +18,8 @@ struct MeshAttribute {
     /// - PerVertex: one per position (mesh) or point (points).
     /// - PerCorner: three per triangle, index 3 * t + corner; on curves two per segment, index
     ///   2 * s + end, linear in between.
-    enum class Rate { Constant, PerFace, PerVertex, PerCorner };
+    /// - PerControl: on cubic curves alone, four Bezier values per segment, index 4 * s + k.
+    enum class Rate { Constant, PerFace, PerVertex, PerCorner, PerControl };
 
     std::string name;
     int components = 1; ///< floats per value, 1..16
@@ -55,7 +56,7 @@ struct CurveSet {
         segmentU; ///< curve parameter at both ends of each segment, 0..1 along a curve
     std::vector<uint16_t> segmentSubset;    ///< 0 none, i + 1 is subsets[i]; empty: no subsets
     std::vector<std::vector<vec3>> normals; ///< per control point; empty means tubes, else ribbons
-    std::vector<MeshAttribute> attributes; ///< Constant, PerFace (curve) or PerCorner (segment end)
+    std::vector<MeshAttribute> attributes;  ///< not PerVertex
     vec3 boundsMin{0.0f}, boundsMax{0.0f};
 
     const MeshAttribute* attribute(const std::string& name) const;

@@ -261,6 +261,31 @@ TEST(Curves, attributesAtSegmentEnds) {
     EXPECT_EQ(set.segmentSubset, (std::vector<uint16_t>{0, 0, 1}));
 }
 
+TEST(Curves, vertexValuesFollowTheCurve) {
+    const std::vector<vec3> points = {{0, 0, 0}, {1, 2, 0}, {0, 3, 1}, {3, 1, 2},
+                                      {2, 0, 2}, {5, 1, 0}, {4, 4, 1}};
+    std::vector<float> same;
+    for (const vec3& p : points)
+        same.insert(same.end(), {p.x, p.y, p.z});
+    for (auto basis : {CurveBasis::Bezier, CurveBasis::Bspline, CurveBasis::CatmullRom})
+        for (auto wrap : {CurveWrap::Nonperiodic, CurveWrap::Pinned, CurveWrap::Periodic})
+            for (const bool ribbon : {false, true}) {
+                const int count =
+                    wrap == CurveWrap::Periodic && basis == CurveBasis::Bezier ? 6 : 7;
+                Curves curves = makeCurves(basis, wrap, {count}, points);
+                curves.points = std::vector<vec3>(points.begin(), points.begin() + count);
+                curves.primvars = {makePrimvar("p", Interpolation::Vertex, 3,
+                                               {same.begin(), same.begin() + 3 * count})};
+                if (ribbon)
+                    curves.primvars.push_back(
+                        makePrimvar("normals", Interpolation::Constant, 3, {0, 0.6f, 0.8f}));
+                const CurveSet set = build(curves);
+                for (unsigned s = 0; s < set.segments.size(); ++s)
+                    for (const float u : {0.0f, 0.3f, 0.5f, 0.9f, 1.0f})
+                        expectNear(evaluate(set, s, u), vec3(valueOf(set, "p", s, u)));
+            }
+}
+
 TEST(Curves, motion) {
     Curves curves = makeCurves(CurveBasis::Bspline, CurveWrap::Pinned, {4}, line(4));
     movePoints(curves, [](const vec3& p) { return p + vec3(2, 0, 0); });

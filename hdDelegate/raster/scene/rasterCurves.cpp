@@ -38,7 +38,11 @@ public:
           _ribbon(!set.normals.empty()), _strips(strips && !_ribbon), _domed(domed && _strips) {
         for (const MeshAttribute& a : set.attributes) {
             MeshAttribute copy = a;
-            if (a.rate == Rate::PerCorner) copy.data.clear();
+            if (valuesOfSegment(a.rate) > 0) {
+                copy.data.clear();
+                copy.rate = Rate::PerCorner;
+            }
+            _fewestSteps = std::max(_fewestSteps, valuesOfSegment(a.rate) == 4 ? 4 : 1);
             _out.mesh.attributes.push_back(std::move(copy));
         }
     }
@@ -154,8 +158,8 @@ private:
             normal = nextNormal;
         }
         const float steps = std::max(std::sqrt(bend / (8.0f * _gap)), turn / largestTurn);
-        // Points near the largest float make a bend that is no number: one step then.
-        return int(std::ceil(std::min(std::max(1.0f, steps), float(maxSteps))));
+        // Points near the largest float make a bend that is no number: the fewest steps then.
+        return int(std::ceil(std::min(std::max(float(_fewestSteps), steps), float(maxSteps))));
     }
 
     /// Whether no other segment of the curve goes on from an end of this one.
@@ -253,11 +257,16 @@ private:
     void corner(size_t s, float u) {
         for (size_t a = 0; a < _set.attributes.size(); ++a) {
             const MeshAttribute& from = _set.attributes[a];
-            if (from.rate != Rate::PerCorner) continue;
-            const float* lo = &from.data[2 * s * size_t(from.components)];
-            for (int c = 0; c < from.components; ++c)
-                _out.mesh.attributes[a].data.push_back(lo[c] * (1.0f - u) +
-                                                       lo[from.components + c] * u);
+            const int values = valuesOfSegment(from.rate);
+            const vec4 weights = valueWeights(from.rate, u);
+            for (int c = 0; c < from.components && values > 0; ++c) {
+                float value = 0.0f;
+                for (int k = 0; k < values; ++k)
+                    value += weights[k] *
+                             from.data[(size_t(values) * s + size_t(k)) * size_t(from.components) +
+                                       size_t(c)];
+                _out.mesh.attributes[a].data.push_back(value);
+            }
         }
     }
     /// @param lean as of Ring
@@ -310,7 +319,7 @@ private:
     const CurveSet& _set;
     float _gap, _wider = 1.0f;
     bool _linear, _ribbon, _strips, _domed;
-    int _sides = 1;
+    int _sides = 1, _fewestSteps = 1;
     vec3 _x{0.0f}; ///< across the ring before
     RasterTriangles _out;
     std::vector<vec3> _positions, _normals;

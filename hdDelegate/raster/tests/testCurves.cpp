@@ -77,6 +77,25 @@ TEST(RasterCurves, StripsFollowTheCurveAsFarAsIsSeen) {
     }
 }
 
+TEST(RasterCurves, ValuesOfControlPointsFollowTheCurve) {
+    CurveSet set;
+    set.basis = CurveBasis::Bezier;
+    set.controlPoints = {{{0, 0, 0, 1e-3f}, {3, 0, 0, 1e-3f}, {0, 0, 0, 1e-3f}, {1, 0, 0, 1e-3f}}};
+    set.segments = {0};
+    set.segmentCurve = {0};
+    set.attributes.push_back({"p", 1, MeshAttribute::Rate::PerControl, {0, 3, 0, 1}});
+    for (const bool strips : {false, true}) {
+        const TriangleMesh mesh = curveTriangles(set, fineness(0.5f), strips).mesh;
+        ASSERT_EQ(mesh.attributes[0].rate, MeshAttribute::Rate::PerCorner);
+        ASSERT_EQ(mesh.attributes[0].data.size(), 3 * mesh.triangles.size());
+        ASSERT_GE(mesh.triangles.size(), 8u); // the line itself would do with two
+        for (size_t t = 0; t < mesh.triangles.size(); ++t)
+            for (int k = 0; k < 3; ++k)
+                EXPECT_NEAR(mesh.attributes[0].data[3 * t + size_t(k)],
+                            mesh.positions[0][mesh.triangles[t][k]].x, 3e-3f); // ends are round
+    }
+}
+
 TEST(RasterCurves, ControlPointsThatOverflowMakeFiniteNumbersOfTriangles) {
     CurveSet set = bent(0.01f);
     set.controlPoints[0][1].x = set.controlPoints[0][14].y = INFINITY; // as a basis of 3e38 makes

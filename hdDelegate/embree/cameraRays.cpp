@@ -26,6 +26,7 @@ CameraRay CameraRays::ray(vec2 pixel, vec2 lens, float time, vec2 within) const 
     const vec2 s = pixel / _frame.imageSize, low = _frame.windowMin, high = _frame.windowMax;
     const vec2 window(low.x + s.x * (high.x - low.x), high.y + s.y * (low.y - high.y));
     vec3 origin(0.0f), direction(window, -1.0f);
+    float behind = 0.0f;
     if (_lens) {
         const LensRay own = _lens->ray(pixel, lens, within);
         if (!own.seen) {
@@ -36,7 +37,8 @@ CameraRay CameraRays::ray(vec2 pixel, vec2 lens, float time, vec2 within) const 
         origin = own.origin;
         direction = own.direction;
     } else if (_camera.orthographic) {
-        origin = vec3(window, 0.0f);
+        behind = std::max(0.0f, -_camera.clipNear); // rays have no part before their origin
+        origin = vec3(window, behind);
         direction = vec3(0, 0, -1);
     } else if (_frame.lensRadius > 0.0f) {
         origin = vec3(concentricDisk(lens) * _frame.lensRadius, 0.0f);
@@ -54,7 +56,7 @@ CameraRay CameraRays::ray(vec2 pixel, vec2 lens, float time, vec2 within) const 
     // Clip distances are along the axis, where there is a plane to measure them from.
     const float alongAxis = _frame.radial ? 1.0f : std::max(1e-6f, -direction.z);
     ray.near = std::max(0.0f, _camera.clipNear) * scale / alongAxis;
-    ray.far = _camera.clipFar * scale / alongAxis;
+    ray.far = (_camera.clipFar + behind) * scale / alongAxis;
     for (const vec4& plane : _camera.clippingPlanes) {
         const float d = glm::dot(plane, vec4(origin, 1.0f));
         const float slope = glm::dot(vec3(plane), direction);

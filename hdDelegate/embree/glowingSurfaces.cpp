@@ -60,9 +60,11 @@ LightTriangles trianglesOf(const Surface& surface, const std::vector<unsigned>& 
     return made;
 }
 
+using EmissionHere = std::function<vec3(const SurfacePoint&)>;
+
 /// The largest luminance of a triangle at a few points.
 float brightestOf(const Surface& surface, unsigned primitive, const GroupPlace& where,
-                  bool mirrored, const GlowingSurfaces::Emission& emission) {
+                  bool mirrored, const EmissionHere& emission) {
     const LightTriangle triangle = triangleAt(surface, primitive, where.toWorld);
     const vec3 ng = glm::cross(triangle.vertices[1] - triangle.vertices[0],
                                triangle.vertices[2] - triangle.vertices[0]);
@@ -90,16 +92,16 @@ float brightestOf(const Surface& surface, unsigned primitive, const GroupPlace& 
 /// the brightest, and others evenly spread.
 float factorOf(const Surface& surface, const std::vector<unsigned>& primitives,
                const std::vector<float>& luminances, const GroupPlace& where, bool mirrored,
-               const GlowingSurfaces::Emission& emission) {
+               bool alike, const EmissionHere& emission) {
     constexpr size_t asked = 3;
     float here = 0.0f, first = 0.0f;
     const auto ask = [&](size_t slot) {
         here += brightestOf(surface, primitives[slot], where, mirrored, emission);
         first += luminances[slot];
     };
-    const bool alike = std::all_of(primitives.begin(), primitives.end(), [&](unsigned t) {
-        return surface.material(t).program->constant();
-    });
+    alike = alike && std::all_of(primitives.begin(), primitives.end(), [&](unsigned t) {
+                return surface.material(t).program->constant();
+            });
     if (alike) return 1.0f;
     ask(size_t(std::max_element(luminances.begin(), luminances.end()) - luminances.begin()));
     for (size_t i = 0; i < asked; ++i)
@@ -110,9 +112,13 @@ float factorOf(const Surface& surface, const std::vector<unsigned>& primitives,
 } // namespace
 
 void GlowingSurfaces::add(const Surface& surface, std::vector<GroupPlace> places, int info,
-                          bool isMeshLight, const Emission& emission, LightSetInput& input) {
+                          bool isMeshLight, bool alike, const Emission& emission,
+                          LightSetInput& input) {
     const std::vector<uvec3>& triangles = surface.topology().triangles;
     if (places.empty()) return;
+    const auto emissionAt = [&](size_t place) -> EmissionHere {
+        return [&emission, place](const SurfacePoint& point) { return emission(point, place); };
+    };
     const auto volume = [](const GroupPlace& where) {
         return glm::determinant(mat3(where.toWorld));
     };
@@ -134,7 +140,7 @@ void GlowingSurfaces::add(const Surface& surface, std::vector<GroupPlace> places
         const MaterialProgram& program = *surface.material(t).program;
         if (!isMeshLight && !program.hasEmission()) continue;
         const float brightest =
-            brightestOf(surface, t, places[seenAt], isMirrored(places[seenAt]), emission);
+            brightestOf(surface, t, places[seenAt], isMirrored(places[seenAt]), emissionAt(seenAt));
         if (!(brightest > 0.0f) && program.constant()) continue;
         found.slots[t] = int(found.primitives.size());
         found.primitives.push_back(t);
@@ -160,13 +166,13 @@ void GlowingSurfaces::add(const Surface& surface, std::vector<GroupPlace> places
             if (!table)
                 table = trianglesOf(surface, found.primitives, luminances, mat4(1.0f), bothSides);
             place.triangles = table;
-            place.factor =
-                factorOf(surface, found.primitives, luminances, where, mirrored, emission);
+            place.factor = factorOf(surface, found.primitives, luminances, where, mirrored, alike,
+                                    emissionAt(i));
         } else {
             std::vector<float> here = luminances;
             for (size_t slot = 0; i != seenAt && slot < here.size(); ++slot)
                 here[slot] = std::max(
-                    brightestOf(surface, found.primitives[slot], where, mirrored, emission),
+                    brightestOf(surface, found.primitives[slot], where, mirrored, emissionAt(i)),
                     leastLuminance);
             place.triangles = trianglesOf(surface, found.primitives, here, where.toWorld, mirrored);
         }
@@ -198,8 +204,8 @@ std::pair<int, int> GlowingSurfaces::find(const Hit& hit) const {
 }
 
 int GlowingSurfaces::placeFromFirst(const Hit& hit) const {
-    const Emitting& emitting = _emitting.at(hit.surface);
-    return placeOf(emitting, hit) - emitting.firstPlace;
+    const auto found = _emitting.find(hit.surface);
+    return found == _emitting.end() ? 0 : placeOf(found->second, hit) - found->second.firstPlace;
 }
 
 Hit GlowingSurfaces::hit(int place, int triangle, const vec2& barycentrics) const {

@@ -16,8 +16,8 @@ namespace patina {
 /// Places are counted as in LightSetInput::glowing.
 class GlowingSurfaces {
 public:
-    /// The radiance of a surface towards its viewer.
-    using Emission = std::function<vec3(const SurfacePoint&)>;
+    /// The radiance of a surface at one of its places towards its viewer.
+    using Emission = std::function<vec3(const SurfacePoint&, size_t place)>;
 
     /// @param placements that the places of surfaces stand in
     explicit GlowingSurfaces(std::shared_ptr<const Placements> placements)
@@ -25,13 +25,14 @@ public:
 
     /// @param info of the light that it is, for infoOf()
     /// @param isMeshLight triangles are lights also where their material does not glow
+    /// @param alike whether materials alone tell places apart
     void add(const Surface& surface, std::vector<GroupPlace> places, int info, bool isMeshLight,
-             const Emission& emission, LightSetInput& input);
+             bool alike, const Emission& emission, LightSetInput& input);
 
     /// @returns the place of a hit, and which of the triangles of that place it is; -1 where it
     ///     does not glow
     std::pair<int, int> find(const Hit& hit) const;
-    /// The place of a hit of a surface that was added, from the surface's first one.
+    /// The place of a hit, from the surface's first one.
     int placeFromFirst(const Hit& hit) const;
     Hit hit(int place, int triangle, const vec2& barycentrics) const;
 

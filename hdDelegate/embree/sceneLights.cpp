@@ -60,7 +60,7 @@ LightInfo SceneLights::describe(const std::shared_ptr<const Light>& light, const
     info.castsShadows = light->shadowEnable;
     info.shadowColor = light->shadowColor;
     info.shadowDistance = light->shadowDistance;
-    info.shadowFalloff = light->shadowFalloff;
+    info.shadowFalloff = std::min(light->shadowFalloff, light->shadowDistance);
     info.shadowFalloffGamma = light->shadowFalloffGamma;
     info.ownShadows |= !info.castsShadows || info.shadowColor != vec3(0.0f) ||
                        info.shadowDistance > 0.0f || info.shadowCategory != everything;
@@ -122,11 +122,17 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
                 meshLight.filters.emplace_back(*light, place.toWorld, scene.origin(),
                                                input.shutterOpen, images, diagnostics);
         if (light->normalize) {
-            double area = -1.0;
-            scene.places().each(surface->prim->group, [&](const mat4& place) {
-                if (area < 0.0) area = areaOf(*surface, place);
-            });
-            if (area > 0.0) meshLight.radiance /= float(area);
+            std::vector<float>& areas = meshLight.areas;
+            for (const GroupPlace& place : scene.places().places(surface->prim->group)) {
+                const double area = areaOf(*surface, place.toWorld);
+                areas.push_back(area > 0.0 ? float(area) : 1.0f);
+            }
+            if (!areas.empty() && std::all_of(areas.begin(), areas.end(), [&](float area) {
+                    return std::abs(area - areas[0]) <= 1e-5f * areas[0];
+                })) {
+                meshLight.radiance /= areas[0];
+                areas.clear();
+            }
         }
         _infos.push_back(describe(light, scene, settings));
         _infos.back().triangles = true;
@@ -158,7 +164,11 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene, L
         _glowing.add(
             surface, scene.places().places(surface.prim->group),
             isMeshLight ? meshLight->second.info : _glowInfo, isMeshLight,
-            [this](const SurfacePoint& point) { return emission(point); }, input);
+            !isMeshLight || meshLight->second.areas.empty(),
+            [this](const SurfacePoint& point, size_t place) {
+                return emission(point, nullptr, int(place));
+            },
+            input);
     } else if (isMeshLight) {
         warnOfMany(meshLight->second.light->path, diagnostics);
         _meshLights.erase(meshLight);
@@ -173,7 +183,7 @@ int SceneLights::triangleLight(const Hit& hit) const {
     return place < 0 ? -1 : _set->lightCount() + _set->glowing(place).first + triangle;
 }
 
-vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
+vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit, int place) const {
     const MaterialProgram& program = *point.slot->program;
     const ShadingPoint& s = point.shading;
     vec3 glow(0.0f);
@@ -184,11 +194,12 @@ vec3 SceneLights::emission(const SurfacePoint& point, const vec3* lit) const {
     const MeshLight& mesh = found->second;
     const bool front = glm::dot(s.geometricNormal, s.viewDirection) > 0.0f;
     vec3 light = front ? mesh.radiance : vec3(0.0f);
-    if (lit && !mesh.filters.empty()) {
-        const size_t place = size_t(_glowing.placeFromFirst(*point.hit));
-        light *= mesh.filters[place].factor(*lit, -s.viewDirection, glm::length(s.position - *lit),
-                                            point.hit->time);
-    }
+    const bool filters = lit && !mesh.filters.empty();
+    if (place < 0 && (filters || !mesh.areas.empty())) place = _glowing.placeFromFirst(*point.hit);
+    if (!mesh.areas.empty()) light /= mesh.areas[size_t(place)];
+    if (filters)
+        light *= mesh.filters[size_t(place)].factor(
+            *lit, -s.viewDirection, glm::length(s.position - *lit), point.hit->time);
     if (mesh.glow == MeshLight::Glow::Hidden) return light;
     return mesh.glow == MeshLight::Glow::TintsLight && program.hasEmission() ? light * glow
                                                                              : light + glow;

@@ -61,7 +61,8 @@ public:
     }
     /// The radiance of a surface towards its viewer, by its material and as a mesh light.
     /// @param lit the point that it lights, which filters of mesh lights ask for; null: unfiltered
-    vec3 emission(const SurfacePoint& point, const vec3* lit = nullptr) const;
+    /// @param place of the surface, from its first one; -1: that of the hit
+    vec3 emission(const SurfacePoint& point, const vec3* lit = nullptr, int place = -1) const;
     /// A mesh light that is nothing but a light (materialSyncMode noMaterialResponse).
     bool hidesMaterial(const Surface* surface) const {
         if (!_hidesMaterials) return false;
@@ -79,6 +80,7 @@ private:
         int info = 0;
         Glow glow = Glow::TintsLight;
         std::vector<LightFilters> filters; ///< per place of the surface; none: nothing is filtered
+        std::vector<float> areas; ///< that divide the radiance at each place; none: it is divided
     };
 
     vec3 triangleRadiance(const LightSample& sample, const vec3& from, float time) const;

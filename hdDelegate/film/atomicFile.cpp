@@ -133,8 +133,10 @@ AtomicFile::AtomicFile(const std::string& path, Links links) : _path(path), _lin
     (void)::flock(_lock, LOCK_EX | LOCK_NB); // where there are no locks, the process says enough
     struct stat existing;
     if (::lstat(_path.c_str(), &existing) == 0 && S_ISREG(existing.st_mode)) {
-        if (::fchown(_lock, existing.st_uid, existing.st_gid) != 0) errno = 0; // root alone may
-        ::fchmod(_lock, existing.st_mode & 07777);
+        // Root alone may give files away. What another user's file allows is not taken over.
+        const bool same = ::fchown(_lock, existing.st_uid, existing.st_gid) == 0;
+        if (same || existing.st_uid == ::geteuid()) ::fchmod(_lock, existing.st_mode & 0777);
+        errno = 0;
     }
 }
 

@@ -105,7 +105,10 @@ std::vector<CagePrimvar> cagePrimvars(const Mesh& mesh, const CageFaces& faces, 
             continue;
         if (primvar.interpolation == Interpolation::FaceVarying) {
             item.channel = int(channels.size());
-            channels.push_back(mergeCornerValues(cage, item.values, primvar.components));
+            static const std::vector<int> none;
+            const bool indexed = primvar.indices.size() == counts.faceVarying;
+            channels.push_back(mergeCornerValues(cage, item.values, primvar.components,
+                                                 indexed ? primvar.indices : none));
             item.values.clear();
         }
         result.push_back(std::move(item));

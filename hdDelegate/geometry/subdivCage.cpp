@@ -128,10 +128,12 @@ SubdivCage makeSubdivCage(const Mesh& mesh, const CageFaces& faces, size_t point
 }
 
 FaceVaryingChannel mergeCornerValues(const SubdivCage& cage, const std::vector<float>& values,
-                                     int components) {
+                                     int components, const std::vector<int>& indices) {
     FaceVaryingChannel channel;
     channel.components = components;
     channel.indices.resize(cage.vertices.size());
+    const bool indexed = !indices.empty();
+    std::vector<int> sources; // the authored index of each value
     // Per vertex, a chain of the different values that its corners have. Where one has more than
     // anybody would share, the last ones are looked at.
     constexpr int longestSearch = 256;
@@ -140,14 +142,20 @@ FaceVaryingChannel mergeCornerValues(const SubdivCage& cage, const std::vector<f
         const float* value = &values[cage.corners[c] * components];
         int* link = &first[cage.vertices[c]];
         int index = *link, steps = 0;
-        while (index >= 0 && ++steps <= longestSearch &&
-               !std::equal(value, value + components, &channel.values[size_t(index) * components]))
+        const int source = indexed ? indices[size_t(cage.corners[c])] : -1;
+        const auto isSame = [&](int other) {
+            return indexed ? sources[size_t(other)] == source
+                           : std::equal(value, value + components,
+                                        &channel.values[size_t(other) * components]);
+        };
+        while (index >= 0 && ++steps <= longestSearch && !isSame(index))
             index = next[index];
         if (index < 0 || steps > longestSearch) {
             index = int(next.size());
             next.push_back(*link);
             *link = index;
             channel.values.insert(channel.values.end(), value, value + components);
+            if (indexed) sources.push_back(source);
         }
         channel.indices[c] = index;
     }

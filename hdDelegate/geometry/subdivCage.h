@@ -38,9 +38,12 @@ struct FaceVaryingChannel {
 SubdivCage makeSubdivCage(const Mesh& mesh, const CageFaces& faces, size_t pointCount,
                           Diagnostics& diagnostics);
 
-/// Merges equal values at each point. @param values one per authored corner
+/// Merges the values of corners at each point: those of one index (UsdGeomPrimvar: indices define
+/// seams), without indices equal ones.
+/// @param values one per authored corner
+/// @param indices likewise, or none
 FaceVaryingChannel mergeCornerValues(const SubdivCage& cage, const std::vector<float>& values,
-                                     int components);
+                                     int components, const std::vector<int>& indices);
 
 /// Refines the cage uniformly, with full topology in the last level.
 /// @returns null, after a warning, when OpenSubdiv rejects the topology

@@ -13,7 +13,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <random>
+#include <stdlib.h>
 
 namespace patina {
 
@@ -69,14 +69,9 @@ private:
 
     static fs::path makeFolder() {
         std::error_code error;
-        const fs::path base = fs::temp_directory_path(error);
-        if (error) return {};
-        std::random_device random;
-        for (int attempt = 0; attempt < 100; ++attempt) {
-            const fs::path folder = base / ("patina-" + std::to_string(random()));
-            if (fs::create_directory(folder, error)) return folder;
-        }
-        return {};
+        std::string pattern = (fs::temp_directory_path(error) / "patina-XXXXXX").string();
+        return !error && ::mkdtemp(pattern.data()) ? fs::path(pattern)
+                                                   : fs::path(); // the user's alone
     }
 
     std::mutex _mutex;

@@ -94,7 +94,8 @@ bool IesProfile::parse(const std::string& text, std::string& error) {
             return false;
     }
     // lamps, lumens, multiplier, vertical, horizontal, type, units, width, length, height,
-    // ballast factor, future use (a second factor in old files), watts
+    // ballast factor, future use (a second factor in old files, in those of 2019 how it was made),
+    // watts
     double head[13];
     for (double& value : head)
         if (!numbers.next(value)) return false;
@@ -107,7 +108,8 @@ bool IesProfile::parse(const std::string& text, std::string& error) {
         return false;
     }
     const size_t verticals = size_t(head[3]), horizontals = size_t(head[4]);
-    const double factor = head[2] * head[10] * head[11];
+    const bool tellsOrigin = text.compare(0, 14, "IES:LM-63-2019") == 0;
+    const double factor = head[2] * head[10] * (tellsOrigin ? 1.0 : head[11]);
     if (!readAngles(numbers, verticals, _vertical) ||
         !readAngles(numbers, horizontals, _horizontal)) {
         error = "has angles that are missing, too large or not in ascending order";

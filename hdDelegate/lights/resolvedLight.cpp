@@ -60,7 +60,7 @@ ResolvedLight kindOf(const Light& light, const mat4& toWorld, Diagnostics& diagn
         if (!std::isfinite(size) || (!sphere && !(length > 0.0)))
             return off(sphere ? "inputs:radius" : "inputs:length", messages::lightSizeUnusable);
         const bool hint = sphere ? light.treatAsPoint : light.treatAsLine;
-        if (hint || (size == 0.0 && light.normalize)) {
+        if (size > 0.0 ? hint : light.normalize && size == 0.0) {
             // The mean projected area of a convex body is a quarter of its surface (Cauchy); a thin
             // line's projected width is its surface / (pi length).
             const double projected = sphere ? 0.25 : 1.0 / (piDouble * length);

@@ -102,7 +102,7 @@ TEST(OutputFailures, ReplacedImagesKeepTheirPermissionsAndLinks) {
     TempFolder temp;
     const SmallFilm film;
     writeImage(film, temp.file("real.png"));
-    std::filesystem::permissions(temp.file("real.png"), std::filesystem::perms(0640));
+    std::filesystem::permissions(temp.file("real.png"), std::filesystem::perms(06640));
     std::filesystem::create_symlink("real.png", temp.file("link.png"));
     writeImage(film, temp.file("link.png"));
     EXPECT_TRUE(std::filesystem::is_symlink(temp.file("link.png")));

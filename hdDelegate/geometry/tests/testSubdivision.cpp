@@ -2,6 +2,7 @@
 #include "hdDelegate/geometry/tests/meshFixtures.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace patina {
 namespace {
@@ -257,6 +258,32 @@ TEST(Subdivision, indexedFaceVaryingEqualsTheExpandedOne) {
     flat.primvars.push_back(makePrimvar("st", Interpolation::FaceVarying, 2, expanded));
     indexed.primvars.push_back(makePrimvar("st", Interpolation::FaceVarying, 2, corners, indices));
     EXPECT_EQ(refine(flat, 2).attribute("st")->data, refine(indexed, 2).attribute("st")->data);
+}
+
+TEST(Subdivision, indicesMakeSeamsOfEqualValues) {
+    // Values one index for each corner: seams everywhere, so that each face interpolates alone.
+    Mesh welded = gridMesh(2, SubdivisionScheme::CatmullClark);
+    welded.faceVaryingLinearInterpolation = "cornersPlus1";
+    std::vector<float> squares;
+    for (const int point : welded.faceVertexIndices) {
+        const float y = welded.points.first()[size_t(point)].y;
+        squares.push_back(y * y);
+    }
+    Mesh torn = welded;
+    std::vector<int> own(squares.size());
+    std::iota(own.begin(), own.end(), 0);
+    torn.primvars = {makePrimvar("t", Interpolation::FaceVarying, 1, squares, own)};
+    Mesh linear = welded;
+    linear.faceVaryingLinearInterpolation = "all";
+    welded.primvars = linear.primvars = {makePrimvar("t", Interpolation::FaceVarying, 1, squares)};
+    const auto dataOf = [](const Mesh& mesh) { return refine(mesh, 2).attribute("t")->data; };
+    const std::vector<float> seams = dataOf(torn), flat = dataOf(linear), smooth = dataOf(welded);
+    float apart = 0.0f;
+    for (size_t i = 0; i < seams.size(); ++i) {
+        EXPECT_NEAR(seams[i], flat[i], 1e-6f);
+        apart = std::max(apart, std::abs(smooth[i] - flat[i]));
+    }
+    EXPECT_GT(apart, 1e-2f);
 }
 
 TEST(Subdivision, leftHandedTurnsWindingAndNormals) {

@@ -328,6 +328,18 @@ TEST_F(Textures, ReadsIesProfiles) {
         EXPECT_NEAR(profile->factor(theta, 2.0f), 2.0f * std::cos(theta), 6e-3f) << theta;
     EXPECT_EQ(profile->factor(1.7f, 0.0f), 0.0f);
 
+    // The twelfth number was a factor once. In files of 2019 it says how they were made.
+    for (const auto& [standard, peak] :
+         {std::pair{"IESNA91", 770.0f}, {"IES:LM-63-2019", 700.0f}}) {
+        IesProfile own;
+        std::string error;
+        ASSERT_TRUE(own.parse(standard + ("\nTILT=NONE\n1 1000 1 19 1 1 2 0 0 0\n1 1.1 100\n" +
+                                          angles + "\n0\n" + candela),
+                              error))
+            << error;
+        EXPECT_FLOAT_EQ(own.peak(), peak);
+    }
+
     request.file = temp.file("missing.ies");
     EXPECT_FALSE(textures.openProfile(request));
     EXPECT_FALSE(textures.openProfile(request)); // says so once

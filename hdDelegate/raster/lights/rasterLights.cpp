@@ -128,7 +128,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, int filters,
     GpuLight& g = s.fixed;
     g.shadowColor = light.shadowColor;
     g.shadowDistance = light.shadowDistance;
-    g.shadowFalloff = light.shadowFalloff;
+    g.shadowFalloff = std::min(light.shadowFalloff, light.shadowDistance);
     g.shadowGamma = std::max(light.shadowFalloffGamma, 1e-3f);
     g.setLight(light, is, pose);
     s.kind = RasterLightSource::Kind(g.kind);

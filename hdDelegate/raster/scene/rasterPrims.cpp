@@ -194,6 +194,12 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
     draw.primId = prim->id >= 0 ? prim->id : rank;
     draw.noise = murmurHash3(prim->path); // hosts count prims in the order in which they came
     int lit = -1;
+    float firstArea = 0.0f; // of a normalized mesh light
+    const auto areaAt = [&](size_t group, size_t place) {
+        return std::max(
+            areaOf(*_groups[group].shape->mesh, mat4(places[place].groupToWorld * toGroup)),
+            1e-30f);
+    };
     if (const auto meshLight = _parts.meshLights->of(prim->path, _settings)) {
         const Light& light = *meshLight;
         draw.meshLight.radiance = lightBaseRadiance(light);
@@ -201,10 +207,10 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
             light.materialSyncMode == "noMaterialResponse" ? RasterMeshLight::NoMaterialResponse
             : light.materialSyncMode == "materialGlowTintsLight" ? RasterMeshLight::GlowTintsLight
                                                                  : RasterMeshLight::Independent;
-        if (light.normalize)
-            draw.meshLight.radiance /= std::max(
-                areaOf(*_groups[firstGroup].shape->mesh, mat4(places[0].groupToWorld * toGroup)),
-                1e-30f);
+        if (light.normalize) {
+            firstArea = areaAt(firstGroup, 0);
+            draw.meshLight.radiance /= firstArea;
+        }
         if (!light.filters.empty()) draw.meshLight.filtered = light.path;
         lit = _parts.links->of(light.lightLink);
     }
@@ -218,11 +224,14 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
             const bool lights =
                 prim->visibility.diffuse || draw.meshLight.mode != RasterMeshLight::NoLight;
             if (_settings.enableSceneLights && group.shape->mesh && lights)
-                for (const uint32_t i : group.places)
-                    _emitters.add(group.shape->mesh, subset, draw.material->program, draw.meshLight,
+                for (const uint32_t i : group.places) {
+                    RasterMeshLight here = draw.meshLight;
+                    if (firstArea > 0.0f && i > 0) here.radiance *= firstArea / areaAt(g, i);
+                    _emitters.add(group.shape->mesh, subset, draw.material->program, here,
                                   mat4(places[i].groupToWorld * toGroup), lit,
                                   (draw.flags & RasterShape::tube) != 0, _origin, places[i].steps,
                                   i);
+                }
             draw.subset = int(subset);
             draw.show(*group.shape);
             if (draw.surface->triangles == 0) continue;

@@ -110,7 +110,8 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
             continue;
         }
         MeshLight meshLight{
-            light, lightBaseRadiance(*light), int(_infos.size()), MeshLight::glowOf(*light), {}};
+            light, lightBaseRadiance(*light), int(_infos.size()), MeshLight::glowOf(*light), {},
+            {}};
         _hidesMaterials |= meshLight.glow == MeshLight::Glow::Hidden;
         const double places = scene.places().count(surface->prim->group);
         if (!haveRoom(places * double(surface->topology().triangles.size()), input)) {

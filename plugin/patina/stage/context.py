@@ -8,6 +8,9 @@ from .colorSpaces import ColorSpaces, finite
 from .errors import StageError, one_line
 
 MAX_MOTION_SAMPLES = 16
+_MOST_STEPS = 8  # uniform times of a shutter that the renderer has, whatever samples it is given
+# Over a turn of t, the middle of a chord is nearer to the axis than its arc by 1 - cos(t / 2) of the radius: a hundredth here.
+_LARGEST_TURN = 2.0 * np.arccos(1.0 - 0.01)
 LONGEST_FIELD = 500  # characters; values of a stage may be of any length
 _MOST_SHOWN = 16  # elements of a value: those of a matrix
 
@@ -76,14 +79,24 @@ class Context:
             self._cyclic = cycles.are_in(self.stage)
         return self._cyclic
 
-    def motion_offsets(self, samples):
+    def motion_offsets(self, samples, rate=0.0):
         """When to evaluate what has these time samples: the ends of the shutter, what is between, and the moments.
 
         :param samples: authored time codes inside the shutter
+        :param rate: radians per time code that it turns by; chords between the times are near enough to its arcs
         :returns: ascending times relative to the frame"""
-        return self.with_moments(self._shutter_offsets(samples))
+        return self.with_moments(merged([*self.shutter_offsets(samples), *self.turn_offsets(rate)], self._most_samples))
 
-    def _shutter_offsets(self, samples):
+    def turn_offsets(self, rate):
+        """:returns: the times in the shutter that a turn at this rate needs: none where its ends will do"""
+        start, end = self.shutter
+        turn = rate * (end - start)
+        if not turn > _LARGEST_TURN:
+            return []
+        return np.linspace(start, end, 1 + int(np.ceil(min(turn / _LARGEST_TURN, _MOST_STEPS - 1)))).tolist()
+
+    def shutter_offsets(self, samples):
+        """:returns: motion_offsets() without the moments, of what does not turn"""
         frame, (start, end) = self.time.GetValue(), self.shutter
         if not end > start:  # all is as at the frame's time
             return [0.0]
@@ -116,7 +129,7 @@ class Context:
         if not self.moving or not attribute or not attribute.ValueMightBeTimeVarying():
             return [0.0]
         interval, frame = self.shutter_interval(), self.time.GetValue()
-        offsets = self._shutter_offsets(attribute.GetTimeSamplesInInterval(interval))
+        offsets = self.shutter_offsets(attribute.GetTimeSamplesInInterval(interval))
         if len(offsets) > 1:
             before, after = (attribute.GetBracketingTimeSamples(t) for t in (interval.min, interval.max))
             if before and before[0] <= interval.min:
@@ -134,13 +147,11 @@ def distinct(times):
     return kept
 
 
-def merged(times):
+def merged(times, most=MAX_MOTION_SAMPLES):
     """:param times: of several things, in any order
     :returns: ascending times that are distinct(), no more than the renderer takes"""
     times = distinct(sorted(times))
-    if len(times) <= MAX_MOTION_SAMPLES:
-        return times
-    return distinct(list(map(float, np.linspace(times[0], times[-1], MAX_MOTION_SAMPLES))))
+    return times if len(times) <= most else distinct(np.linspace(times[0], times[-1], most).tolist())
 
 
 def shown(value):

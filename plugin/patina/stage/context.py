@@ -110,15 +110,16 @@ class Context:
     def _most_samples(self):
         return MAX_MOTION_SAMPLES - (2 if self.options.motion else 0)
 
-    def velocity_offsets(self, prim, bent):
+    def velocity_offsets(self, prim, bent, rate=0.0):
         """When to evaluate what velocities move in the shutter: the ends, and where accelerations or angular velocities bend
         the way, as many times as UsdGeomMotionAPI asks for, 3 at least, as in Hydra.
 
         :param bent: attributes that bend it, where they are authored
+        :param rate: as of motion_offsets()
         :returns: ascending times relative to the frame"""
-        count = 2
+        count = max(2, len(self.turn_offsets(rate)))
         if any(attribute.HasAuthoredValue() for attribute in bent):
-            count = max(3, UsdGeom.MotionAPI(prim).ComputeNonlinearSampleCount(self.time))
+            count = max(count, 3, UsdGeom.MotionAPI(prim).ComputeNonlinearSampleCount(self.time))
         if not self.shutter[1] > self.shutter[0]:
             return self.with_moments([0.0])
         return self.with_moments(distinct(np.linspace(*self.shutter, min(count, self._most_samples)).tolist()))

@@ -103,7 +103,7 @@ def _matrices(context, schema, prim, count):
         own = context.motion_offsets(samples, rate) if moves else []
         bent = (schema.GetAccelerationsAttr(), schema.GetAngularVelocitiesAttr())
         if any(a.HasAuthoredValue() for a in (schema.GetVelocitiesAttr(), *bent)):
-            own += context.velocity_offsets(prim, bent) + context.turn_offsets(rate)
+            own += context.velocity_offsets(prim, bent, rate)
         if own:
             offsets = merged([*own, *(offsets if len(offsets) > 1 else [])])
     arrays = []

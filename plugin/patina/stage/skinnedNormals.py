@@ -81,7 +81,8 @@ def _blended(context, skin, rest, normals, points):
     counts, corners = _faces(context, skin.target.GetPrim(), len(rest))
     if not _fit(counts, corners):
         return normals
-    before, after = (smooth_normals(p, counts, corners)[points] for p in (rest, np.asarray(skin.blend(context, rest))))
+    moved = np.asarray(skin.blend(context, Vt.Vec3fArray.FromNumpy(rest)))
+    before, after = (smooth_normals(places, counts, corners)[points] for places in (rest, moved))
     axis, cosine = np.cross(before, after), np.sum(before * after, axis=1, keepdims=True)
     turned = np.cross(axis, normals)  # Rodrigues' formula for the smallest turn between both
     return normals + turned + np.cross(axis, turned) / np.maximum(1.0 + cosine, 1e-6)

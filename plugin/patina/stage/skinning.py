@@ -51,7 +51,7 @@ class Skin:
         samples = set(bind.GetTimeSamplesInInterval(interval)) if bind else set()
         animation, rate = self.query.GetAnimQuery(), 0.0
         if animation:
-            rate = rate_of_joints(context, animation)
+            rate = rate_of_joints(context, animation) if self.has_joints else 0.0
             samples.update(animation.GetJointTransformTimeSamplesInInterval(interval))
             samples.update(animation.GetBlendShapeWeightTimeSamplesInInterval(interval))
         return context.motion_offsets(samples, rate)

@@ -79,24 +79,29 @@ class Context:
             self._cyclic = cycles.are_in(self.stage)
         return self._cyclic
 
-    def motion_offsets(self, samples, rate=0.0):
+    def motion_offsets(self, samples, turns=()):
         """When to evaluate what has these time samples: the ends of the shutter, what is between, and the moments.
 
         :param samples: authored time codes inside the shutter
-        :param rate: radians per time code that it turns by; chords between the times are near enough to its arcs
+        :param turns: functions of two times that bound by how many radians it turns between them; their sum does
         :returns: ascending times relative to the frame"""
-        return self.with_moments(merged([*self.shutter_offsets(samples), *self.turn_offsets(rate)], self._most_samples))
+        offsets = self._shutter_offsets(samples)
+        angles = [sum(turn(*span) for turn in turns) for span in zip(offsets, offsets[1:])] if turns else []
+        if any(angle > _LARGEST_TURN for angle in angles):
+            rate = np.max(np.array(angles) / np.diff(offsets))
+            offsets = merged([*offsets, *self.turn_offsets(rate)], self._most_samples)
+        return self.with_moments(offsets)
 
     def turn_offsets(self, rate):
-        """:returns: the times in the shutter that a turn at this rate needs: none where its ends will do"""
+        """:param rate: radians per time code
+        :returns: the times in the shutter that such a turn needs: none where its ends will do"""
         start, end = self.shutter
         turn = rate * (end - start)
         if not turn > _LARGEST_TURN:
             return []
         return np.linspace(start, end, 1 + int(np.ceil(min(turn / _LARGEST_TURN, _MOST_STEPS - 1)))).tolist()
 
-    def shutter_offsets(self, samples):
-        """:returns: motion_offsets() without the moments, of what does not turn"""
+    def _shutter_offsets(self, samples):
         frame, (start, end) = self.time.GetValue(), self.shutter
         if not end > start:  # all is as at the frame's time
             return [0.0]
@@ -115,7 +120,7 @@ class Context:
         the way, as many times as UsdGeomMotionAPI asks for, 3 at least, as in Hydra.
 
         :param bent: attributes that bend it, where they are authored
-        :param rate: as of motion_offsets()
+        :param rate: radians per time code that it turns by
         :returns: ascending times relative to the frame"""
         count = max(2, len(self.turn_offsets(rate)))
         if any(attribute.HasAuthoredValue() for attribute in bent):
@@ -130,7 +135,7 @@ class Context:
         if not self.moving or not attribute or not attribute.ValueMightBeTimeVarying():
             return [0.0]
         interval, frame = self.shutter_interval(), self.time.GetValue()
-        offsets = self.shutter_offsets(attribute.GetTimeSamplesInInterval(interval))
+        offsets = self._shutter_offsets(attribute.GetTimeSamplesInInterval(interval))
         if len(offsets) > 1:
             before, after = (attribute.GetBracketingTimeSamples(t) for t in (interval.min, interval.max))
             if before and before[0] <= interval.min:

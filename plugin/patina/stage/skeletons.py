@@ -4,7 +4,7 @@ import numpy as np
 from pxr import UsdGeom, UsdSkel
 
 from .context import sampled
-from .turns import rate_of_joints
+from .turns import turns_of_joints
 
 _FACES = np.array([0, 2, 1, 0, 3, 2, 0, 4, 3, 0, 1, 4], np.int32)  # of a pyramid with its tip first
 _THICKNESS = 0.1  # of a bone's length: half its base
@@ -55,7 +55,7 @@ def _times(context, query):
     if not animation:
         return [0.0]
     samples = animation.GetJointTransformTimeSamplesInInterval(context.shutter_interval())
-    return context.motion_offsets(samples, rate_of_joints(context, animation))
+    return context.motion_offsets(samples, turns_of_joints(context, animation))
 
 
 def _pyramid(joint, parent):

@@ -5,7 +5,7 @@ from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
 
 from .context import array, merged
 from .transforms import as_transform, matrix_at, sample_times
-from .turns import rate_of_joints
+from .turns import turns_of_joints
 
 
 def skinning_of(context, root):
@@ -49,12 +49,12 @@ class Skin:
         interval = context.shutter_interval()
         bind = self.target.GetGeomBindTransformAttr()
         samples = set(bind.GetTimeSamplesInInterval(interval)) if bind else set()
-        animation, rate = self.query.GetAnimQuery(), 0.0
+        animation, turns = self.query.GetAnimQuery(), []
         if animation:
-            rate = rate_of_joints(context, animation) if self.has_joints else 0.0
+            turns = turns_of_joints(context, animation) if self.has_joints else []
             samples.update(animation.GetJointTransformTimeSamplesInInterval(interval))
             samples.update(animation.GetBlendShapeWeightTimeSamplesInInterval(interval))
-        return context.motion_offsets(samples, rate)
+        return context.motion_offsets(samples, turns)
 
     def transform(self, context, anchor):
         """Skinned points are in the space of the skeleton."""

@@ -6,57 +6,54 @@ from pxr import UsdGeom, UsdSkel
 _OPS = {getattr(UsdGeom.XformOp, "TypeRotate" + axes) for axes in ("X", "Y", "Z", "XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX")}
 
 
-def rate_of_ops(context, xformable):
-    """:returns: a bound of the radians per time code; matrices are interpolated element by element, and turn nothing"""
-    total = 0.0
+def turns_of_ops(context, xformable):
+    """:returns: list of functions of two times relative to the frame: a bound of the radians between them. Matrices are
+        interpolated element by element, and turn nothing"""
+    found = []
     for op in xformable.GetOrderedXformOps():
         orients = op.GetOpType() == UsdGeom.XformOp.TypeOrient
         if (orients or op.GetOpType() in _OPS) and op.MightBeTimeVarying():
-            total += _rate(context, op.GetTimeSamplesInInterval(context.shutter_interval()), op.Get,
-                           _between_quaternions if orients else _between_degrees)
-    return total
+            found.append(_turn(context, op.Get, _between_quaternions if orients else _between_degrees))
+    return found
 
 
-def rate_of_instances(context, instancer):
-    """:returns: the most radians per time code that orientations or angular velocities of a UsdGeomPointInstancer turn by"""
-    rate = 0.0
-    for name in ("orientations", "orientationsf"):
-        attribute = instancer.GetPrim().GetAttribute(name)
-        if attribute and attribute.ValueMightBeTimeVarying():
-            samples = attribute.GetTimeSamplesInInterval(context.shutter_interval())
-            rate = max(rate, _rate(context, samples, attribute.Get, _between_quaternions))
+def turns_of_orientations(context, instancer):
+    """:returns: the same of the instances of a UsdGeomPointInstancer"""
+    attributes = [instancer.GetPrim().GetAttribute(name) for name in ("orientations", "orientationsf")]
+    return [_turn(context, a.Get, _between_quaternions) for a in attributes if a and a.ValueMightBeTimeVarying()]
+
+
+def rate_of_velocities(context, instancer):
+    """:returns: the most radians per time code that angular velocities of a UsdGeomPointInstancer turn by"""
     velocities = instancer.GetAngularVelocitiesAttr().Get(context.time)
-    if velocities:
-        most = np.nan_to_num(np.linalg.norm(np.asarray(velocities, dtype=np.float64), axis=-1)).max()
-        rate = max(rate, np.radians(most) / context.time_codes_per_second)
-    return rate
-
-
-def rate_of_joints(context, animation):
-    """:param animation: a UsdSkelAnimQuery
-    :returns: a bound of the radians per time code that any joint turns by: it turns with those above it"""
-    if not animation.JointTransformsMightBeTimeVarying():
+    if not velocities:
         return 0.0
+    most = np.nan_to_num(np.linalg.norm(np.asarray(velocities, dtype=np.float64), axis=-1)).max()
+    return np.radians(most) / context.time_codes_per_second
+
+
+def turns_of_joints(context, animation):
+    """:param animation: a UsdSkelAnimQuery
+    :returns: as turns_of_ops(), of all joints: each turns with those above it"""
+    if not animation.JointTransformsMightBeTimeVarying():
+        return []
     parents = UsdSkel.Topology(animation.GetJointOrder()).GetParentIndices()
 
-    def turn(before, after):
+    def most(before, after):
         angles = _quaternion_angles(before, after)
         for joint, parent in enumerate(parents[:len(angles)]):
             angles[joint] += angles[parent] if 0 <= parent < joint else 0.0
         return angles.max(initial=0.0)
 
-    return _rate(context, animation.GetJointTransformTimeSamplesInInterval(context.shutter_interval()),
-                 lambda time: animation.ComputeJointLocalTransformComponents(time)[1], turn)
+    return [_turn(context, lambda time: animation.ComputeJointLocalTransformComponents(time)[1], most)]
 
 
-def _rate(context, samples, value_at, turn):
-    """:param samples: authored time codes inside the shutter
-    :param turn: gives the angle between two values in radians
-    :returns: the most radians per time code between two times"""
-    offsets = context.shutter_offsets(samples)
-    values = [value_at(context.time_at(offset)) for offset in offsets]
-    return max((turn(a, b) / (t - s) for s, t, a, b in zip(offsets, offsets[1:], values, values[1:])
-                if a is not None and b is not None), default=0.0)
+def _turn(context, value_at, angle):
+    """:param angle: gives the radians between two values"""
+    def turn(*times):
+        values = [value_at(context.time_at(time)) for time in times]
+        return 0.0 if any(value is None for value in values) else angle(*values)
+    return turn
 
 
 def _between_degrees(before, after):

@@ -116,7 +116,7 @@ def test_broken_skinning_is_drawn_at_rest(read, numbers):
 @pytest.mark.parametrize("type_", ["int64", "uint64"])
 def test_counts_whose_sum_wraps_are_not_used(read_apart, type_):
     """In a process of its own: numpy would write beyond its arrays there."""
-    text = (SKELETON % (WEIGHTS + """
+    text = (SKELETON % (WEIGHTS + SHAPE + """
             uniform token subdivisionScheme = "none"
             normal3f[] normals = [(0,0,1), (0,0,1), (0,0,1)]""")).replace(
                 "int[] faceVertexCounts = [3]", f"{type_}[] faceVertexCounts = [{'4611686018427387904, ' * 4}3]")

@@ -51,9 +51,10 @@ def test_a_leg_bends(tmp_path, scene_index, bend, shutter, samples):
         hydraBuild.skip_before(2505, "scene indices skin nothing")
     shot = stages.shot_of(leg(bend, shutter), tmp_path, width=8)
     _, dump = render_with_hydra(shot, tmp_path, scene_index)
-    found, wanted = points_of(dump), points_of(shot.scene.dump())
+    # The reader samples also what does not move, and between the ends of the shutter what turns.
+    found, wanted = points_of(dump), points_of(shot.scene.dump())[[0, -1]]
     assert len(found) == samples, dump
-    # The reader samples also what does not move. Some ten operations on numbers below 4, each rounded to 24 bits.
+    # Some ten operations on numbers below 4, each rounded to 24 bits.
     assert np.abs(found - wanted).max() <= 10 * 4 * 2.0 ** -24
 
 

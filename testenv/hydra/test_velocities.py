@@ -50,9 +50,10 @@ def test_hosts_agree(tmp_path, prim, shutter, frame):
 @pytest.mark.parametrize("prim, name, value", [
     ("mesh", "accelerations", [(0, 6000, 0), (0, 6000, 0), (0, 0, 0), (0, 0, 0)]),
     ("instances", "accelerations", [(6000, 0, 0), (0, 0, 0)]),
-    ("instances", "angularVelocities", [(0, 0, 2160), (0, 0, 0)])])
+    ("instances", "angularVelocities", [(0, 0, 720), (0, 0, 0)])])
 def test_hosts_agree_where_the_way_is_bent(tmp_path, prim, name, value):
     orientations = sampled("quath", "orientations", [(1, 0, 0, 0)] * 2) if prim == "instances" else ""
+    # Two chords of 15 degrees are near enough to an arc: the command takes more times for faster turns, and Hydra does not.
     # Hydra is told of the count of instancers since OpenUSD 26.08; before, and without one, it is 3.
     told = prim == "mesh" or int(hydraBuild.folder("version")) >= 2608
     count = "int motion:nonlinearSampleCount = 5" if told else ""

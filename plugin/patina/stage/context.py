@@ -8,6 +8,9 @@ from .colorSpaces import ColorSpaces, finite
 from .errors import StageError, one_line
 
 MAX_MOTION_SAMPLES = 16
+_MOST_STEPS = 8  # uniform times of a shutter that the renderer has, whatever samples it is given
+# Over a turn of t, the middle of a chord is nearer to the axis than its arc by 1 - cos(t / 2) of the radius: a hundredth here.
+_LARGEST_TURN = 2.0 * np.arccos(1.0 - 0.01)
 LONGEST_FIELD = 500  # characters; values of a stage may be of any length
 _MOST_SHOWN = 16  # elements of a value: those of a matrix
 
@@ -76,12 +79,27 @@ class Context:
             self._cyclic = cycles.are_in(self.stage)
         return self._cyclic
 
-    def motion_offsets(self, samples):
+    def motion_offsets(self, samples, turns=()):
         """When to evaluate what has these time samples: the ends of the shutter, what is between, and the moments.
 
         :param samples: authored time codes inside the shutter
+        :param turns: functions of two times that bound by how many radians it turns between them; their sum does
         :returns: ascending times relative to the frame"""
-        return self.with_moments(self._shutter_offsets(samples))
+        offsets = self._shutter_offsets(samples)
+        angles = [sum(turn(*span) for turn in turns) for span in zip(offsets, offsets[1:])] if turns else []
+        if any(angle > _LARGEST_TURN for angle in angles):
+            rate = np.max(np.array(angles) / np.diff(offsets))
+            offsets = merged([*offsets, *self.turn_offsets(rate)], self._most_samples)
+        return self.with_moments(offsets)
+
+    def turn_offsets(self, rate):
+        """:param rate: radians per time code
+        :returns: the times in the shutter that such a turn needs: none where its ends will do"""
+        start, end = self.shutter
+        turn = rate * (end - start)
+        if not turn > _LARGEST_TURN:
+            return []
+        return np.linspace(start, end, 1 + int(np.ceil(min(turn / _LARGEST_TURN, _MOST_STEPS - 1)))).tolist()
 
     def _shutter_offsets(self, samples):
         frame, (start, end) = self.time.GetValue(), self.shutter
@@ -97,15 +115,16 @@ class Context:
     def _most_samples(self):
         return MAX_MOTION_SAMPLES - (2 if self.options.motion else 0)
 
-    def velocity_offsets(self, prim, bent):
+    def velocity_offsets(self, prim, bent, rate=0.0):
         """When to evaluate what velocities move in the shutter: the ends, and where accelerations or angular velocities bend
         the way, as many times as UsdGeomMotionAPI asks for, 3 at least, as in Hydra.
 
         :param bent: attributes that bend it, where they are authored
+        :param rate: radians per time code that it turns by
         :returns: ascending times relative to the frame"""
-        count = 2
+        count = max(2, len(self.turn_offsets(rate)))
         if any(attribute.HasAuthoredValue() for attribute in bent):
-            count = max(3, UsdGeom.MotionAPI(prim).ComputeNonlinearSampleCount(self.time))
+            count = max(count, 3, UsdGeom.MotionAPI(prim).ComputeNonlinearSampleCount(self.time))
         if not self.shutter[1] > self.shutter[0]:
             return self.with_moments([0.0])
         return self.with_moments(distinct(np.linspace(*self.shutter, min(count, self._most_samples)).tolist()))
@@ -134,13 +153,11 @@ def distinct(times):
     return kept
 
 
-def merged(times):
+def merged(times, most=MAX_MOTION_SAMPLES):
     """:param times: of several things, in any order
     :returns: ascending times that are distinct(), no more than the renderer takes"""
     times = distinct(sorted(times))
-    if len(times) <= MAX_MOTION_SAMPLES:
-        return times
-    return distinct(list(map(float, np.linspace(times[0], times[-1], MAX_MOTION_SAMPLES))))
+    return times if len(times) <= most else distinct(np.linspace(times[0], times[-1], most).tolist())
 
 
 def shown(value):

@@ -6,6 +6,7 @@ from pxr import UsdGeom
 from . import coordSystems, kinds, marks, meshes, parametric, skeletons, skinning, splats, volumes
 from .context import array, array_of, get, number, sampled, shown
 from .primvars import add_builtin, read_primvars, text
+from .skinnedNormals import skin_normals
 from .transforms import transform_of
 
 _AXES = {"X": 0, "Y": 1, "Z": 2}
@@ -45,8 +46,7 @@ def emit(context, found, kind, bound, categories, fallbacks):
     if kind in _SIZES:
         _implicit(context, found, kind, common)
     elif kind in _POINT_BASED:
-        if kind in _WIDE:
-            _add_builtins(context, prim, _WIDE[kind](prim), common["primvars"])
+        _add_builtins(context, found, kind, skin, common["primvars"])
         _POINT_BASED[kind](context, found, common, points_of(context, prim, skin))
     else:
         {"skeleton": skeletons, "splats": splats, "volume": volumes}[kind].emit(context, found, common)
@@ -81,9 +81,16 @@ def _sampled(context, prim, offsets, values):
     return sampled(offsets, [array(context, prim, "points", v, 3) for v in values])
 
 
-def _add_builtins(context, prim, schema, primvars):
-    add_builtin(context, prim, "widths", schema.GetWidthsInterpolation(), primvars)
-    add_builtin(context, prim, "normals", schema.GetNormalsInterpolation(), primvars)
+def _add_builtins(context, found, kind, skin, primvars):
+    prim = found.prim
+    if kind == "nurbsPatch":  # has neither
+        return
+    if kind in _WIDE:
+        add_builtin(context, prim, "widths", _WIDE[kind](prim).GetWidthsInterpolation(), primvars)
+    if "normals" in found.names:
+        add_builtin(context, prim, "normals", UsdGeom.PointBased(prim).GetNormalsInterpolation(), primvars)
+    if skin and skin.deforms:
+        skin_normals(context, found, skin, primvars)
 
 
 def _points(context, found, common, points):

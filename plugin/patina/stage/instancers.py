@@ -6,6 +6,7 @@ from pxr import Usd, UsdGeom
 from .context import array_of, get, merged, sampled
 from .primvars import in_rendering_space, numbers
 from .transforms import is_finite, matrix_at, sample_times
+from .turns import rate_of_velocities, turns_of_orientations
 
 
 def emit_instancer(context, found, names, linking):
@@ -98,10 +99,10 @@ def _matrices(context, schema, prim, count):
         samples = {s for a in attributes if a and a.ValueMightBeTimeVarying()
                    for s in a.GetTimeSamplesInInterval(context.shutter_interval())}
         moves = any(a and a.ValueMightBeTimeVarying() for a in attributes)
-        own = context.motion_offsets(samples) if moves else []
+        own = context.motion_offsets(samples, turns_of_orientations(context, schema)) if moves else []
         bent = (schema.GetAccelerationsAttr(), schema.GetAngularVelocitiesAttr())
         if any(a.HasAuthoredValue() for a in (schema.GetVelocitiesAttr(), *bent)):
-            own += context.velocity_offsets(prim, bent)
+            own += context.velocity_offsets(prim, bent, rate_of_velocities(context, schema))
         if own:
             offsets = merged([*own, *(offsets if len(offsets) > 1 else [])])
     arrays = []

@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Meshes."""
 import numpy as np
-from pxr import UsdGeom
 
-from . import skinning
 from .context import array, shown
-from .primvars import add_builtin
 
 _INTS = {
     "faceVertexCounts": "face_vertex_counts", "faceVertexIndices": "face_vertex_indices",
@@ -24,7 +21,7 @@ _TOKENS = {
 
 
 def emit(context, found, common, points):
-    prim, time, skin = found.prim, context.time, skinning.skin_of(found)
+    prim, time = found.prim, context.time
     fields = {}
     for name, key in _INTS.items():
         fields[key] = array(context, prim, name, found.authored(name, time), 1, np.int32)
@@ -38,12 +35,4 @@ def emit(context, found, common, points):
             context.warn(prim.GetPath(), name, "tokenUnknown", shown(value), fallback)
             value = fallback
         fields[key] = value
-    if skin and skin.deforms:
-        # Normals of the rest pose would light the deformed mesh wrongly.
-        common["primvars"] = [p for p in common["primvars"] if p[0] != "normals"]
-        normals = skin.normals(context, found)
-        if normals is not None:
-            common["primvars"].append(normals)
-    elif "normals" in found.names:
-        add_builtin(context, prim, "normals", UsdGeom.Mesh(prim).GetNormalsInterpolation(), common["primvars"])
     context.edit.set_mesh(found.path, points=points, refine_level=context.options.refine_level, **fields, **common)

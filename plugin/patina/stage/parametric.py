@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """NURBS patches and curves, Hermite curves, meshes of tetrahedra."""
 import numpy as np
-from pxr import UsdGeom
 
 from .context import array, array_of, finite, get, sampled
-from .primvars import add_builtin, text
+from .primvars import text
 
 _DIRECTION = {"VertexCount": "vertex_count", "Order": "order"}
 _TRIM = {"counts": (1, np.int32), "orders": (1, np.int32), "vertexCounts": (1, np.int32), "knots": (1, np.float64),
@@ -33,7 +32,6 @@ def emit_patch(context, found, common, points):
 def emit_tets(context, found, common, points):
     """UsdGeomTetMesh: its surface."""
     prim = found.prim
-    add_builtin(context, prim, "normals", UsdGeom.PointBased(prim).GetNormalsInterpolation(), common["primvars"])
     tets = array_of(context, prim, "tetVertexIndices", 4, np.int32)
     surface = array_of(context, prim, "surfaceFaceVertexIndices", 3, np.int32)
     if not len(tets) and not len(surface):

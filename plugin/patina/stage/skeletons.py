@@ -4,6 +4,7 @@ import numpy as np
 from pxr import UsdGeom, UsdSkel
 
 from .context import sampled
+from .turns import turns_of_joints
 
 _FACES = np.array([0, 2, 1, 0, 3, 2, 0, 4, 3, 0, 1, 4], np.int32)  # of a pyramid with its tip first
 _THICKNESS = 0.1  # of a bone's length: half its base
@@ -26,7 +27,7 @@ def emit(context, found, common):
     bind = query.GetJointWorldBindTransforms() if query else []
     parents = [query.GetTopology().GetParent(joint) for joint in range(len(bind))] if query else []
     bones = [(joint, parent) for joint, parent in enumerate(parents) if parent >= 0]
-    times = context.motion_offsets(_samples(context, query)) if query and context.moving else [0.0]
+    times = _times(context, query) if query and context.moving else [0.0]
     poses = [query.ComputeSkinningTransforms(context.time_at(t)) if query else None for t in times]
     if not bind or not all(poses):
         context.warn(found.prim.GetPath(), "joints", "primUnreadable", "bind or rest transforms do not fit them")
@@ -49,9 +50,12 @@ def emit(context, found, common):
         face_vertex_indices=(_FACES + 5 * np.arange(len(bones), dtype=np.int32)[:, None]).ravel(), **common)
 
 
-def _samples(context, query):
+def _times(context, query):
     animation = query.GetAnimQuery()
-    return animation.GetJointTransformTimeSamplesInInterval(context.shutter_interval()) if animation else []
+    if not animation:
+        return [0.0]
+    samples = animation.GetJointTransformTimeSamplesInInterval(context.shutter_interval())
+    return context.motion_offsets(samples, turns_of_joints(context, animation))
 
 
 def _pyramid(joint, parent):

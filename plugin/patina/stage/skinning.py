@@ -3,8 +3,9 @@
 import numpy as np
 from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
 
-from .context import array, array_of, get, merged
+from .context import array, merged
 from .transforms import as_transform, matrix_at, sample_times
+from .turns import turns_of_joints
 
 
 def skinning_of(context, root):
@@ -48,11 +49,12 @@ class Skin:
         interval = context.shutter_interval()
         bind = self.target.GetGeomBindTransformAttr()
         samples = set(bind.GetTimeSamplesInInterval(interval)) if bind else set()
-        animation = self.query.GetAnimQuery()
+        animation, turns = self.query.GetAnimQuery(), []
         if animation:
+            turns = turns_of_joints(context, animation) if self.has_joints else []
             samples.update(animation.GetJointTransformTimeSamplesInInterval(interval))
             samples.update(animation.GetBlendShapeWeightTimeSamplesInInterval(interval))
-        return context.motion_offsets(samples)
+        return context.motion_offsets(samples, turns)
 
     def transform(self, context, anchor):
         """Skinned points are in the space of the skeleton."""
@@ -77,7 +79,7 @@ class Skin:
         if points is None or not len(points):
             return []
         if self.target.HasBlendShapes():
-            points = self._blend(context, time, points)
+            points = self.blend(context, points, offset)
         if self.has_joints and not self.rigid:
             pose = self.query.ComputeSkinningTransforms(time)
             skinned = Vt.Vec3fArray(points)  # pxr changes it in place
@@ -92,52 +94,24 @@ class Skin:
                 context.skinned.append((self.skeleton if self.has_joints else prim, placed))
         return points
 
-    def _blend(self, context, time, points):
+    def acting_shapes(self, time):
+        """:returns: (BlendShapeQuery, its sub-shapes that have weights, as it gives them); None where none has"""
         animation = self.query.GetAnimQuery()
         weights = animation.ComputeBlendShapeWeights(time) if animation else None
-        if not weights:
+        mapped = self.target.GetBlendShapeMapper().Remap(weights) if weights else None
+        shapes = UsdSkel.BlendShapeQuery(UsdSkel.BindingAPI(self.target.GetPrim())) if mapped else None
+        parts = shapes.ComputeSubShapeWeights(mapped) if shapes else None
+        return (shapes, parts) if parts and parts[0] else None
+
+    def blend(self, context, points, offset=0.0):
+        """:returns: points that blend shapes moved, or these where pxr cannot compute them"""
+        acting = self.acting_shapes(context.time_at(offset))
+        if not acting:
             return points
-        mapped = self.target.GetBlendShapeMapper().Remap(weights)
-        shapes = UsdSkel.BlendShapeQuery(UsdSkel.BindingAPI(self.target.GetPrim()))
-        parts = shapes.ComputeSubShapeWeights(mapped)
-        if not mapped or not parts:
-            return points
+        shapes, parts = acting
         moved = Vt.Vec3fArray(points)  # pxr changes it in place
         if not shapes.ComputeDeformedPoints(*parts, shapes.ComputeBlendShapePointIndices(),
                                             shapes.ComputeSubShapePointOffsets(), moved):
             context.warn(self.target.GetPrim().GetPath(), "skel:blendShapes", "blendShapesLeftOut")
             return points
         return moved
-
-    def normals(self, context, found):
-        """:returns: a primvar of smooth normals of the deformed points, None when subdivision makes
-        its own or the rest pose had none"""
-        prim, time = found.prim, context.time
-        if get(prim, "subdivisionScheme", time, "catmullClark") != "none":
-            return None
-        if get(prim, "normals", time) is None and get(prim, "primvars:normals", time) is None:
-            return None
-        points = array(context, prim, "points", self.points(context, 0.0), 3)
-        counts, indices = (array_of(context, prim, name, 1, np.int32).astype(np.int64)
-                           for name in ("faceVertexCounts", "faceVertexIndices"))
-        # Each count is checked before their sum: a sum that wraps would fit, and numpy would write beyond its arrays.
-        if not len(counts) or counts.min() < 3 or counts.max() > len(indices) or counts.sum() != len(indices):
-            return None
-        if indices.min() < 0 or indices.max() >= len(points):
-            return None
-        return ("normals", "vertex", smooth_normals(points, counts, indices), None)
-
-
-def smooth_normals(points, counts, indices):
-    """:returns: area-weighted vertex normals; Newell's sum over the edges of each face"""
-    first = np.repeat(np.cumsum(counts) - counts, counts)
-    corner = np.arange(len(indices)) - first
-    following = indices[first + (corner + 1) % np.repeat(counts, counts)]
-    cross = np.cross(points[indices], points[following])
-    face = np.repeat(np.arange(len(counts)), counts)
-    normals = np.zeros((len(counts), 3))
-    np.add.at(normals, face, cross)
-    total = np.zeros(points.shape)
-    np.add.at(total, indices, normals[face])
-    length = np.linalg.norm(total, axis=1, keepdims=True)
-    return (total / np.where(length > 0.0, length, 1.0)).astype(np.float32)

@@ -4,23 +4,25 @@ import numpy as np
 from pxr import Gf, Tf, UsdGeom
 
 from .errors import one_line
+from .turns import turns_of_ops
 
 
 def sample_times(context, prim, anchor):
     """:returns: times relative to the frame at which the way from a prim up to its anchor changes"""
     if not context.moving:
         return [0.0]
-    samples, moves, interval = set(), False, context.shutter_interval()
+    samples, turns, moves, interval = set(), [], False, context.shutter_interval()
     while prim and prim != anchor and not prim.IsPseudoRoot():
         xformable = UsdGeom.Xformable(prim)
         if xformable:
             if xformable.TransformMightBeTimeVarying():
                 moves = True
                 samples.update(xformable.GetTimeSamplesInInterval(interval))
+                turns += turns_of_ops(context, xformable)
             if xformable.GetResetXformStack():
                 break
         prim = prim.GetParent()
-    return context.motion_offsets(samples) if moves else [0.0]
+    return context.motion_offsets(samples, turns) if moves else [0.0]
 
 
 def matrix_at(context, prim, anchor, offset):

@@ -123,6 +123,25 @@ def test_orientations_and_velocities(read, numbers):
     assert start[12] == 0.0 and end[12] == 1.0
 
 
+@pytest.mark.parametrize("turning, times", [
+    ("quath[] orientations.timeSamples = { 0: [(1, 0, 0, 0), (1, 0, 0, 0)], 1: [(1, 0, 0, 0), (0.92388, 0, 0, 0.38268)] }", 4),
+    ("quatf[] orientationsf.timeSamples = { 0: [(1, 0, 0, 0), (1, 0, 0, 0)], 1: [(1, 0, 0, 0), (0.92388, 0, 0, 0.38268)] }", 4),
+    ("""quath[] orientations.timeSamples = { 0: [(1, 0, 0, 0), (1, 0, 0, 0)] }
+        vector3f[] angularVelocities.timeSamples = { 0: [(0, 0, 0), (0, 0, 2400)] }""", 8),
+    ("""quath[] orientations.timeSamples = { 0: [(1, 0, 0, 0), (1, 0, 0, 0)] }
+        vector3f[] angularVelocities.timeSamples = { 0: [(0, 0, 0), (0, 0, 24)] }""", 3),
+    ("quath[] orientations = [(1, 0, 0, 0), (0.92388, 0, 0, 0.38268)]", 2)])
+def test_instances_that_turn_are_read_at_more_times(read, turning, times):
+    """45 and 100 degrees in the shutter; the renderer's chords leave the arcs by a hundredth of the radius."""
+    prim = read("""(timeCodesPerSecond = 24)
+    def PointInstancer "pi" { rel prototypes = </pi/s>
+        point3f[] positions.timeSamples = { 0: [(0,0,0), (1,0,0)], 1: [(1,0,0), (2,0,0)] }
+        int[] protoIndices = [0, 0]
+        %s
+        def Sphere "s" { } }""" % turning, frame=0.0, shutter=(0.0, 1.0)).prim("/pi")
+    assert len([key for key in prim if key.startswith("transform 1@")]) == times, prim
+
+
 @pytest.mark.filterwarnings("error")
 def test_nested_and_broken_instancers(read):
     reading = read("""

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Implicit prims, curves, points and transforms."""
+import numpy as np
 import pytest
 
 
@@ -81,6 +82,42 @@ def test_motion_samples_inside_the_shutter(read, numbers):
     velocity = reading.prim("/velocity")
     assert numbers(velocity["points@-0.25"])[0] == -0.25 and numbers(velocity["points@0.25"])[0] == 0.25
     assert "transform" not in reading.prim("/still")
+
+
+@pytest.mark.parametrize("op, degrees, chords", [
+    ("double xformOp:rotateZ", 10, 1), ("double xformOp:rotateZ", 45, 3), ("double xformOp:rotateZ", 100, 7),
+    ("double xformOp:rotateZ", 360, 7), ("float3 xformOp:rotateXYZ", 45, 3), ("quatf xformOp:orient", 45, 3),
+    ("double3 xformOp:translate", 360, 1), ("matrix4d xformOp:transform", 45, 1)])
+def test_what_turns_is_read_where_its_chords_are_near_its_arcs(read, numbers, op, degrees, chords):
+    """Between the times matrices are linear. A hundredth of the radius is allowed, as far as the renderer takes times."""
+
+    def value(turn):
+        half = np.radians(turn) / 2.0
+        return {"rotateZ": turn, "rotateXYZ": f"(0, 0, {turn})", "orient": f"({np.cos(half)}, 0, 0, {np.sin(half)})",
+                "translate": f"({turn}, 0, 0)",
+                "transform": f"( ({1 - turn}, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1) )"}[op.partition(":")[2]]
+    turning = f'def Xform "x" {{ {op}.timeSamples = {{ 1: {value(0)}, 2: {value(degrees)} }}\n' \
+              f'uniform token[] xformOpOrder = ["{op.split()[1]}"]\ndef Sphere "s" {{ }}\n}}'
+    sphere = read(turning, frame=1.0, shutter=(0.0, 1.0)).prim("/x/s")
+    matrices = {float(key.partition("@")[2]): numbers(value) for key, value in sphere.items() if key.startswith("transform@")}
+    assert list(matrices) == pytest.approx(np.linspace(0.0, 1.0, chords + 1), abs=1e-6)
+    if degrees <= 100 and "rotate" in op:
+        rows = np.array(list(matrices.values()))[:, :3]
+        assert np.linalg.norm((rows[1:] + rows[:-1]) / 2.0, axis=1).min() >= 0.99
+
+
+def test_turns_add_up_and_authored_times_stay(read):
+    """Of the parent and the prim itself. Authored times are enough where no chord between them is too long."""
+
+    def times(parent, own):
+        def turn(samples):
+            return 'double xformOp:rotateZ.timeSamples = {%s}\nuniform token[] xformOpOrder = ["xformOp:rotateZ"]\n' % samples
+        text = 'def Xform "x" {%s def Xform "y" {%s def Sphere "s" { }\n}\n}' % (turn(parent), turn(own))
+        return [float(key.partition("@")[2]) for key in read(text, frame=1.0, shutter=(0.0, 1.0)).prim("/x/y/s")
+                if key.startswith("transform@")]
+    assert times("1: 0, 2: 10", "1: 0, 2: 10") == [0.0, 0.5, 1.0]
+    assert times("1: 0, 2: 0", "1: 0, 1.1: 8, 2: 16") == pytest.approx([0.0, 0.1, 1.0])
+    assert times("1: 0, 2: 0", "1: 0, 1.5: 20, 2: 40") == pytest.approx([0.0, 1 / 3, 0.5, 2 / 3, 1.0], abs=1e-6)
 
 
 def test_no_motion_without_a_shutter(read, numbers):

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """UsdSkel."""
-
+import numpy as np
 import pytest
+from pxr import Usd, UsdSkel
 
 SKELETON = """
     def SkelRoot "r" {
@@ -115,19 +116,103 @@ def test_broken_skinning_is_drawn_at_rest(read, numbers):
 @pytest.mark.parametrize("type_", ["int64", "uint64"])
 def test_counts_whose_sum_wraps_are_not_used(read_apart, type_):
     """In a process of its own: numpy would write beyond its arrays there."""
-    text = (SKELETON % (WEIGHTS + """
+    text = (SKELETON % (WEIGHTS + SHAPE + """
             uniform token subdivisionScheme = "none"
             normal3f[] normals = [(0,0,1), (0,0,1), (0,0,1)]""")).replace(
                 "int[] faceVertexCounts = [3]", f"{type_}[] faceVertexCounts = [{'4611686018427387904, ' * 4}3]")
     assert "/r/m" in read_apart(text, frame=5.0)
 
 
-def test_normals_of_a_deformed_mesh(read, numbers):
-    reading = read(SKELETON % (WEIGHTS + """
+TURNED = SKELETON.replace("rotations = [(1, 0, 0, 0)]", "rotations = [(0.8, 0.6, 0, 0)]").replace("[0, 1, 2]", "[2, 0, 1]")
+NORMALS = """
             uniform token subdivisionScheme = "none"
-            normal3f[] normals = [(1,0,0), (1,0,0), (1,0,0)]"""), frame=5.0)
-    normals, = [value for key, value in reading.prim("/r/m").items() if key.startswith("primvar normals")]
-    assert numbers(normals) == [0, 0, 1] * 3
+            normal3f[] normals = [%s] (interpolation = "%s")"""
+
+
+def normals_of(reading, path="/r/m"):
+    """:returns: (interpolation, array of normals of length 1) of a prim"""
+    (key, value), = [item for item in reading.prim(path).items() if item[0].startswith("primvar normals")]
+    normals = np.array([float(x) for x in value.replace(",", " ").split()]).reshape(-1, 3)
+    return key.split()[2], normals / np.linalg.norm(normals, axis=1, keepdims=True)
+
+
+@pytest.mark.parametrize("interpolation, given, wanted", [
+    ("constant", "(0,1,0)", [1, 1, 1]), ("uniform", "(0,1,0)", [1, 1, 1]),
+    ("vertex", "(1,0,0), (0,1,0), (0,0,1)", [0, 1, 2]), ("faceVarying", "(1,0,0), (0,1,0), (0,0,1)", [0, 1, 2])])
+def test_an_identity_pose_changes_no_normals(read, interpolation, given, wanted):
+    _, found = normals_of(read(SKELETON % (WEIGHTS + NORMALS % (given, interpolation)), frame=0.0))
+    assert found == pytest.approx(np.eye(3)[wanted])
+
+
+@pytest.mark.parametrize("method", ["classicLinear", "dualQuaternion"])
+@pytest.mark.parametrize("kind, interpolation", [("Mesh", "vertex"), ("Mesh", "faceVarying"), ("BasisCurves", "vertex")])
+def test_normals_turn_as_pxr_bakes_them(read, statements, tmp_path, kind, interpolation, method):
+    normals = NORMALS % ("(1,0,0), (0,1,0), (0,0,1)", interpolation)
+    text = TURNED.replace('def Mesh "m"', f'def {kind} "m"') % (SHAPE + normals + """
+            int[] curveVertexCounts = [3]
+            matrix4d primvars:skel:geomBindTransform = ((1,0,0,0), (0,2,1,0), (0,0,1,0), (0,0,0,1))
+            int[] primvars:skel:jointIndices = [0, 1, 0, 1, 1, 0] (interpolation = "vertex"; elementSize = 2)
+            float[] primvars:skel:jointWeights = [1, 0, 0.3, 0.7, 1, 0] (interpolation = "vertex"; elementSize = 2)
+            uniform token primvars:skel:skinningMethod = "%s" """ % method)
+    text = text.replace("vector3f[] offsets", "vector3f[] normalOffsets = [(0, 0.5, 0)]  vector3f[] offsets")
+    baked = Usd.Stage.CreateInMemory()
+    baked.GetRootLayer().ImportFromString("#usda 1.0\n" + statements(text))
+    # pxr leaves offsets of blend shapes out for normals of corners.
+    frame = 10.0 if interpolation == "vertex" else 0.0
+    assert UsdSkel.BakeSkinning(baked.Traverse())
+    baked.Export(str(tmp_path / "baked.usda"))
+    (_, found), (_, wanted) = (normals_of(read(which, frame=frame)) for which in (text, tmp_path / "baked.usda"))
+    assert found == pytest.approx(wanted, abs=1e-6)
+    assert np.abs(found - np.eye(3)).max() > 0.1
+
+
+@pytest.mark.parametrize("interpolation, values, same_interpolation, same_values", [
+    ("uniform", "(0,1,1)", "faceVarying", "(0,1,1), (0,1,1), (0,1,1)"),
+    ("constant", "(0,1,1)", "vertex", "(0,1,1), (0,1,1), (0,1,1)"),
+    ("faceVarying", "(1,0,0), (0,1,0), (0,0,1)", "vertex", "(0,1,0), (0,0,1), (1,0,0)")])  # corners are points 2, 0, 1
+def test_normals_of_all_interpolations_turn_alike(read, interpolation, values, same_interpolation, same_values):
+    posed = TURNED % (WEIGHTS + SHAPE + NORMALS)
+    posed = posed.replace("vector3f[] offsets", "vector3f[] normalOffsets = [(0.5, 0, 0)]  vector3f[] offsets")
+    name, found = normals_of(read(posed % (values, interpolation), frame=10.0))
+    _, wanted = normals_of(read(posed % (same_values, same_interpolation), frame=10.0))
+    assert found == pytest.approx(wanted[[2, 0, 1]] if interpolation == "faceVarying" else wanted, abs=1e-6)
+    indexed = (posed % (values, interpolation)).replace("normals = [", "primvars:normals = [(9, 0, 0), ")
+    count = values.count("(")
+    indexed = indexed.replace("uniform token subdivisionScheme", "int[] primvars:normals:indices = %s  uniform token "
+                              "subdivisionScheme" % list(range(1, count + 1)))
+    assert normals_of(read(indexed, frame=10.0))[0] == name
+    assert normals_of(read(indexed, frame=10.0))[1] == pytest.approx(found)
+
+
+def test_normals_turn_with_the_mesh_where_a_blend_shape_has_no_offsets_for_them(read):
+    """The triangle's third point rises: the triangle turns about its first edge, and what stood on it still does."""
+    up = SHAPE.replace("pointIndices = [0]", "pointIndices = [2]").replace("(0, 0, 5)", "(0, 0, 1)")
+    for interpolation, values in (("uniform", "(0,0,1)"), ("vertex", "(0,0,1), (0,0,1), (0,0,1)")):
+        _, found = normals_of(read(SKELETON % (up + NORMALS % (values, interpolation)), frame=10.0))
+        assert found == pytest.approx(np.array([[0, -0.5 ** 0.5, 0.5 ** 0.5]] * 3), abs=1e-6)
+
+
+def test_normals_that_fit_no_points_are_told(read):
+    reading = read(SKELETON % (WEIGHTS + NORMALS % ("(1,0,0), (0,1,0)", "vertex")), frame=5.0)
+    assert any("/r/m normals: cannot be skinned" in line for line in reading.warnings), reading.warnings
+
+
+def test_a_chain_of_joints_turns_at_enough_times(read):
+    """Both joints turn alike, so what hangs on the second one turns twice as far; 120 degrees take all times that there are."""
+    turning = SKELETON.replace('joints = ["a/b"]', 'joints = ["a", "a/b"]').replace(
+        "translations.timeSamples = { 0: [(0, 1, 0)], 10: [(10, 1, 0)] }", "translations = [(0, 0, 0), (0, 1, 0)]").replace(
+        "scales = [(1, 1, 1)]", "scales = [(1, 1, 1), (1, 1, 1)]")
+
+    def times(degrees):
+        half = np.radians(degrees) / 2.0
+        end = f"({np.cos(half)}, 0, 0, {np.sin(half)})"
+        text = turning.replace("rotations = [(1, 0, 0, 0)]", "rotations.timeSamples = { 0: [(1, 0, 0, 0), (1, 0, 0, 0)], "
+                               f"1: [{end}, {end}] }}")
+        mesh = read(text % WEIGHTS, frame=0.0, shutter=(0.0, 1.0)).prim("/r/m")
+        return [float(key.partition("@")[2]) for key in mesh if key.startswith("points@")]
+    assert times(60) == pytest.approx(np.linspace(0.0, 1.0, 8), abs=1e-6)
+    assert times(15) == pytest.approx([0.0, 0.5, 1.0])
+    assert times(5) == [0.0, 1.0]
 
 
 def test_rigid_meshes_move_at_no_more_times_than_others(read):

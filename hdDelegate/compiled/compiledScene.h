@@ -35,8 +35,8 @@ struct SceneEdits {
 };
 
 /// The part of a scene that every back end needs, made once for all its renderers: texels, images
-/// of lights, programs of materials, shapes, media of volumes, kernels of splats, where instances are, how finely
-/// surfaces are drawn, and what edits touch. Thread safe.
+/// of lights, programs of materials, shapes, media of volumes, kernels of splats, where instances
+/// are, how finely surfaces are drawn, and what edits touch. Thread safe.
 class CompiledScene {
 public:
     explicit CompiledScene(const std::shared_ptr<Scene>& scene);

@@ -184,7 +184,8 @@ void TextureSystem::setMemory(uint64_t bytes) {
 }
 
 std::shared_ptr<TextureSystem::Image> TextureSystem::shareImage(const ImageSource& source) {
-    std::shared_ptr<Image>& image = _images[source.file + '\n' + source.colorSpace + '\n' + source.renderingSpace->name];
+    std::shared_ptr<Image>& image =
+        _images[source.file + '\n' + source.colorSpace + '\n' + source.renderingSpace->name];
     if (!image) image = std::make_shared<Image>(source, _colorSpaces, _diagnostics, _memory);
     image->source.finestOnly = _finestOnly;
     return image;
@@ -222,9 +223,9 @@ std::shared_ptr<const EmissionProfile> TextureSystem::openProfile(const TextureR
 
 int TextureSystem::open(const TextureRequest& request) {
     std::string key = request.file + '\n' + request.colorSpace + '\n' +
-                      _renderingSpace.load()->name + '\n' + char('0' + int(request.wrapS)) + char('0' + int(request.wrapT)) +
-                      (request.nearest ? 'n' : 'l') + (request.ownWrapS ? 's' : '-') +
-                      (request.ownWrapT ? 't' : '-');
+                      _renderingSpace.load()->name + '\n' + char('0' + int(request.wrapS)) +
+                      char('0' + int(request.wrapT)) + (request.nearest ? 'n' : 'l') +
+                      (request.ownWrapS ? 's' : '-') + (request.ownWrapT ? 't' : '-');
     std::lock_guard<std::mutex> lock(_mutex);
     auto known = _handles.find(key);
     int handle = known == _handles.end() ? -1 : known->second;

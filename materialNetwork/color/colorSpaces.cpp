@@ -98,8 +98,8 @@ std::string listed(const std::vector<std::string>& names) {
 
 struct ColorSpaces::Impl {
     ocio::ConstConfigRcPtr builtin, user; ///< user is null without a configuration of the user's
-    std::string userRec709; ///< the user's name of linear Rec.709, or what stands for it
-    bool bridge = false;    ///< go through the interchange role instead of that name
+    std::string userRec709;   ///< the user's name of linear Rec.709, or what stands for it
+    bool bridge = false;      ///< go through the interchange role instead of that name
     mutable std::mutex mutex; ///< of what follows
     mutable std::map<std::string, ColorTransformPtr> ofValues;
 
@@ -139,18 +139,16 @@ ColorTransformPtr ColorSpaces::Impl::convert(const std::string& name, bool toRec
         if (user && user->getColorSpace(name.c_str())) {
             if (user->getColorSpace(name.c_str())->isData()) return transformOf({});
             if (bridge)
-                return transformOf(
-                    {toRec709 ? ocio::Config::GetProcessorFromConfigs(user, name.c_str(),
-                                                                         builtin, linearRec709)
-                                 : ocio::Config::GetProcessorFromConfigs(builtin, linearRec709,
-                                                                         user, name.c_str())});
-            return transformOf({toRec709
-                                    ? user->getProcessor(name.c_str(), userRec709.c_str())
-                                    : user->getProcessor(userRec709.c_str(), name.c_str())});
+                return transformOf({toRec709 ? ocio::Config::GetProcessorFromConfigs(
+                                                   user, name.c_str(), builtin, linearRec709)
+                                             : ocio::Config::GetProcessorFromConfigs(
+                                                   builtin, linearRec709, user, name.c_str())});
+            return transformOf({toRec709 ? user->getProcessor(name.c_str(), userRec709.c_str())
+                                         : user->getProcessor(userRec709.c_str(), name.c_str())});
         }
         if (!builtin->getColorSpace(name.c_str())) return nullptr;
         return transformOf({toRec709 ? builtin->getProcessor(name.c_str(), linearRec709)
-                                        : builtin->getProcessor(linearRec709, name.c_str())});
+                                     : builtin->getProcessor(linearRec709, name.c_str())});
     } catch (const ocio::Exception&) {
         return nullptr;
     }

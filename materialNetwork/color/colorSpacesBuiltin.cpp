@@ -194,8 +194,8 @@ std::optional<std::array<float, 8>> builtinChromaticities(const std::string& nam
     for (const Space& space : spaces)
         if (name == space.name && space.curve == Curve::Linear && space.primaries != &xyzD65) {
             const Primaries& p = *space.primaries;
-            return std::array<float, 8>{float(p.red[0]),   float(p.red[1]),   float(p.green[0]),
-                                        float(p.green[1]), float(p.blue[0]),  float(p.blue[1]),
+            return std::array<float, 8>{float(p.red[0]),   float(p.red[1]),  float(p.green[0]),
+                                        float(p.green[1]), float(p.blue[0]), float(p.blue[1]),
                                         float(p.white[0]), float(p.white[1])};
         }
     return std::nullopt;

@@ -38,8 +38,7 @@ void convertInputs(NetworkNode& node, const RenderingSpace& space) {
     const NodeDef* def = definitionOf(node.id);
     for (auto& [name, value] : node.inputs) {
         const int i = def ? def->findInput(name) : -1;
-        const bool color =
-            isColor(value.type) || (i >= 0 && isColor(def->inputs[size_t(i)].type));
+        const bool color = isColor(value.type) || (i >= 0 && isColor(def->inputs[size_t(i)].type));
         if (color && !isDataInput(name)) convert(value, space);
     }
     if (!def) return;

@@ -73,8 +73,7 @@ bool coerceValue(const Value& from, const InputDef& to, Value& out,
                                                   : 0.0f;
     out.numbers.resize(n, fill);
     if (to.type == ValueType::Color3 || to.type == ValueType::Color4) {
-        const bool known =
-            ColorSpaces::shared().valueToRec709(from.colorSpace, out.numbers.data());
+        const bool known = ColorSpaces::shared().valueToRec709(from.colorSpace, out.numbers.data());
         if (!finite(out.numbers)) return false; // curves may overflow
         if (!known) problem = messages::valueSpaceUnknown(from.colorSpace);
     }

@@ -66,7 +66,8 @@ bool castsCaustics(const MaterialProgram& program) {
     });
 }
 
-CausticCasters::CausticCasters(const EmbreeScene& scene) : _placements(scene.places().placements()) {
+CausticCasters::CausticCasters(const EmbreeScene& scene)
+    : _placements(scene.places().placements()) {
     for (const Surface* surface : scene.surfaces().with(castsCaustics)) {
         if (surface->shape != Surface::Shape::Triangles || surface->shared) {
             _complete = false;

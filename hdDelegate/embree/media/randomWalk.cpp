@@ -219,8 +219,8 @@ WalkStart startWalk(const WalkMedium& medium, const vec2& u, float uPart) {
     return start;
 }
 
-WalkExit walkBeneath(const WorldRays& scene, const WalkMedium& medium, const Hit& entry,
-                     bool back, const vec3& outside, vec3 origin, vec3 direction, Sampler& sampler,
+WalkExit walkBeneath(const WorldRays& scene, const WalkMedium& medium, const Hit& entry, bool back,
+                     const vec3& outside, vec3 origin, vec3 direction, Sampler& sampler,
                      uint64_t& rays) {
     WalkExit exit;
     const auto phase = sh::phaseHenyeyGreensteinSetup(medium.anisotropy);

@@ -58,8 +58,8 @@ WalkStart startWalk(const WalkMedium& medium, const vec2& u, float uPart);
 /// @param outside unit, out of the object where light went in
 /// @param origin on the surface, or beneath it for a curve or a point
 /// @param rays is counted up
-WalkExit walkBeneath(const WorldRays& scene, const WalkMedium& medium, const Hit& entry,
-                     bool back, const vec3& outside, vec3 origin, vec3 direction, Sampler& sampler,
+WalkExit walkBeneath(const WorldRays& scene, const WalkMedium& medium, const Hit& entry, bool back,
+                     const vec3& outside, vec3 origin, vec3 direction, Sampler& sampler,
                      uint64_t& rays);
 
 } // namespace patina

@@ -158,8 +158,7 @@ bool RasterScene::updateTouched(const SceneEdits& edits, const SceneState& state
     if (!delta.geometry.empty() && !(_volumes.placed().empty() && _splats.empty())) return false;
     _looked += edits.touched.size();
     for (const std::string& path : edits.touched)
-        if (!isSurface(state.geometry.at(path)->kind) || showsInstances(path))
-            return false;
+        if (!isSurface(state.geometry.at(path)->kind) || showsInstances(path)) return false;
     if (!_materials.edit(delta.materials, state, _settings)) return false;
     finishPrograms(stop, compiling);
     if (stop) return true; // the next update looks at everything

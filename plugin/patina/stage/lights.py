@@ -22,7 +22,7 @@ def emit(context, found, linking):
     if context.options.render_pass and found.state.marks.get("patina:visibility:camera") == 0.0 and not is_mesh:
         fields["camera_visible"] = False
     _read_inputs(context, prim, type_, fields)
-    fields["light_link"], fields["shadow_link"] = linking.links_of(prim)
+    fields["light_link"], fields["shadow_link"] = linking.links_of(found)
     fields["light_group"] = _light_group(context, found)
     fields["filters"] = lightFilters.of(context, prim, group)
     _report_network(context, prim, is_mesh)
@@ -79,10 +79,6 @@ def _light_group(context, found):
     if isinstance(own, str) and own:
         return own
     return text(context, found.prim, found.state.primvars, "lightGroup") if found.has_primvars() else ""
-
-
-def is_mesh_light(prim):
-    return prim.HasAPI(UsdLux.MeshLightAPI)
 
 
 def _input(context, prim, name, authored=False):

@@ -19,10 +19,11 @@ class Linking:
         self._ruled = {}  # path that a collection names -> numbers of those categories
         self._wide = []  # numbers of those that hold the root, or patterns
         self._patterns = []  # numbers of those
-        self._divided = {}  # path at or above one that a collection names -> numbers of those categories
+        self._divided = set()  # paths above those
         self._lights = {}  # path of a native prototype -> see lights_below()
-        self._split = set()  # names of groups of native prototypes whose prims have categories
-        self._roots = {}  # name of the group of a point instancer's prototype -> its path on the stage
+        self._within = {}  # path of a native prototype -> whether such a light is linked to parts of its own prototype
+        self.split = set()  # names of groups of native prototypes that signature() divides
+        self.roots = {}  # name of the group of a point instancer's prototype -> its path on the stage
 
     def add(self, found):
         """:param found: light; those of the world are added before the first instance or prototype is asked about"""
@@ -51,8 +52,7 @@ class Linking:
         self._queries.append(query)
         for rule in rules:
             self._ruled.setdefault(rule, []).append(number)
-            for above in rule.GetPrefixes():
-                self._divided.setdefault(above, set()).add(number)
+            self._divided.update(rule.GetPrefixes()[:-1])
         if not rules:
             self._patterns.append(number)
         if not rules or Sdf.Path.absoluteRootPath in rules:
@@ -75,8 +75,10 @@ class Linking:
         """:param found: native instance
         :returns: what two instances of one prototype have to have in common to be lit alike, None where all below each is"""
         path = Sdf.Path(found.state.group.on_stage(found.prim))
-        below = self._divided.get(path, set()).difference(self._ruled.get(path, ()))
-        if below or any(map(_links_within, self.lights_below(found.prim.GetPrototype()).values())):
+        prototype = found.prim.GetPrototype()
+        if prototype.GetPath() not in self._within:
+            self._within[prototype.GetPath()] = any(map(_links_within, self.lights_below(prototype).values()))
+        if path in self._divided or self._within[prototype.GetPath()]:
             return path
         return self._pattern(path) if self._patterns else None
 
@@ -87,23 +89,18 @@ class Linking:
         rows = tuple(bytes(map(self._queries[number].IsPathIncluded, paths)) for number in self._patterns)
         return rows if any(len(set(row)) > 1 for row in rows) else None
 
-    def split(self, name):
-        """:param name: of the group of a native prototype that signature() divides"""
-        self._split.add(name)
-
     def signature_of_root(self, instancer, path):
         """:param instancer: Found of a point instancer, path: of its prototype on the stage
         :returns: what another instancer has to have in common with it to share the prototype"""
-        return instancer.path if path in self._divided or self._patterns else ""
-
-    def add_root(self, name, path):
-        """:param name: of the group of a point instancer's prototype, path: on the stage"""
-        self._roots[name] = path
+        return instancer.path if self._is_named(path) else ""
 
     def is_divided(self, name):
         """:returns: whether the prims of a group have categories of their own"""
-        return not name or name in self._split or name in self._roots and (
-            self._roots[name] in self._divided or bool(self._patterns))
+        return not name or name in self.split or name in self.roots and self._is_named(self.roots[name])
+
+    def _is_named(self, root):
+        """:returns: whether a collection names a prototype of a point instancer or prims below, or may do so by a pattern"""
+        return root in self._ruled or root in self._divided or bool(self._patterns)
 
     def categories(self, found):
         """:returns: names of the categories that hold a found prim; none where its instances have them"""
@@ -112,17 +109,20 @@ class Linking:
         return [self._names[number] for number in sorted(self._numbers(found))]
 
     def _numbers(self, found):
-        """:returns: set of the numbers of the categories that hold a prim: inside of a point instancer's prototype, of those
-            that name neither it nor prims below it, those that hold the instancer"""
+        """:returns: set of the numbers of the categories that hold a prim. In a point instancer's prototype those that name
+            it or prims between it and this one are asked about this one, others about the instancer"""
         group = found.state.group
-        path = Sdf.Path(group.on_stage(found.prim))
-        asked = set(self._wide).union(*(self._ruled.get(above, ()) for above in path.GetPrefixes()))
-        own = {number for number in asked if self._queries[number].IsPathIncluded(path)}
-        instancer, root = group.instancer
+        path, (instancer, root) = Sdf.Path(group.on_stage(found.prim)), group.instancer
+        named = self._named(path)
+        own = {number for number in named.union(self._wide) if self._queries[number].IsPathIncluded(path)}
         if not instancer:
             return own
-        inside = self._divided.get(root, set())
+        inside = self._named(path, root)
         return own & inside.union(self._patterns) | self._numbers(instancer) - inside
+
+    def _named(self, path, root=Sdf.Path.absoluteRootPath):
+        """:returns: set of the numbers of the categories that name a prim or those above it up to a root"""
+        return set().union(*(self._ruled.get(above, ()) for above in path.GetPrefixes() if above.HasPrefix(root)))
 
 
 def _collections(light):

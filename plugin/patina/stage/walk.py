@@ -233,7 +233,7 @@ class Walk:
                               chain=outer.chain, above=above, outer=outer, arcs=self._arcs(found.prim))
                 self._native[key] = group
                 if links:
-                    self.linking.split(group.name)
+                    self.linking.split.add(group.name)
                 children = prototype.GetChildren()
                 states = self._states(found.prim, outer, children, above.with_(group=group))
                 self._todo.append((children, states, Usd.PrimDefaultPredicate))
@@ -276,7 +276,7 @@ class Walk:
             return name
         self._nested += bool(outer.chain)
         self._pointed[key] = name
-        self.linking.add_root(name, place)
+        self.linking.roots[name] = place
         inside = root.GetPath().HasPrefix(instancer.GetPath())
         shown = outer.path(root) if inside else self._shown_below(instancer, root, outer)
         group = Group(name=name, anchor=root.GetParent(), source=str(target), shown=shown, chain=outer.chain + (str(target),),

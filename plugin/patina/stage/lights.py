@@ -135,9 +135,19 @@ def _is_shaped(prim):
     return prim.HasAPI(UsdLux.ShapingAPI) or any(prim.HasAttribute("inputs:" + n) or prim.HasAttribute(n) for n in names)
 
 
+def _report_shaping(context, prim):
+    """Tells of the inputs that shape other lights."""
+    for name, idle in (("shaping:cone:angle", 180.0), ("shaping:focus", 0.0), ("shaping:ies:file", "")):
+        value = _input(context, prim, name, authored=True)
+        if value is not None and getattr(value, "path", value) != idle:
+            context.warn(prim.GetPath(), "inputs:" + name, "inputIgnored", shown(value))
+
+
 def _read_inputs(context, prim, light_type, fields):
     """Values that are none leave the scene's own fallback, which is the schema's."""
     shaped = fields["shaping_cone_authored"] = _is_shaped(prim)
+    if light_type == "mesh":
+        _report_shaping(context, prim)
     for group, name, key, type_ in _INPUTS:
         if group == "Shaping" and not shaped or group == "Image" and light_type not in ("dome", "rect"):
             continue

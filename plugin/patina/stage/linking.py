@@ -38,7 +38,7 @@ class Linking:
         return self._links.get(found.path, _KEPT)
 
     def _category(self, light, collection):
-        if not _is_selective(collection):
+        if not is_selective(collection):
             return ""
         name, number = str(collection.GetCollectionPath()), len(self._names)
         try:
@@ -134,14 +134,14 @@ def _links_within(light):
     """:param light: in a native prototype
     :returns: whether its collections name something in that, or may do so by a pattern"""
     root = light.GetPath().GetPrefixes()[0]
-    for collection in filter(_is_selective, _collections(light)):
+    for collection in filter(is_selective, _collections(light)):
         rules = collection.ComputeMembershipQuery().GetAsPathExpansionRuleMap()
         if not rules or any(rule.HasPrefix(root) for rule in rules):
             return True
     return False
 
 
-def _is_selective(collection):
+def is_selective(collection):
     """Whether a collection can leave a prim out."""
     if not collection:
         return False

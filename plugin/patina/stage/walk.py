@@ -121,11 +121,11 @@ class Walk:
             shown = state.with_(purpose=skeletons.purpose_of(prim, state.purpose)) if kind == "skeleton" else state
             found = self._add(prim, shown, names, self.walked.gprims) if self._drawn(shown) else None
             if found and prim.HasAPI(UsdLux.LightAPI):
-                self._light_of_gprim(found, kind)
+                self._light_by_api(found, kind)
             if prim.IsInstance():
                 return None
         elif kind is None and imageable and prim.HasAPI(UsdLux.LightAPI):
-            self._light_of_gprim(Found(prim, state, state.group.path(prim)), kind)
+            self._light_by_api(Found(prim, state, state.group.path(prim)), kind)
         if prim.IsInstance() and state.skinning is None:
             if self._has_room(prim, state, range(self._instances), "instances"):
                 self._instances += 1
@@ -180,13 +180,13 @@ class Walk:
             return bool(self.linking.lights_below(prim.GetPrototype()))
         return kind == "light" or kind == "mesh" and prim.HasAPI(UsdLux.MeshLightAPI)
 
-    def _light_of_gprim(self, found, kind):
+    def _light_by_api(self, found, kind):
         """:param found: prim that is no light by its type and has the LightAPI"""
         if kind == "mesh" and found.prim.HasAPI(UsdLux.MeshLightAPI):
             self.walked.mesh_lights.append(found)
             self.linking.add(found)
         elif kind != "volume" or not found.prim.HasAPI(UsdLux.VolumeLightAPI):
-            self.context.warn(found.path, "apiSchemas", "inputIgnored", f"a light by LightAPI on a {found.prim.GetTypeName()}")
+            self.context.warn(found.path, "apiSchemas", "inputIgnored", f"LightAPI on a prim of type {found.prim.GetTypeName()}")
 
     def _has_room(self, prim, state, found, limit="prims"):
         """:param found: what there is of a kind

@@ -39,7 +39,8 @@ def emit_instancer(context, found, names, linking):
         found.path, group=group.name, prototypes=names, prototype_indices=indices[keep],
         transforms=sampled(offsets, transforms),
         ids=ids[keep].astype(np.int64).astype(np.int32), primvars=_primvars(context, prim, keep),
-        categories=[categories[index] for index in indices[keep]] if any(categories) else None, asset_name=found.state.asset or None)
+        categories=[categories[index] for index in indices[keep]] if any(categories) else None,
+        asset_name=found.state.asset or None)
     context.count("pointInstancers")
     context.count("instances", int(keep.sum()))
 

@@ -186,7 +186,8 @@ class Walk:
             self.walked.mesh_lights.append(found)
             self.linking.add(found)
         elif kind != "volume" or not found.prim.HasAPI(UsdLux.VolumeLightAPI):
-            self.context.warn(found.path, "apiSchemas", "inputIgnored", f"LightAPI on a prim of type {found.prim.GetTypeName()}")
+            type_ = found.prim.GetTypeName()
+            self.context.warn(found.path, "apiSchemas", "inputIgnored", f"LightAPI on a prim of type {type_}")
 
     def _has_room(self, prim, state, found, limit="prims"):
         """:param found: what there is of a kind

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Links that name parts of instances, and lights in instances that are linked to parts of their own: the lights of a stage light
-the same shapes where it is instanced and where it is not."""
+"""Links that name parts of instances, and lights in instances that are linked to parts of their own: they light the same shapes
+where a stage is instanced and where it is not."""
 import pytest
 
 
@@ -66,7 +66,8 @@ def light(link):
 @pytest.mark.parametrize("places", [
     {"WORLD": NOT_ALL + "rel collection:lightLink:includes = [</a/in/t>, </b>]"},
     {"WORLD": NOT_ALL + "rel collection:lightLink:includes = </a>"},
-    {"WORLD": "rel collection:lightLink:excludes = [</a/u>, </b/in>]  rel collection:shadowLink:excludes = [</c/s>, </b/in/s>]"},
+    {"WORLD": "rel collection:lightLink:excludes = [</a/u>, </b/in>]  "
+              "rel collection:shadowLink:excludes = [</c/s>, </b/in/s>]"},
     {"WORLD": NOT_ALL + "rel collection:lightLink:includes = </a>  rel collection:lightLink:excludes = </a/in/s>"},
     {"WORLD": PATTERN + '"//t"'}, {"WORLD": PATTERN + '"/a//"'}, {"WORLD": PATTERN + '"//in //u"'},
     {"OUTER": light(NOT_ALL + "rel collection:lightLink:includes = [</outer/u>, </outer/in/s>]")},

@@ -353,3 +353,40 @@ def test_passes_that_cannot_be_used_are_named(folder, capfd, path, problem):
 def test_a_pass_and_settings_are_not_given_together(folder, capfd):
     assert record("x.exr", "-rp", "/Render/empty", "--settings", "stage") == 2
     assert "--settings cannot be beside it" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("policy, given, aspect", [
+    ("adjustPixelAspectRatio", 1, 20 / 10 * 6 / 24), ("adjustPixelAspectRatio", 2, 20 / 10 * 6 / 24), ("expandAperture", 2, 2)])
+def test_pixels_have_the_aspect_that_the_policy_gives_them(folder, policy, given, aspect):
+    """As UsdRenderSpec computes it: the aperture's aspect over that of 24 x 6 pixels."""
+    _odd(folder, "alone", f'token aspectRatioConformPolicy = "{policy}"')
+    _odd(folder, "alone", f"float pixelAspectRatio = {given}")
+    assert record("a.exr", "--settings", "/Render/alone", "--samples", 1) == 0
+    assert image("a.exr").pixel_aspect_ratio == pytest.approx(aspect)
+
+
+@pytest.mark.parametrize("purposes, drawn", [
+    ('["default", "proxy"]', "ball stand"), ('["proxy"]', "stand"), ('["render"]', ""), ('["default"]', "ball"),
+    ('["render", "default"]', "ball"), ("[]", "ball"), ('["sets"]', "ball")])
+def test_prims_of_purpose_default_are_drawn_where_that_is_included(folder, purposes, drawn):
+    """The ball is of purpose default, 9 before the camera; the stand is a proxy, and around both."""
+    _odd(folder, "alone", f"token[] includedPurposes = {purposes}")
+    assert record("a.exr", "--settings", "/Render/alone", "--samples", 1, "--frames", "1", "--camera", "/camera", "--aov",
+                  "depth", "--dataWindow=0,0,23,5") == 0
+    depth = np.array(image("a.exr").pixels)[..., image("a.exr").channels.index("depth.Z")]
+    assert (depth.min() < 10, depth.max() < 100) == ("ball" in drawn, "stand" in drawn)
+    told = {w["id"] for w in reported()["warnings"] if w["input"] == "includedPurposes"}
+    assert ("noPurposeIncluded" in told) == (purposes in ("[]", '["sets"]'))
+
+
+@pytest.mark.parametrize("window, size, held", [
+    ((0.25, 0.25, 0.75, 0.75), 6, (1, 2, 3, 3)), ((0.25, 0.25, 0.75, 0.75), 10, (2, 3, 5, 5)),
+    ((0.05, 0.05, 0.95, 0.95), 10, (0, 1, 9, 9)), ((-0.25, 0, 1, 1.25), 6, (-2, -1, 8, 7)),
+    ((0.3, 0.1, 0.5, 0.9), 10, (3, 1, 2, 8))])
+def test_a_pixel_belongs_to_the_window_that_holds_its_centre(folder, window, size, held):
+    """A centre on the window's left or lower edge is in it, one on its right or upper edge is not (UsdRender's rasterization
+    rule), so windows side by side share no pixel and miss none. Rows count from the top."""
+    _odd(folder, "alone", f"float4 dataWindowNDC = {window}")
+    assert record("a.exr", "--settings", "/Render/alone", "--samples", 1, "-w", size, "--imageHeight", size) == 0
+    made = image("a.exr")
+    assert (made.x, made.y, made.width, made.height) == held

@@ -6,9 +6,10 @@ import pytest
 
 from inProcess import patina
 from rendering import color, shot
-from usda import camera, card, floor, material, mesh, prim, stage
+from usda import camera, card, floor, lobe, material, mesh, prim, stage
 
 GREY = 0.5
+GROUND = (lobe("grey", "oren_nayar_diffuse_bsdf", color=(GREY,) * 3), floor("floor", 90, bind="grey"))
 FROM_ABOVE = {"flat": (0.4, 0.4), "clippingRange": (0.01, 100), "turn": (-90, 0, 0)}
 SMALL = ("--camera", "/camera", "--imageWidth", 4, "--imageHeight", 4)
 
@@ -24,20 +25,20 @@ def test_normalized_mesh_lights_are_as_bright_at_each_place(tmp_path, instanceab
     5e-4; the lamp farther off gives less than 1e-6 of it."""
     lamp = card("lamp", 0.01, "bool inputs:normalize = 1", "float inputs:intensity = 8", apis=("MeshLightAPI",))
     lamps = [prim("Xform", name, meta=("inherits = </class>", f"instanceable = {bool(instanceable)}".lower()), at=(x, 2, 0),
-                  turn=(-90, 0, 0), scale=(size, size, size)) for name, x, size in (("a", -50, 1), ("b", 50, 3))]
+                  turn=(90, 0, 0), scale=(size, size, size)) for name, x, size in (("a", -50, 1), ("b", 50, 3))]
     for x in (-50, 50):
-        found = seen(tmp_path, prim("", "class", lamp, specifier="class"), *lamps, floor("floor", 90, color=(GREY,) * 3),
+        found = seen(tmp_path, prim("", "class", lamp, specifier="class"), *lamps, *GROUND,
                      camera(at=(x, 1, 0), **FROM_ABOVE))
         assert found == pytest.approx(GREY / math.pi * 8 / 4, rel=2e-3)
 
 
 def test_a_shadow_fades_over_no_more_than_its_distance(tmp_path):
     """A card 2 above the floor, shadows of 3: two thirds of the light come through, however long the falloff."""
-    block, ground = card("block", 1, at=(0, 2, 0), turn=(-90, 0, 0)), floor("floor", 9, color=(GREY,) * 3)
+    block = card("block", 1, at=(0, 2, 0), turn=(-90, 0, 0))
 
     def under(*shadow, prims=(block,)):
         sun = prim("DistantLight", "sun", *shadow, apis=("ShadowAPI",), intensity=1, angle=0, turn=(-90, 0, 0))
-        return seen(tmp_path, sun, ground, *prims, camera(at=(0, 1, 0), **FROM_ABOVE), samples=4)
+        return seen(tmp_path, sun, *GROUND, *prims, camera(at=(0, 1, 0), **FROM_ABOVE), samples=4)
 
     lit, far = under(prims=()), under("float inputs:shadow:distance = 3", "float inputs:shadow:falloff = 10")
     assert far == pytest.approx(2 / 3 * lit, rel=1e-5)

@@ -4,8 +4,11 @@
 Names of products may hold places for the frame. They lead out of the folder of products only where a flag allows it: the stage
 may be somebody else's.
 """
+import math
 import os
 from collections import OrderedDict
+
+import numpy as np
 
 from patina.cli import frames, recordFlags, rows, settingFlags, shot
 from patina.cli.compiled import _patina
@@ -134,15 +137,20 @@ def _render_settings(prim, product, arguments, size):
         settings["enableDepthOfField"] = False
     window = prim.numbers(product, "dataWindowNDC", 4) if arguments.dataWindow is None else None
     if window is not None and window != [0.0, 0.0, 1.0, 1.0]:
-        # y up; pixels whose centres lie inside belong to it.
-        (x0, y0, x1, y1), (width, height) = (min(_FAR, max(-_FAR, n)) for n in window), size
-        settings["dataWindow"] = [round(x0 * width), round((1.0 - y1) * height),
-                                  round(x1 * width) - 1, round((1.0 - y0) * height) - 1]
+        width, height = size
+        left, bottom, right, top = (_first_pixel(n, pixels) for n, pixels in zip(window, size * 2))
+        settings["dataWindow"] = [left, height - top, right - 1, height - 1 - bottom]
         if settings["dataWindow"][2] < settings["dataWindow"][0] or settings["dataWindow"][3] < settings["dataWindow"][1]:
             where = product.GetPath() if product else prim.path
             prim.warn(where, "dataWindowNDC", "windowEmpty")
             del settings["dataWindow"]
     return settings
+
+
+def _first_pixel(edge, pixels):
+    """:param edge: of a window, 0 to 1 for the frame, from the left or the bottom
+    :returns: number of the first pixel whose centre lies at it or behind it, in single precision as the edge is stored"""
+    return math.ceil(np.float32(min(_FAR, max(-_FAR, edge))) * np.float32(pixels) - np.float32(0.5))
 
 
 def _set_pixel_aspect_ratio(prim, product, settings):

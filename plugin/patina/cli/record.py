@@ -204,7 +204,8 @@ class _Job:
     def _translate(self, shot):
         wanted = [aov for shot in self.shots for aov in shot.aovs()]
         options = reader.StageOptions(
-            frame=shot.frame, purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
+            frame=shot.frame, purposes=self.purposes, default_purpose="default" in self.purposes,
+            complexity=self.arguments.complexity, camera=shot.camera,
             shutter=None if self._blurs(shot) else (0.0, 0.0), headlight=not self.arguments.disableCameraLight,
             motion=any(aov.startswith("motion") for aov in wanted),
             render_pass=self.arguments.renderPassPrimPath, rendering_color_space=self.arguments.renderingColorSpace,

@@ -227,12 +227,13 @@ def image_options_of(arguments):
 
 
 def purposes_of(arguments):
-    """:returns: list of purposes, `default` among them"""
+    """:returns: list of purposes, `default` among them unless a UsdRenderSettings prim leaves it out"""
     names = arguments.purposes.replace(",", " ").split()
     for name in names:
         if name not in ("default", "render", "proxy", "guide", "none"):
             raise UsageError(f"patina record: --purposes: there is no purpose '{name}'")
-    return ["default"] + [name for name in dict.fromkeys(names) if name not in ("default", "none")]
+    always = ["default"] if getattr(arguments, "defaultPurpose", True) else []
+    return always + [name for name in dict.fromkeys(names) if name not in ("default", "none")]
 
 
 def _complexity(text):

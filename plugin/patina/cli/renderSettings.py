@@ -172,7 +172,9 @@ def _purposes(merged, prim):
     for purpose in included:
         if purpose not in known:
             prim.warn(prim.path, "includedPurposes", "includedPurposeUnknown", purpose)
-    merged.purposes = ",".join(known) or "none"
+    if not known:
+        prim.warn(prim.path, "includedPurposes", "noPurposeIncluded")
+    merged.purposes, merged.defaultPurpose = ",".join(known) or "none", not known or "default" in known
 
 
 def _material_purpose(prim):

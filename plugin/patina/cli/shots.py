@@ -2,7 +2,7 @@
 """The shots that `patina record` renders, one after the other."""
 import numpy as np
 
-from patina.cli import denoiser, frames, products, recordFlags
+from patina.cli import denoiser, frames, products, recordFlags, settingFlags
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.shot import Output, Shot
 
@@ -65,12 +65,16 @@ def size_of(shot, camera, pixel_aspect):
 
 
 def place(settings, size, camera, warn):
-    """Sets the film's size. Where the data window reaches beyond the frame, the film is that window.
+    """Sets the film's size, and the aspect of its pixels where that follows from the camera. Where the data window reaches
+    beyond the frame, the film is that window.
 
     :param settings: dict of render settings, changed
     :param size: of the frame, pixels
     :param warn: takes an input's name, the id of a message and its fields"""
     width, height = settings["width"], settings["height"] = size
+    if settings.get("aspectRatioConformPolicy") == "adjustPixelAspectRatio":
+        least, most = settingFlags.table()["pixelAspectRatio"].words["flagRange"]
+        settings["pixelAspectRatio"] = min(max(camera["image_aspect"] * height / width, least), most)
     window = settings.get("dataWindow")
     if not window or window[0] >= 0 and window[1] >= 0 and window[2] < width and window[3] < height:
         return

@@ -22,7 +22,7 @@ class Context:
         self.stage, self.edit, self.options = stage, edit, options
         self.time = Usd.TimeCode.Default() if options.frame is None else Usd.TimeCode(options.frame)
         self.shutter = (0.0, 0.0)
-        self.purposes = set(options.purposes) | {"default"}
+        self.purposes = set(options.purposes) - {"default"} | ({"default"} if options.default_purpose else set())
         meters = UsdGeom.GetStageMetersPerUnit(stage)
         self.meters_per_unit = meters if 0.0 < meters < np.inf else UsdGeom.LinearUnits.centimeters
         self.time_codes_per_second = stage.GetTimeCodesPerSecond() or 24.0

@@ -35,12 +35,13 @@ def emit_instancer(context, found, names, linking):
     ids = get(prim, "ids", context.time)
     ids = np.asarray(ids) if ids is not None and len(ids) == len(indices) else np.arange(len(indices))
     transforms = [np.ascontiguousarray(s[keep]) for s in samples]
-    categories = linking.categories(found)
+    categories = [[] if linking.is_divided(name) else linking.categories(found) for name in names]
     context.edit.set_instancer(
         found.path, group=group.name, prototypes=names, prototype_indices=indices[keep],
         transforms=sampled(offsets, transforms),
         ids=ids[keep].astype(np.int64).astype(np.int32), primvars=_primvars(context, prim, keep),
-        categories=[categories] * int(keep.sum()) if categories else None, asset_name=found.state.asset or None)
+        categories=[categories[index] for index in indices[keep]] if any(categories) else None,
+        asset_name=found.state.asset or None)
     context.count("pointInstancers")
     context.count("instances", int(keep.sum()))
 
@@ -171,7 +172,7 @@ def emit_instances(context, outer, prototype, founds, linking, values):
         context.warn(founds[0].prim.GetPath(), "xformOpOrder", "instanceTransformNotFinite")
         for sample in samples:
             sample[~finite] = np.eye(4)
-    categories = [linking.categories(found) for found in founds]
+    categories = [] if linking.is_divided(prototype) else [linking.categories(found) for found in founds]
     context.edit.set_instancer(
         founds[0].path, group=outer, prototypes=[prototype],
         prototype_indices=np.zeros(len(founds), dtype=np.int32),

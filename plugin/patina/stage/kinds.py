@@ -3,7 +3,7 @@
 import functools
 
 import _patina
-from pxr import Tf, Usd, UsdGeom, UsdLux
+from pxr import Tf, Usd, UsdGeom
 
 GPRIMS = {
     "Mesh": "mesh", "BasisCurves": "curves", "Points": "points", "Sphere": "sphere", "Cube": "cube",
@@ -58,7 +58,9 @@ class Kinds:
                 return "light"
             if name in UNSUPPORTED:
                 return "unsupported"
-        return "unsupported" if prim.IsA(UsdGeom.Gprim) or prim.HasAPI(UsdLux.LightAPI) else None
+        definition = Usd.SchemaRegistry().FindConcretePrimDefinition(prim.GetPrimTypeInfo().GetSchemaTypeName())
+        is_light = definition and "LightAPI" in definition.GetAppliedAPISchemas()  # by its type, whatever this prim applies
+        return "unsupported" if is_light or prim.IsA(UsdGeom.Gprim) else None
 
 
 GPRIM_KINDS = frozenset(GPRIMS.values())

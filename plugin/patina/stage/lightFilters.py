@@ -2,10 +2,11 @@
 """Light filters: prims of RenderMan's types that a light names by `light:filters`."""
 import _patina
 import numpy as np
-from pxr import UsdGeom
+from pxr import UsdGeom, UsdLux
 
 from . import assets
 from .context import number, shown, targets, vector
+from .linking import is_selective
 from .transforms import transform_of
 
 _PREFIXES = ("inputs:ri:lightFilter:", "inputs:", "ri:lightFilter:", "")
@@ -73,6 +74,8 @@ def _read(context, prim, name):
 
 def _tell_of_others(context, prim):
     """Warns of inputs that are not evaluated."""
+    if is_selective(UsdLux.LightFilter(prim).GetFilterLinkCollectionAPI()):
+        context.warn(prim.GetPath(), "collection:filterLink", "inputIgnored", "a link to some prims")
     known = {name for names, _, _ in _INPUTS for name in names}
     for attribute in prim.GetAuthoredAttributes():
         prefix = next((p for p in _PREFIXES[:-1] if attribute.GetName().startswith(p)), None)

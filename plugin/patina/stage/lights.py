@@ -22,7 +22,7 @@ def emit(context, found, linking):
     if context.options.render_pass and found.state.marks.get("patina:visibility:camera") == 0.0 and not is_mesh:
         fields["camera_visible"] = False
     _read_inputs(context, prim, type_, fields)
-    fields["light_link"], fields["shadow_link"] = linking.links_of(prim)
+    fields["light_link"], fields["shadow_link"] = linking.links_of(found)
     fields["light_group"] = _light_group(context, found)
     fields["filters"] = lightFilters.of(context, prim, group)
     _report_network(context, prim, is_mesh)
@@ -81,10 +81,6 @@ def _light_group(context, found):
     return text(context, found.prim, found.state.primvars, "lightGroup") if found.has_primvars() else ""
 
 
-def is_mesh_light(prim):
-    return prim.HasAPI(UsdLux.MeshLightAPI)
-
-
 def _input(context, prim, name, authored=False):
     """:returns: value of an input, also under the name that it had before OpenUSD 21.02"""
     if context.light_fallbacks.is_authored(prim, name):
@@ -139,9 +135,19 @@ def _is_shaped(prim):
     return prim.HasAPI(UsdLux.ShapingAPI) or any(prim.HasAttribute("inputs:" + n) or prim.HasAttribute(n) for n in names)
 
 
+def _report_shaping(context, prim):
+    """Tells of the inputs that shape other lights."""
+    for name, idle in (("shaping:cone:angle", 180.0), ("shaping:focus", 0.0), ("shaping:ies:file", "")):
+        value = _input(context, prim, name, authored=True)
+        if value is not None and getattr(value, "path", value) != idle:
+            context.warn(prim.GetPath(), "inputs:" + name, "inputIgnored", shown(value))
+
+
 def _read_inputs(context, prim, light_type, fields):
     """Values that are none leave the scene's own fallback, which is the schema's."""
     shaped = fields["shaping_cone_authored"] = _is_shaped(prim)
+    if light_type == "mesh":
+        _report_shaping(context, prim)
     for group, name, key, type_ in _INPUTS:
         if group == "Shaping" and not shaped or group == "Image" and light_type not in ("dome", "rect"):
             continue

@@ -9,6 +9,7 @@ class StageOptions:
 
     frame: time code, or None for default values
     purposes: drawn besides those of purpose "default"
+    default_purpose: whether these are drawn
     complexity: of usdrecord: a name (low, medium, high, veryhigh) or 1.0 ... 1.3 and more; each 0.1
         is one level of subdivision
     camera: path or name; None takes the stage's own (render settings, main_cam, the first), and
@@ -24,6 +25,7 @@ class StageOptions:
     """
     frame: object = None
     purposes: tuple = ("default", "render")
+    default_purpose: bool = True
     complexity: object = 1.0
     camera: object = None
     shutter: object = None

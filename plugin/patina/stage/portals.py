@@ -27,6 +27,6 @@ def is_used(context, prim):
     if "PortalLight" not in kinds.schemas_of(prim):
         return False
     if context.portals is None:
-        every = Usd.PrimRange(context.stage.GetPseudoRoot())
-        context.portals = {path for prim in every for path in targets(prim, "portals")}
+        roots = (context.stage.GetPseudoRoot(), *context.stage.GetPrototypes())
+        context.portals = {path for root in roots for prim in Usd.PrimRange(root) for path in targets(prim, "portals")}
     return prim.GetPath() in context.portals

@@ -40,10 +40,10 @@ def _read(context):
     edit.set_rendering_color_space(context.options.rendering_color_space)
 
     bindings = Bindings(context)
-    walked = Walk(context, bindings).run()
+    linking = Linking(context)
+    walked = Walk(context, bindings, linking).run()
     chosen = cameras.choose(context, walked)
     context.shutter = cameras.shutter_of(context, chosen)
-    linking = Linking(context)
     has_lights = _emit_lights(context, walked, linking)
     _emit_geometry(context, walked, bindings, linking)
     camera = None
@@ -67,12 +67,12 @@ def _read(context):
 
 
 def _emit_lights(context, walked, linking):
-    """:returns: whether there are lights, or may be in another render pass"""
-    founds = walked.lights + [f for f in walked.gprims if f.prim.IsA(UsdGeom.Mesh) and lights.is_mesh_light(f.prim)]
+    """:returns: whether there are lights, or may be at another time or in another render pass"""
+    founds = walked.lights + walked.mesh_lights
     for found in founds:
         with Guard(context, found.prim):
             lights.emit(context, found, linking)
-    return bool(founds) or walked.dark > 0
+    return bool(founds) or walked.dark
 
 
 def _emit_geometry(context, walked, bindings, linking):

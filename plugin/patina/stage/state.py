@@ -12,6 +12,8 @@ class Group:
     shown: str = ""  # ... and the path that stands for it in the scene
     material: str = ""  # bound by the instance; the prototype's own bindings are stronger ...
     material_rules: bool = False  # ... unless this is set
+    native: tuple = ("", "")  # native prototype that holds it and where its first instance stands: paths of the stage
+    instancer: tuple = field(default=(None, None), compare=False)  # point instancer around it: Found, path of the prototype
     place: object = field(default=None, compare=False)  # of a point instancer's prototype: matrix of its nearest instance
     chain: tuple = ()  # prototypes of point instancers that this one is drawn inside of
     above: object = field(default=None, compare=False)  # state at the root of the native prototype that holds it
@@ -22,6 +24,10 @@ class Group:
         """:returns: the path of a prim in the scene"""
         path = str(prim.GetPath())
         return self.shown + path[len(self.source):] if self.source else path
+
+    def on_stage(self, prim):
+        """:returns: the path of a prim on the stage, in the first instance of its native prototype"""
+        return self.native[1] + str(prim.GetPath())[len(self.native[0]):]
 
 
 @dataclass(frozen=True)
@@ -64,9 +70,10 @@ class Walked:
     values: object  # InstanceValues, of native instances
     gprims: list = field(default_factory=list)
     lights: list = field(default_factory=list)
+    mesh_lights: list = field(default_factory=list)  # those of gprims that are lights as well
     cameras: list = field(default_factory=list)
     inner_cameras: set = field(default_factory=set)  # names of those inside of prototypes
     instancers: list = field(default_factory=list)  # (Found, group names of the prototypes)
     instances: dict = field(default_factory=dict)  # (group, prototype group, signature of values) -> list of Found
-    dark: int = 0  # lights that a render pass has not
+    dark: bool = False  # whether there are lights that are invisible, or that a render pass has not
     boxes: list = field(default_factory=list)  # what stands for its subtree by its state's draw mode

@@ -6,7 +6,7 @@ and that change what is drawn (material, purpose, draw mode, marks). Primvars ar
 """
 from dataclasses import replace
 
-from pxr import Usd, UsdGeom
+from pxr import Sdf, Usd, UsdGeom, UsdLux
 
 from patina import limits
 
@@ -27,13 +27,14 @@ _PROXIES = Usd.TraverseInstanceProxies()  # what is skinned differs from instanc
 
 
 class Walk:
-    def __init__(self, context, bindings):
-        self.context, self.bindings = context, bindings
+    def __init__(self, context, bindings, linking):
+        self.context, self.bindings, self.linking = context, bindings, linking
         self.walked = Walked(InstanceValues(context))
         self._kinds = Kinds()
         self._levels = Levels(context)
         self._pass = RenderPass(context.stage, context.options.render_pass) if context.options.render_pass else None
         self._pending = []  # native instances whose prototype is not chosen yet
+        self._instancers = []  # the items of walked.instancers whose prototypes are not chosen yet
         self._todo = []  # (prims, their states, predicate)
         self._native = {}  # what prims of a prototype inherit -> group
         self._pointed = {}  # (prototype of a point instancer, group that it stands in) -> name of its group
@@ -55,6 +56,7 @@ class Walk:
         while self._todo or self._pending:
             while self._todo:
                 self._walk(*self._todo.pop())
+                self._place_prototypes()
             self._place_instances()
         self._drop_empty()
         return self.walked
@@ -87,6 +89,7 @@ class Walk:
         if state.hidden:
             if kind == "camera":
                 self._camera(prim, state)
+            self.walked.dark = self.walked.dark or self._holds_lights(prim, kind)
             return state
         names = prim.GetAuthoredPropertyNames() if imageable else ()
         if ("visibility" in names and prim.GetPath() != state.level
@@ -101,22 +104,28 @@ class Walk:
             path = state.group.path(prim)
             state = self._pass.state_of(path, state) if self._pass else state
             if state and self._has_room(prim, state, self.walked.instancers):
-                self._instancer(Found(prim, state, path, names))
+                self._instancers.append((Found(prim, state, path, names), []))
+                self.walked.instancers.append(self._instancers[-1])
             return None
         if kind == "skelRoot":
             state = state.with_(skinning=skinning_of(self.context, prim))
         elif kind == "camera":
             self._camera(prim, state)
         elif kind == "light":
-            self._add(prim, state, names, self.walked.lights)
+            found = self._add(prim, state, names, self.walked.lights)
+            if found:
+                self.linking.add(found)
         elif kind == "unsupported" and not portals.is_used(self.context, prim):
-            self.context.warn(prim.GetPath(), "", "typeNotDrawn", prim.GetTypeName())
+            self.context.warn(state.group.path(prim), "", "typeNotDrawn", prim.GetTypeName())
         elif kind in GPRIM_KINDS:
             shown = state.with_(purpose=skeletons.purpose_of(prim, state.purpose)) if kind == "skeleton" else state
-            if self._drawn(shown):
-                self._add(prim, shown, names, self.walked.gprims)
+            found = self._add(prim, shown, names, self.walked.gprims) if self._drawn(shown) else None
+            if found and prim.HasAPI(UsdLux.LightAPI):
+                self._light_by_api(found, kind)
             if prim.IsInstance():
                 return None
+        elif kind is None and imageable and prim.HasAPI(UsdLux.LightAPI):
+            self._light_by_api(Found(prim, state, state.group.path(prim)), kind)
         if prim.IsInstance() and state.skinning is None:
             if self._has_room(prim, state, range(self._instances), "instances"):
                 self._instances += 1
@@ -155,12 +164,30 @@ class Walk:
         return state.purpose in self.context.purposes
 
     def _add(self, prim, state, names, found):
-        """Adds a prim to what was found of a kind, if there is room, and the pass has it."""
+        """Adds a prim to what was found of a kind, if there is room, and the pass has it.
+
+        :returns: Found, or None"""
         path = state.group.path(prim)
         state = self._pass.state_of(path, state) if self._pass else state
         if state and self._has_room(prim, state, found):
             found.append(Found(prim, state, path, names))
-        self.walked.dark += state is None and found is self.walked.lights
+            return found[-1]
+        self.walked.dark |= state is None and found is self.walked.lights
+        return None
+
+    def _holds_lights(self, prim, kind):
+        if prim.IsInstance():
+            return bool(self.linking.lights_below(prim.GetPrototype()))
+        return kind == "light" or kind == "mesh" and prim.HasAPI(UsdLux.MeshLightAPI)
+
+    def _light_by_api(self, found, kind):
+        """:param found: prim that is no light by its type and has the LightAPI"""
+        if kind == "mesh" and found.prim.HasAPI(UsdLux.MeshLightAPI):
+            self.walked.mesh_lights.append(found)
+            self.linking.add(found)
+        elif kind != "volume" or not found.prim.HasAPI(UsdLux.VolumeLightAPI):
+            type_ = found.prim.GetTypeName()
+            self.context.warn(found.path, "apiSchemas", "inputIgnored", f"LightAPI on a prim of type {type_}")
 
     def _has_room(self, prim, state, found, limit="prims"):
         """:param found: what there is of a kind
@@ -190,11 +217,11 @@ class Walk:
             rules = stronger
             if outer.material and (outer.material_rules or not material):
                 material, rules = outer.material, outer.material_rules
-            split = self.walked.values.split(state.primvars)
+            split, links = self.walked.values.split(state.primvars), self.linking.signature(found)
             key = (str(prototype.GetPath()), material, rules, state.purpose, state.draw_mode,
                    tuple(sorted(state.marks.items())), state.spaces, split.key,
                    outer.name if self._reaches_out(prototype, outer) else "",
-                   self._levels.signature(found.prim, outer), self._pass.signature(found.path) if self._pass else "")
+                   self._levels.signature(found.prim, outer), self._pass.signature(found.path) if self._pass else "", links)
             group = self._native.get(key)
             if group is None:
                 if not self._has_room(found.prim, state, self._native):
@@ -202,9 +229,12 @@ class Walk:
                 above = state.with_(primvars=split.copied, asset="")
                 group = Group(name=found.path, anchor=prototype, source=str(prototype.GetPath()),
                               shown=found.path, material=material or "", material_rules=rules,
+                              native=(str(prototype.GetPath()), outer.on_stage(found.prim)), instancer=outer.instancer,
                               place=self._levels.place_inside(found.prim, outer),
                               chain=outer.chain, above=above, outer=outer, arcs=self._arcs(found.prim))
                 self._native[key] = group
+                if links:
+                    self.linking.split.add(group.name)
                 children = prototype.GetChildren()
                 states = self._states(found.prim, outer, children, above.with_(group=group))
                 self._todo.append((children, states, Usd.PrimDefaultPredicate))
@@ -214,15 +244,18 @@ class Walk:
         """:returns: paths of the stage that a native instance is made of"""
         return tuple(spec.path for spec in instance.GetPrimStack() if spec.layer in self._layers)
 
-    def _instancer(self, found):
-        names = []
-        for index, target in enumerate(targets(found.prim, "prototypes")):
-            names.append(self._prototype(found.prim, target, found.state.group, f"{found.path}[{index}]"))
-        self.walked.instancers.append((found, names))
+    def _place_prototypes(self):
+        """Chooses the groups of the prototypes of point instancers; new ones are walked next."""
+        pending, self._instancers = self._instancers, []
+        for found, names in pending:
+            with Guard(self.context, found.prim):
+                for index, target in enumerate(targets(found.prim, "prototypes")):
+                    names.append(self._prototype(found, target, f"{found.path}[{index}]"))
 
-    def _prototype(self, instancer, target, outer, name):
-        """:param outer: group that the instancer stands in
-        :returns: the name of the group of one prototype of a point instancer"""
+    def _prototype(self, found, target, name):
+        """:param found: point instancer
+        :returns: the name of the group of one of its prototypes"""
+        instancer, outer = found.prim, found.state.group
         root = self.context.stage.GetPrimAtPath(target)
         if not root or not root.IsActive():
             self.context.warn(instancer.GetPath(), "prototypes", "prototypeNotFound", target)
@@ -232,7 +265,9 @@ class Walk:
         if instancer.GetPath().HasPrefix(target) or str(target) in outer.chain:
             self.context.warn(instancer.GetPath(), "prototypes", "prototypeHoldsItself", target)
             return name
-        key = (str(target), outer.name)
+        home = home if root.IsInPrototype() else Group()
+        place = Sdf.Path(home.on_stage(root))
+        key = (str(target), outer.name, self.linking.signature_of_root(found, place))
         if key in self._pointed:
             return self._pointed[key]
         if len(outer.chain) >= MAX_NESTED or outer.chain and self._nested >= limits.value("groups"):
@@ -242,12 +277,14 @@ class Walk:
             return name
         self._nested += bool(outer.chain)
         self._pointed[key] = name
+        self.linking.roots[name] = place
         inside = root.GetPath().HasPrefix(instancer.GetPath())
         shown = outer.path(root) if inside else self._shown_below(instancer, root, outer)
         group = Group(name=name, anchor=root.GetParent(), source=str(target), shown=shown, chain=outer.chain + (str(target),),
-                      outer=outer, place=self._levels.nearest_place(instancer, outer, root))
+                      outer=outer, place=self._levels.nearest_place(instancer, outer, root), instancer=(found, place))
         if root.IsInPrototype():  # of a native instance that the instancer is in
-            group = replace(group, material=home.material, material_rules=home.material_rules, above=home.above)
+            group = replace(group, material=home.material, material_rules=home.material_rules, above=home.above,
+                            native=home.native)
         concrete = root.IsDefined() and not root.IsAbstract()
         self._todo.append(([root], [self._state_above(root, group.above).with_(group=group, asset="")],
                            Usd.PrimDefaultPredicate if concrete else _ANY))

@@ -203,3 +203,52 @@ def test_the_headlight_is_as_bright_near_as_far(near, far):
     irradiance = intensity / distance ** 2 * np.interp(distance / ramp["endDistance"], ramp["rampKnots"], ramp["rampFloats"])
     assert (irradiance > 0.75 * np.pi * (1.0 - 1e-6)).all()
     assert (irradiance < 0.75 * np.pi * (1.0 + 0.2 ** 2 / 4 + 1e-6)).all()
+
+
+def test_hidden_lights_are_lights(read):
+    """A stage whose lights go out is dark, as one whose intensities become 0."""
+    for light in ('def SphereLight "l" { SHOWN }', 'def Xform "g" { SHOWN\ndef DistantLight "l" { } }',
+                  'class "c" { def DomeLight "l" { } }  def Xform "a" (inherits = </c>  instanceable = true) { SHOWN }',
+                  'def Mesh "m" (prepend apiSchemas = ["MeshLightAPI"]) { SHOWN }'):
+        text = light.replace("SHOWN", 'token visibility.timeSamples = {1: "inherited", 2: "invisible"}')
+        for frame in (1.0, 2.0):
+            assert not read(text, frame=frame, headlight=True).info.headlight, (light, frame)
+    assert read('def Sphere "s" { token visibility = "invisible" }', headlight=True).info.headlight
+
+
+@pytest.mark.parametrize("first", ["a", "b"])
+def test_prims_that_are_no_lights_by_their_type_are_told_each_for_itself(read, first):
+    prims = {"a": 'def Xform "a" (prepend apiSchemas = ["LightAPI"]) { }  ', "b": 'def Xform "b" { }  def Xform "c" { }  '}
+    text = prims.pop(first) + "".join(prims.values())
+    mesh = 'def Mesh "{}" (prepend apiSchemas = ["{}"]) {{ }}  '
+    reading = read(text + mesh.format("m", "LightAPI") + mesh.format("glow", "MeshLightAPI") + mesh.format("k", "MeshLightAPI")
+                   .replace("Mesh ", "Cube ") + 'def Volume "v" (prepend apiSchemas = ["VolumeLightAPI"]) { }')
+    told = [warning for warning in reading.warnings if "apiSchemas" in warning]
+    assert told == [f"/{name} apiSchemas: is LightAPI on a prim of type {type_}, which is not evaluated"
+                    for name, type_ in (("a", "Xform"), ("m", "Mesh"), ("k", "Cube"))]
+    assert not any("are not drawn" in warning for warning in reading.warnings) and reading.has("/glow/light_of_mesh")
+
+
+@pytest.mark.parametrize("how", ["true", "false"])
+def test_portals_in_instances_are_used(read, how):
+    reading = read(f"""class "lamp" {{
+            def DomeLight "d" {{ rel portals = </lamp/used> }}
+            def PortalLight "used" {{ }}
+            def PortalLight "other" {{ }} }}
+        def Xform "a" (inherits = </lamp>  instanceable = {how}) {{ }}""")
+    assert reading.warnings == ["/a/other : prims of type PortalLight are not drawn"]
+
+
+def test_links_of_filters_and_shapes_of_mesh_lights_are_told(read):
+    shaping = "float inputs:shaping:cone:angle = {}  float inputs:shaping:focus = {}"
+    mesh = 'def Mesh "{}" (prepend apiSchemas = ["MeshLightAPI", "ShapingAPI"]) {{ {} }}  '
+    reading = read('def RectLight "l" (prepend apiSchemas = ["ShapingAPI"]) { rel light:filters = [</some>, </all>]  '
+                   + shaping.format(20, 2) + " }  "
+                   + mesh.format("shaped", shaping.format(20, 2) + "  asset inputs:shaping:ies:file = @a.ies@")
+                   + mesh.format("plain", shaping.format(180, 0) + "  asset inputs:shaping:ies:file = @@")
+                   + """def LightFilter "some" { uniform token lightFilter:shaderId = "PxrIntMultLightFilter"
+                            rel collection:filterLink:excludes = </shaped> }
+                        def LightFilter "all" { uniform token lightFilter:shaderId = "PxrIntMultLightFilter" }""")
+    told = [warning.partition(": is")[0] for warning in reading.warnings if "not evaluated" in warning]
+    assert sorted(told) == ["/shaped inputs:shaping:cone:angle", "/shaped inputs:shaping:focus",
+                            "/shaped inputs:shaping:ies:file", "/some collection:filterLink"]

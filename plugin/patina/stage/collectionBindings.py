@@ -84,7 +84,8 @@ class CollectionBindings:
         else:
             binding = _Api.DirectBinding(rel)
         material = binding.GetMaterial()
-        return (rel.GetName(), in_prototype(material.GetPrim()) if material else "", _Api.GetMaterialBindingStrength(rel), members)
+        shown = in_prototype(material.GetPrim()) if material else ""
+        return rel.GetName(), shown, _Api.GetMaterialBindingStrength(rel), members
 
     def _binders(self, prim):
         chain = []

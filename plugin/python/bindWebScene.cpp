@@ -39,6 +39,7 @@ const float* valueAt(const TriangleMesh& mesh, const MeshAttribute& a, size_t t,
     case MeshAttribute::Rate::PerFace: i = size_t(mesh.triangleFace[t]); break;
     case MeshAttribute::Rate::PerVertex: i = mesh.triangles[t][c]; break;
     case MeshAttribute::Rate::PerCorner: i = 3 * t + size_t(c); break;
+    case MeshAttribute::Rate::PerControl: break; // of curves
     }
     return a.data.data() + i * size_t(a.components);
 }

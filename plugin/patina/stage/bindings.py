@@ -3,8 +3,10 @@
 from pxr import UsdGeom, UsdShade
 
 from . import compat, kinds
+from .collectionBindings import CollectionBindings, in_prototype
 from .context import shown
 from .primvars import read_primvars
+from .state import Bound
 
 
 class Bindings:
@@ -15,15 +17,37 @@ class Bindings:
         self.materials = {}  # path in the scene -> UsdShade.Material
         self._primvars = {}  # path in the scene -> what primvars_of() gave
         self._checked = set()  # paths of prims whose own bindings were looked at
+        self._collections = CollectionBindings(context.stage)
 
-    def compute(self, prims):
-        """:returns: list of (Material or None, whether it is stronger than bindings below)"""
+    def compute(self, prims, groups):
+        """:param groups: that each prim is in
+        :returns: list of Bound, with what is bound outside of the groups"""
         if not prims:
             return []
-        stronger = UsdShade.Tokens.strongerThanDescendants
-        return [(material if material else None,
-                 bool(rel) and UsdShade.MaterialBindingAPI.GetMaterialBindingStrength(rel) == stronger)
-                for material, rel in compat.bound_materials(prims, self.context.options.material_purpose)]
+        prims = [self._on_stage(prim, group) if group.divided else prim for prim, group in zip(prims, groups)]
+        found = compat.bound_materials(prims, self.context.options.material_purpose)
+        return [self._bound(material, rel, group) for (material, rel), group in zip(found, groups)]
+
+    def _on_stage(self, prim, group):
+        return group.native[0] and self.context.stage.GetPrimAtPath(group.on_stage(prim)) or prim
+
+    def _bound(self, material, rel, group):
+        above = Bound() if group.divided else group.bound
+        if not material:
+            return above
+        rules = UsdShade.MaterialBindingAPI.GetMaterialBindingStrength(rel) == UsdShade.Tokens.strongerThanDescendants
+        purposed = len(rel.SplitName()) in (3, 5)  # material:binding:PURPOSE, material:binding:collection:PURPOSE:NAME
+        if above.material and (above.purposed > purposed or above.rules and above.purposed == purposed):
+            return above
+        return Bound(self.name(material, group), rules, purposed)
+
+    def keys_of(self, found, bound):
+        """:param found: native instance, bound: to it
+        :returns: (what two instances of one prototype have to have in common to be bound alike, the same of collections
+            that divide it or None)"""
+        material = in_prototype(self.materials[bound.material].GetPrim()) if bound.material else ""
+        parts = self._collections.signature(self._on_stage(found.prim, found.state.group), found.names)
+        return bound._replace(material=material), parts
 
     def name(self, material, group):
         """:returns: the path of a material in the scene"""
@@ -43,18 +67,14 @@ class Bindings:
     def resolve(self, founds):
         """:returns: for each found prim (material path, [(subset prim, material path)])"""
         subsets = [self._subsets(found.prim) for found in founds]
-        prims = []
+        prims, groups = [], []
         for found, own in zip(founds, subsets):
-            prims.append(found.prim)
-            prims.extend(s.GetPrim() for s in own)
-        bound = iter(self.compute(prims))
-        resolved = []
+            prims += [found.prim, *(s.GetPrim() for s in own)]
+            groups += [found.state.group] * (1 + len(own))
         for prim in prims:
             self._check(prim)
-        for found, own in zip(founds, subsets):
-            path = self._show(next(bound), found.state.group)
-            resolved.append((path, [(s, self._show(next(bound), found.state.group)) for s in own]))
-        return resolved
+        paths = iter([bound.material for bound in self.compute(prims, groups)])
+        return [(next(paths), [(s, next(paths)) for s in own]) for own in subsets]
 
     def _check(self, prim):
         """Tells of bindings to what is no material, on a prim and those above it: pxr passes over them without a word."""
@@ -70,12 +90,6 @@ class Bindings:
                         problem = "is no material" if material else "does not exist"
                         self.context.warn(prim.GetPath(), name, "bindingLeftOut", target, problem)
             prim = prim.GetParent()
-
-    def _show(self, bound, group):
-        material = bound[0]
-        if group.material and (group.material_rules or material is None):
-            return group.material
-        return self.name(material, group) if material else ""
 
     def _subsets(self, prim):
         """:returns: list of UsdGeom.Subset of faces: other elements have no material in UsdShade"""

@@ -1,6 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """State that prims inherit on the way down, and the findings of the walk."""
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+
+class Bound(NamedTuple):
+    """What is bound to a prim, by itself or by prims above it."""
+    material: str = ""  # path in the scene
+    rules: bool = False  # it is stronger than what prims below bind ...
+    purposed: bool = False  # ... and for the purpose that is asked for, which stands above bindings for all purposes
 
 
 @dataclass(frozen=True)
@@ -10,8 +18,8 @@ class Group:
     anchor: object = None  # prim that transforms are relative to; None: the world
     source: str = ""  # path of the prototype's root on the stage ...
     shown: str = ""  # ... and the path that stands for it in the scene
-    material: str = ""  # bound by the instance; the prototype's own bindings are stronger ...
-    material_rules: bool = False  # ... unless this is set
+    bound: Bound = Bound()  # to the instance
+    divided: bool = False  # collections bind parts of it, so bindings are asked for where its first instance stands
     native: tuple = ("", "")  # native prototype that holds it and where its first instance stands: paths of the stage
     instancer: tuple = field(default=(None, None), compare=False)  # point instancer around it: Found, path of the prototype
     place: object = field(default=None, compare=False)  # of a point instancer's prototype: matrix of its nearest instance

@@ -129,7 +129,7 @@ class Walk:
         if prim.IsInstance() and state.skinning is None:
             if self._has_room(prim, state, range(self._instances), "instances"):
                 self._instances += 1
-                self._pending.append(Found(prim, state, state.group.path(prim)))
+                self._pending.append(Found(prim, state, state.group.path(prim), names))
             return None
         return state
 
@@ -209,16 +209,14 @@ class Walk:
     def _place_instances(self):
         """Chooses the group of each native instance; new groups are walked next."""
         pending, self._pending = self._pending, []
-        bound = self.bindings.compute([found.prim for found in pending])
-        for found, (material, stronger) in zip(pending, bound):
+        all_bound = self.bindings.compute([found.prim for found in pending], [found.state.group for found in pending])
+        for found, bound in zip(pending, all_bound):
             state, outer = found.state, found.state.group
             prototype = found.prim.GetPrototype()
-            material = material and self.bindings.name(material, outer)
-            rules = stronger
-            if outer.material and (outer.material_rules or not material):
-                material, rules = outer.material, outer.material_rules
+            binding, parts = self.bindings.keys_of(found, bound)
             split, links = self.walked.values.split(state.primvars), self.linking.signature(found)
-            key = (str(prototype.GetPath()), material, rules, state.purpose, state.draw_mode,
+            found.names = ()  # there may be a million instances
+            key = (str(prototype.GetPath()), binding, parts, state.purpose, state.draw_mode,
                    tuple(sorted(state.marks.items())), state.spaces, split.key,
                    outer.name if self._reaches_out(prototype, outer) else "",
                    self._levels.signature(found.prim, outer), self._pass.signature(found.path) if self._pass else "", links)
@@ -228,7 +226,7 @@ class Walk:
                     continue
                 above = state.with_(primvars=split.copied, asset="")
                 group = Group(name=found.path, anchor=prototype, source=str(prototype.GetPath()),
-                              shown=found.path, material=material or "", material_rules=rules,
+                              shown=found.path, bound=bound, divided=parts is not None,
                               native=(str(prototype.GetPath()), outer.on_stage(found.prim)), instancer=outer.instancer,
                               place=self._levels.place_inside(found.prim, outer),
                               chain=outer.chain, above=above, outer=outer, arcs=self._arcs(found.prim))
@@ -283,8 +281,7 @@ class Walk:
         group = Group(name=name, anchor=root.GetParent(), source=str(target), shown=shown, chain=outer.chain + (str(target),),
                       outer=outer, place=self._levels.nearest_place(instancer, outer, root), instancer=(found, place))
         if root.IsInPrototype():  # of a native instance that the instancer is in
-            group = replace(group, material=home.material, material_rules=home.material_rules, above=home.above,
-                            native=home.native)
+            group = replace(group, bound=home.bound, divided=home.divided, native=home.native, above=home.above)
         concrete = root.IsDefined() and not root.IsAbstract()
         self._todo.append(([root], [self._state_above(root, group.above).with_(group=group, asset="")],
                            Usd.PrimDefaultPredicate if concrete else _ANY))

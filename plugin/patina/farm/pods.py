@@ -109,6 +109,9 @@ def pod(name, options, variables):
         {"name": "patina-key", "mountPath": KEYS, "readOnly": True}] + [
         {"name": names[claim], "mountPath": path} for claim, path in volumes]
     spec["restartPolicy"] = "Never"  # the farm asks for another
+    # A render asks nothing of Kubernetes, and needs no right of the system.
+    spec.setdefault("automountServiceAccountToken", False)
+    container.setdefault("securityContext", {"allowPrivilegeEscalation": False, "capabilities": {"drop": ["ALL"]}})
     return {"metadata": {"generateName": f"{name}-", "labels": {"patina-farm": name}}, "spec": spec}
 
 

@@ -84,7 +84,8 @@ def start(distributed, kubernetes, options, variables, page, shared, stack):
 def secret(name, security):
     """:returns: the key of the run, as Kubernetes takes it"""
     key = security.get_tls_config_for_role("worker")
-    return {"metadata": {"name": name}, "stringData": {f"{file}.pem": key[file] for file in ("ca_file", "cert", "key")}}
+    return {"metadata": {"name": name, "labels": {"patina-farm": name}},
+            "stringData": {f"{file}.pem": key[file] for file in ("ca_file", "cert", "key")}}
 
 
 def pod(name, options, variables):

@@ -38,7 +38,7 @@ class Api:
     def create_namespaced_secret(self, namespace, body):
         if "secret" in self.refused:
             raise Refusal
-        assert body["metadata"]["labels"] == {"patina-farm": body["metadata"]["name"]}, "as pods, to be found when they are left"
+        assert body["metadata"]["labels"] == {"patina-farm": body["metadata"]["name"]}, "it is found as pods are"
         self.secrets[body["metadata"]["name"], namespace] = body["stringData"]
 
     def delete_namespaced_secret(self, name, namespace):

@@ -12,6 +12,7 @@ import pytest
 
 import _patina
 from patina.cli import main, recordFlags
+from patina.farm import identity
 import usda
 
 STAGE = usda.stage(
@@ -153,13 +154,17 @@ def test_without_checkpoints_what_has_their_name_is_left_alone(stage, tmp_path):
     assert other.read_text() == "mine"
 
 
-@pytest.mark.parametrize("spoil", ["garbage", "other seed"])
-def test_a_checkpoint_that_does_not_fit_is_named_and_not_used(stage, tmp_path, spoil):
+@pytest.mark.parametrize("spoil", ["garbage", "other seed", "other build"])
+def test_a_checkpoint_that_does_not_fit_is_named_and_not_used(stage, tmp_path, monkeypatch, spoil):
     image, checkpoint, out = tmp_path / "a.exr", tmp_path / "a.exr.checkpoint", tmp_path / "s.json"
     assert record(stage, image, "-w", 16, "--samples", 8) == 0
     expected = pixels(image)
     if spoil == "garbage":
         checkpoint.write_bytes(b"no checkpoint")
+    elif spoil == "other build":
+        assert record(stage, image, "-w", 16, "--samples", 2, "--keepCheckpoint") == 0
+        made = dict(identity.of_process(), build="another")
+        monkeypatch.setattr(identity, "of_process", lambda: made)
     else:
         assert record(stage, image, "-w", 16, "--samples", 2, "--seed", 5, "--keepCheckpoint") == 0
     assert record(stage, image, "-w", 16, "--samples", 8, "--resume", f"--json={out}") == 0

@@ -97,7 +97,7 @@ def test_workers_are_refused_that_cannot_read_or_compute_otherwise(tmp_path):
     problems = worker.check("b", ["/no/such/file"], ["/no/such/folder"], dict(machine, **{"instruction set": "abacus"}))
     assert problems[:2] == ["cannot read /no/such/file", "cannot write to /no/such/folder"]
     assert problems[2].startswith("instruction set is ") and problems[2].endswith("not abacus")
-    with pytest.raises(worker.Refused, match="cannot read /no/such/file, and 2 more"):
+    with pytest.raises(worker.Refused, match="cannot read /no/such/file, and 1 more"):
         worker.run(["--version"], str(tmp_path), str(tmp_path / "log"), ("b", [], [], {}))
 
 
@@ -182,6 +182,42 @@ def test_a_job_of_a_queue_has_a_folder_of_its_own(tmp_path):
     done = subprocess.run(["bash", "-c", script], env={**os.environ, "TMPDIR": str(tmp_path)}, capture_output=True, text=True)
     assert done.stdout.split() == ["more", "700", str(tmp_path)], done.stderr
     assert os.listdir(tmp_path) == []
+
+
+# As before version 3.11, which is the first to know PYTHONSAFEPATH.
+OLDER_PYTHON = f"""#!/bin/sh
+exec env -u PYTHONSAFEPATH "{sys.executable}" "$@"
+"""
+HOSTILE = "import os\nopen(os.environ['RAN'], 'w').close()\n"
+
+
+def test_a_job_of_a_queue_runs_nothing_of_the_folder_that_sent_it(tmp_path):
+    """`python -m` looks there first."""
+    (tmp_path / "platform.py").write_text(HOSTILE)
+    (tmp_path / "older").write_text(OLDER_PYTHON)
+    (tmp_path / "older").chmod(0o755)
+    lines = engines.queue_options({"job_script_prologue": ["[ -f platform.py ] && echo there"]})["job_script_prologue"]
+    for script, ran in (([*lines, "cd - >/dev/null"], True), (lines, False)):
+        done = subprocess.run(["bash", "-c", "\n".join([*script, f"{tmp_path}/older -m platform"])], cwd=tmp_path,
+                              env={**os.environ, "RAN": str(tmp_path / "ran")}, capture_output=True, text=True)
+        assert done.stdout.startswith("there\n") and (tmp_path / "ran").exists() is ran, done.stderr
+        (tmp_path / "ran").unlink(missing_ok=True)
+
+
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="PYTHONSAFEPATH is of 3.11")
+def test_workers_of_an_installed_patina_run_nothing_of_the_current_folder(tmp_path):
+    pytest.importorskip("distributed")
+    command, evil = tmp_path / "bin" / "patina", tmp_path / "evil"
+    for folder in (command.parent, evil / "multiprocessing"):
+        folder.mkdir(parents=True)
+    (evil / "multiprocessing" / "__init__.py").write_text(HOSTILE)
+    command.write_text("import sys\nfrom patina.cli.entry import run\nif __name__ == '__main__':\n    sys.exit(run())\n")
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONSAFEPATH"}
+    result = subprocess.run([sys.executable, str(command), "farm", movie.write_stage(tmp_path), str(tmp_path / "a.exr"),
+                             "--engine=local:1", *FLAGS], cwd=evil, env={**environment, "RAN": str(tmp_path / "ran")},
+                            capture_output=True, text=True, timeout=300)
+    assert result.returncode == 0, result.stderr
+    assert (tmp_path / "a.exr").exists() and not (tmp_path / "ran").exists()
 
 
 def test_a_signal_while_workers_start_is_told_in_one_line(tmp_path):

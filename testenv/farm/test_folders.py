@@ -7,6 +7,7 @@ import types
 
 import pytest
 
+import inProcess
 import movie
 from patina.cli.errors import CommandError
 from patina.farm import folders, job, owner, sender, work, worker
@@ -105,6 +106,27 @@ def test_whose_a_folder_is_is_seen_without_writing_there(tmp_path, monkeypatch):
     monkeypatch.setattr(folders.os, "geteuid", lambda: uid + 1)
     owner.check(one.folder, "job")
     assert os.stat(one.folder).st_mtime_ns == 0 and os.listdir(tmp_path) == ["a.exr.parts"]
+
+
+@pytest.mark.parametrize("what", ["link", "another's", "own"])
+def test_a_job_of_other_schedulers_takes_no_folder_of_somebody_else(tmp_path, monkeypatch, what):
+    """Its tasks name the folder themselves."""
+    image, folder, other = tmp_path / "a.##.exr", tmp_path / "a.##.exr.parts", tmp_path / "other"
+    other.mkdir()
+    if what == "link":
+        os.symlink(other, folder)
+    elif what == "another's":
+        folder.mkdir()
+        uid = os.stat(folder).st_uid
+        monkeypatch.setattr(folders.os, "geteuid", lambda: uid + 1)
+        monkeypatch.setattr(folders, "_maker", lambda _: uid + 1)
+    result = inProcess.patina("record", movie.write_stage(tmp_path), image, "-w", 16, "--samples=1", "--frames=1", "--part=1/1",
+                              f"--partial={folder}/1.1.part", "--quiet", check=False)
+    if what == "own":
+        assert result.returncode == 0 and os.listdir(folder) == ["1.1.part"], result.stderr
+    else:
+        assert result.returncode == 1 and f"cannot use the folder {folder}: it " in result.stderr
+        assert os.listdir(folder) == []
 
 
 class Here:

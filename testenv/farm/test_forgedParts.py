@@ -10,7 +10,7 @@ import pytest
 
 import _patina
 from inProcess import patina, scene
-from patina import messages
+from patina import limits, messages
 from patina.cli import record
 from patina.farm import cut, missing, partial
 
@@ -164,6 +164,16 @@ def test_arguments_that_no_command_line_has_are_left_out(real, asked):
     flags = asked(replaced(real.header, ("arguments", "run"), "other"))
     assert not hasattr(flags, "run") and flags.samples == 1 and flags.given == real.header["arguments"]["given"]
     assert flags.part == cut.part("1/1") and flags.json is None
+
+
+def test_limits_are_those_of_the_command_that_renders(real, monkeypatch, tmp_path):
+    seen = []
+    monkeypatch.setattr(record, "run", lambda _: seen.append(limits.value("instances")))
+    header = replaced(replaced(real.header, ("part",), "1/1x2"), ("identity", "cut"), "1x2")
+    file = real.forged(header=replaced(header, ("arguments", "limit"), ["instances=3"]))
+    for flags in ((), ("--limit=instances=2",)):
+        merged(file, tmp_path / "a.exr", "--renderMissing", *flags)
+    assert seen == [limits.table()["instances"][0], 2]
 
 
 def test_arguments_that_a_part_lacks_are_those_of_a_blank_command_line(real, asked):

@@ -2,6 +2,7 @@
 """Pods of Kubernetes, without a cluster: a stand-in for its interface runs each pod's command as a process of this machine."""
 import contextlib
 import itertools
+import json
 import os
 import subprocess
 import sys
@@ -37,6 +38,7 @@ class Api:
     def create_namespaced_secret(self, namespace, body):
         if "secret" in self.refused:
             raise Refusal
+        assert body["metadata"]["labels"] == {"patina-farm": body["metadata"]["name"]}, "it is found as pods are"
         self.secrets[body["metadata"]["name"], namespace] = body["stringData"]
 
     def delete_namespaced_secret(self, name, namespace):
@@ -175,6 +177,18 @@ def test_pods_hold_what_options_say(bodies):
     images = [body["spec"]["containers"][0]["image"] for body in bodies]
     assert images == ["studio/patina:1", "studio/own:2"] and bodies[1]["spec"]["nodeSelector"] == {"kind": "render"}
     assert {"name": "A", "value": "b"} in bodies[1]["spec"]["containers"][0]["env"]
+
+
+def test_pods_have_no_rights_but_those_of_a_manifest(bodies, tmp_path):
+    for body in bodies:
+        assert body["spec"]["automountServiceAccountToken"] is False
+        assert body["spec"]["containers"][0]["securityContext"] == {
+            "allowPrivilegeEscalation": False, "capabilities": {"drop": ["ALL"]}}
+    own = {"capabilities": {"add": ["SYS_NICE"]}}
+    spec = {"automountServiceAccountToken": True, "containers": [{"image": "a", "securityContext": own}]}
+    (tmp_path / "wants.yaml").write_text(json.dumps({"spec": {"worker": {"spec": spec}}}))
+    made = pods.pod("patina-1", {"custom_cluster_spec": str(tmp_path / "wants.yaml")}, {})["spec"]
+    assert made["automountServiceAccountToken"] is True and made["containers"][0]["securityContext"] == own
 
 
 def test_pods_are_what_kubernetes_knows(bodies):

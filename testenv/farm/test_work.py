@@ -12,9 +12,11 @@ import types
 import pytest
 
 import _patina
-import patina
+import movie
+from inProcess import patina
+from patina.cli import record
 from patina.cli.errors import CommandError, is_temporary
-from patina.farm import cut, identity, job, owner, sender, work, worker
+from patina.farm import cut, identity, job, owner, partial, sender, work, worker
 
 
 def frame(folder, tiles=2):
@@ -36,6 +38,42 @@ def test_what_a_job_has_kept_is_known_by_its_files(tmp_path):
 
 def test_the_folder_of_commands_is_looked_at(tmp_path):
     assert worker.check("home", [], [], None, str(tmp_path / "none")) == [f"cannot enter {tmp_path / 'none'}"]
+
+
+def test_a_build_that_is_made_anew_ends_the_work_of_a_worker(tmp_path, monkeypatch):
+    """Files are looked at once for a job, the build before each task."""
+    made = {"version": "1", "build": "old", "instruction set": "any"}
+    monkeypatch.setattr(identity, "of_machine", lambda _: dict(made))
+    checks, begun = ("anew", [], [], dict(made)), []
+    monkeypatch.setattr(worker.subprocess, "call", lambda *_, **__: begun.append(made["build"]) or 0)
+    worker.run([], str(tmp_path), str(tmp_path / "1.log"), checks)
+    made["build"] = "new"
+    with pytest.raises(worker.Refused, match="build is new, not old"):
+        worker.run([], str(tmp_path), str(tmp_path / "1.log"), checks)
+    assert begun == ["old"]
+
+    def missing(_):  # while it is linked
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
+
+    monkeypatch.setattr(identity, "of_machine", missing)
+    assert worker.check(*checks) == ["has no Patina: [Errno 2] No such file or directory"]
+
+
+def test_a_part_tells_the_build_that_its_process_began_with(tmp_path, monkeypatch):
+    made, render = dict(identity.of_machine(_patina), build="old"), record._Job._render
+
+    def built_anew(*arguments):
+        made["build"] = "new"
+        render(*arguments)
+
+    monkeypatch.setattr(identity, "of_machine", lambda _: dict(made))
+    monkeypatch.setattr(record._Job, "_render", built_anew)
+    identity.of_process.cache_clear()
+    file = str(tmp_path / "1.part")
+    patina("record", movie.write_stage(tmp_path), tmp_path / "a.exr", "-w", 16, "--samples", 1, "--part=1/1",
+           f"--partial={file}", "--quiet")
+    identity.of_process.cache_clear()
+    assert partial.read(_patina, file).identity["build"] == "old" and made["build"] == "new"
 
 
 class Client:
@@ -163,7 +201,7 @@ def test_what_variables_lead_to_makes_a_part(tmp_path, monkeypatch):
 
 def version(folder, log, name):
     """Runs a short command as a worker does, from another folder."""
-    paths = [os.path.dirname(os.path.dirname(patina.__file__)), os.path.dirname(_patina.__file__)]
+    paths = [os.path.dirname(os.path.dirname(os.path.dirname(worker.__file__))), os.path.dirname(_patina.__file__)]
     worker.run(["--version"], str(folder), str(log), (name, [], [], None),
                {"PYTHONPATH": os.pathsep.join(map(os.path.abspath, paths))})
 

@@ -54,8 +54,7 @@ def made(renders, folder, samples, depth, methods):
     """
     seed = renders.arguments.seed + SEED_STEP + (depth or 0)
     settings = renders.settings(samples, seed, 0.0, depth, methods)
-    token = checkpoints.token(renders.stage, settings, [renders.info.camera, renders.arguments.set, _build()],
-                              "embree")
+    token = checkpoints.token(renders.stage, settings, [renders.info.camera, renders.arguments.set], "embree")
     path = os.path.join(folder, hashlib.sha256(token.encode()).hexdigest()[:24] + ".exr") if folder else ""
     light = "direct light only (maxDepth 1)" if depth else "all light"
     known = _read(path, samples, (renders.height, renders.width, 3))
@@ -96,9 +95,3 @@ def _write(path, found, seed):
     _patina.write_image(path, found.image, ["R", "G", "B"], {},
                                 {"patina:samples": found.samples, "patina:noise": found.noise, "patina:seed": seed,
                                  "patina:commit": machine.commit()})
-
-
-def _build():
-    """Another build may have another truth."""
-    status = os.stat(_patina.__file__)
-    return [status.st_size, status.st_mtime_ns]

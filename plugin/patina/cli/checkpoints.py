@@ -6,6 +6,7 @@ import json
 import os
 
 from patina.cli import settingFlags
+from patina.farm import identity
 
 
 def path_of(image):
@@ -13,7 +14,8 @@ def path_of(image):
 
 
 def token(stage, settings, others, backend):
-    """BACKEND:HASH of everything that the samples depend on: the stage's layers, the settings, and others.
+    """BACKEND:HASH of everything that the samples depend on: version and build, the stage's layers, the settings, and
+    others.
 
     A render that falls back to another back end replaces the part before the colon.
 
@@ -32,7 +34,8 @@ def token(stage, settings, others, backend):
             layers.append([layer.identifier])
     free = settingFlags.of_resumed_renders()
     kept = {name: value for name, value in settings.items() if name not in free}
-    text = json.dumps([sorted(layers, key=str), kept, others], sort_keys=True, default=str)
+    made = identity.of_process()
+    text = json.dumps([made["version"], made["build"], sorted(layers, key=str), kept, others], sort_keys=True, default=str)
     return backend + ":" + hashlib.sha256(text.encode()).hexdigest()
 
 

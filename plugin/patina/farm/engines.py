@@ -31,6 +31,7 @@ _PAGE = "dashboard_address"  # where Dask's own page is
 # Lines of a job: a folder that its user alone may enter, while it runs. Dask's own choice is one for all users of a machine.
 _FOLDER = ("DASK_TEMPORARY_DIRECTORY=$(mktemp -d) && export DASK_TEMPORARY_DIRECTORY || exit 1",
            """trap 'rm -rf "$DASK_TEMPORARY_DIRECTORY"' EXIT""")
+_ENTER = 'cd "$DASK_TEMPORARY_DIRECTORY" || exit 1'  # `python -m` runs modules of the current folder
 REPLACE_SECONDS = 15.0  # so often workers are asked for in the place of those that are gone
 
 
@@ -94,7 +95,7 @@ def queue_options(given):
     return {"cores": 1, "processes": 1, "memory": "4GiB", "python": shlex.quote(sys.executable),
             # One part at a time, which takes all of a job's cores.
             "worker_extra_args": ["--nthreads", "1", "--no-dashboard"], **given,
-            "job_script_prologue": [*lines, *_FOLDER, *([more] if isinstance(more, str) else more)]}
+            "job_script_prologue": [*lines, *_FOLDER, *([more] if isinstance(more, str) else more), _ENTER]}
 
 
 class Cluster:

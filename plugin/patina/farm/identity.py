@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The identity of a part: everything that the bits of a frame depend on. Parts with the same go together."""
 import contextlib
+import functools
 import hashlib
 import json
 import os
@@ -15,6 +16,7 @@ _OF_PARTS = ("sampleBegin", "sampleEnd", "tilePart", "tileParts")
 _OF_RUNS = ("threads", "seconds", "checkpointFile", "checkpointSeconds", "interactive")
 
 
+_REPLACED = " (deleted)"  # what Linux adds to the name of a file in whose place another came
 ENVIRONMENT = ("OCIO", "PATINA_MODEL_PATH", "PXR_AR_DEFAULT_SEARCH_PATH")  # variables that images depend on
 MACHINE = ("version", "build", "instruction set")  # of two machines, these must be equal for equal bits
 
@@ -26,11 +28,18 @@ def of_machine(module):
             "instruction set": module.instruction_set()}
 
 
+@functools.lru_cache(maxsize=None)
+def of_process():
+    """:returns: of_machine() at the first call: files of a build may be replaced while their process renders"""
+    return of_machine(_patina)
+
+
 def _libraries():
     """:returns: paths of Patina's own library where it is apart from the module: the loader chooses it by the processor"""
     try:
         with open("/proc/self/maps", encoding="utf-8", errors="surrogateescape") as file:
             paths = {line.split(maxsplit=5)[-1].rstrip("\n") for line in file if "/libpatina.so" in line}
+            paths = {path[:-len(_REPLACED)] if path.endswith(_REPLACED) else path for path in paths}
     except OSError:  # not Linux: one library for all processors
         paths = set()
     return sorted(path for path in paths if os.path.isfile(path))
@@ -75,7 +84,7 @@ def of_render(stage, settings, camera, others):
     :param others: dict of what else was asked for
     :returns: dict that JSON can hold"""
     kept = {name: value for name, value in settings.items() if name not in (*_OF_PARTS, *_OF_RUNS)}
-    what = {"format": FORMAT, **of_machine(_patina), "camera": camera, "files": _files(stage),
+    what = {"format": FORMAT, **of_process(), "camera": camera, "files": _files(stage),
             "environment": of_environment(), "settings": kept, **others}
     return json.loads(json.dumps(what, default=str))
 

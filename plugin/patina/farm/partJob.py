@@ -6,7 +6,7 @@ import os
 from patina.cli import frames, outputs, shots
 from patina.cli.compiled import _patina
 from patina.cli.errors import TemporaryError, UsageError
-from patina.farm import cut, identity, partial
+from patina.farm import cut, folders, identity, partial
 
 _REFUSED = (("seconds", "--seconds", "a time limit cuts every part elsewhere"),
             ("resume", "--resume", "a part is rendered whole"),
@@ -46,7 +46,11 @@ def of(job):
                 raise UsageError("patina record: --part is of one frame and one image")
 
         def _check_outputs(self, shot):
-            outputs.make_folder(os.path.dirname(self.arguments.partial))
+            folder = os.path.abspath(os.path.dirname(self.arguments.partial))
+            outputs.make_folder(folder)
+            if folder == os.path.abspath(self.typed.image or "") + ".parts":
+                with folders.own(folder):
+                    pass  # a job's folder, as `patina farm` takes it
             # The image is checked, too: merging writes it.
             outputs.check_all([*shot.images, self.arguments.partial, self.arguments.json])
 

@@ -84,7 +84,8 @@ def start(distributed, kubernetes, options, variables, page, shared, stack):
 def secret(name, security):
     """:returns: the key of the run, as Kubernetes takes it"""
     key = security.get_tls_config_for_role("worker")
-    return {"metadata": {"name": name}, "stringData": {f"{file}.pem": key[file] for file in ("ca_file", "cert", "key")}}
+    return {"metadata": {"name": name, "labels": {"patina-farm": name}},
+            "stringData": {f"{file}.pem": key[file] for file in ("ca_file", "cert", "key")}}
 
 
 def pod(name, options, variables):
@@ -109,6 +110,9 @@ def pod(name, options, variables):
         {"name": "patina-key", "mountPath": KEYS, "readOnly": True}] + [
         {"name": names[claim], "mountPath": path} for claim, path in volumes]
     spec["restartPolicy"] = "Never"  # the farm asks for another
+    # A render asks nothing of Kubernetes, and needs no right of the system.
+    spec.setdefault("automountServiceAccountToken", False)
+    container.setdefault("securityContext", {"allowPrivilegeEscalation": False, "capabilities": {"drop": ["ALL"]}})
     return {"metadata": {"generateName": f"{name}-", "labels": {"patina-farm": name}}, "spec": spec}
 
 

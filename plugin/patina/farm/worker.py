@@ -28,31 +28,36 @@ class PartFailed(Exception):
 
 
 def check(job, files, folders, machine, home=None):
-    """:param job: a name; what was found is kept for it
+    """:param job: a name; what was found of files is kept for it. The build is looked at each time: a checkout may be built
+        anew while a job runs
     :param files: that the render reads
     :param folders: that it writes to
     :param machine: identity.of_machine() that the worker must have; None takes any
     :param home: the folder that commands run in
     :returns: list of problems, in words"""
     if job not in _checked:
-        _checked[job] = _problems(files, folders, machine, home)
-    return _checked[job]
+        _checked[job] = _problems(files, folders, home)
+    return _checked[job] + _differences(machine)
 
 
-def _problems(files, folders, machine, home):
+def _problems(files, folders, home):
     found = [f"cannot read {file}" for file in files if not os.access(file, os.R_OK)]
     found += [f"cannot write to {folder}" for folder in folders if not os.access(folder, os.W_OK | os.X_OK)]
     if home and not (os.path.isdir(home) and os.access(home, os.X_OK)):
         found.append(f"cannot enter {home}")
+    return found
+
+
+def _differences(machine):
     try:
         import _patina
 
         from patina.farm import identity
 
         own = identity.of_machine(_patina)
-    except ImportError as error:
-        return found + [f"has no Patina: {error}"]
-    return found + [f"{name} is {own[name]}, not {value}" for name, value in (machine or {}).items() if own.get(name) != value]
+    except (ImportError, OSError) as error:
+        return [f"has no Patina: {error}"]
+    return [f"{name} is {own[name]}, not {value}" for name, value in (machine or {}).items() if own.get(name) != value]
 
 
 # `-m patina.farm.child`, but for what lies in the folder of the sender: a patina/ there is not meant.

@@ -21,8 +21,8 @@ class Members:
         """:param path: of the collection; one that is not there holds nothing"""
         owner = stage.GetPrimAtPath(path.GetPrimPath())
         collection = Usd.CollectionAPI.Get(stage, path) if owner else None
-        query = collection.ComputeMembershipQuery() if collection else None
-        self.rules = query.GetAsPathExpansionRuleMap() if query else {}
+        self.query = collection.ComputeMembershipQuery() if collection else None
+        self.rules = self.query.GetAsPathExpansionRuleMap() if self.query else {}
         expression = getattr(collection, "GetMembershipExpressionAttr", None)  # of OpenUSD 23.11 and later
         self.by_pattern = not self.rules and expression is not None and expression().HasAuthoredValue()
         self._paths = sorted(map(str, self.rules))

@@ -2,6 +2,7 @@
 """A UsdRenderPass: what of the stage is drawn, what the camera sees of it, and what is a matte, by its four collections."""
 from pxr import Sdf, Usd
 
+from .collectionBindings import Members
 from .errors import StageError
 
 _COLLECTIONS = {"renderVisibility": True, "prune": False, "cameraVisibility": True, "matte": False}  # what none of them means
@@ -15,10 +16,11 @@ class RenderPass:
         prim = stage.GetPrimAtPath(path) if Sdf.Path.IsValidPathString(str(path)) else None
         if not prim or prim.GetTypeName() != "RenderPass":
             raise StageError(f"{path} is no UsdRenderPass prim")
-        self._queries = {name: Usd.CollectionAPI(prim, name).ComputeMembershipQuery() for name in _COLLECTIONS
-                         if prim.HasAPI(Usd.CollectionAPI, name)}
-        self._rules = [Sdf.Path(path) for query in self._queries.values() for path in query.GetAsPathExpansionRuleMap()]
-        self._by_pattern = any(getattr(query, "HasExpression", bool)() for query in self._queries.values())
+        members = {name: Members(stage, Sdf.Path(f"{path}.collection:{name}")) for name in _COLLECTIONS
+                   if prim.HasAPI(Usd.CollectionAPI, name)}
+        self._queries = {name: of.query for name, of in members.items()}
+        self._rules = [Sdf.Path(rule) for of in members.values() for rule in of.rules]
+        self._by_pattern = any(of.by_pattern for of in members.values())
 
     def _has(self, name, path):
         query = self._queries.get(name)

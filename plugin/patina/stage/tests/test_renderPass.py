@@ -77,6 +77,8 @@ def test_instances_are_in_a_collection_each_for_itself(read):
     assert reading.has("/one/a") and not reading.has("/two/a") and not reading.has("/three/a"), "one and three share"
     reading = read(INSTANCES % "rel collection:prune:includes = </two/b>", render_pass="/pass")
     assert reading.has("/one/b") and reading.has("/two/a") and not reading.has("/two/b")
+    reading = read(INSTANCES % 'uniform pathExpression collection:prune:membershipExpression = "/two/b"', render_pass="/pass")
+    assert reading.has("/one/b") and reading.has("/two/a") and not reading.has("/two/b"), "patterns may name parts, too"
 
 
 def test_a_pass_without_its_lights_gets_no_headlight(read):

@@ -20,8 +20,8 @@ def test_the_image_is_the_same_in_less_memory(name, less, tmp_path):
         images.append(color(image))
         with open(f"{image}.json", encoding="utf-8") as file:
             facts.append(json.load(file)["frames"][0])
-    # Embree's kernels of some processors (AVX2) round hits of both forms differently, so that paths that graze an edge part. One
-    # pixel in fifty may hold such a path: there is no closed form of their number.
+    # Embree's kernels of some processors (AVX2) round hits of both forms differently, so that paths that graze an edge part.
+    # One pixel in fifty may hold such a path: there is no closed form of their number.
     off = np.abs(images[0] - images[1]).max(axis=2) > 1e-3 * images[0].max(axis=2)
     assert off.mean() < 0.02
     if less:

@@ -308,6 +308,8 @@ def test_workers_that_do_not_come_back_are_replaced(tmp_path, monkeypatch, forgo
         if forgotten:
             nobody_else_comes_in(cluster)
         before = set(cluster.client.scheduler_info(n_workers=-1)["workers"])
+        time.sleep(2.5)
+        assert set(cluster.client._scheduler_identity["workers"]) == before, "Dask asks every two seconds for a list of none"
         for name, nanny in list(local.workers.items()):
             local.sync(nanny.close)
             if forgotten:  # as Dask does after its setting distributed.deploy.lost-worker-timeout

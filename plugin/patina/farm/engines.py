@@ -243,7 +243,9 @@ def _configure(page):
         import dask
 
         quiet = {name: "critical" for name in ("distributed", "distributed.client", "distributed.nanny")}
-        dask.config.set({"logging": quiet, "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical"})
+        dask.config.set({"logging": quiet, "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical",
+                         # A client asks by itself for a list without workers: read in place of ours, all seem to have gone.
+                         "distributed.client.scheduler-info-interval": "1000 days"})
         if not page:
             dask.config.set({"distributed.worker.http.routes": [], "distributed.scheduler.http.routes": []})
 

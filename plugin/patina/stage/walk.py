@@ -23,7 +23,7 @@ _ANY = Usd.PrimIsActive & Usd.PrimIsLoaded  # prototypes of point instancers may
 _PURPOSES = ("default", "render", "proxy", "guide")
 MAX_NESTED = 8  # point instancers in each other, as many as renderers follow
 _COUNTED = {"prims": "prims of a kind", "instances": "instances"}  # by limits
-_PROXIES = Usd.TraverseInstanceProxies()  # what is skinned differs from instance to instance
+_PROXIES = Usd.TraverseInstanceProxies()
 
 
 class Walk:
@@ -41,6 +41,7 @@ class Walk:
         self._above = {}  # states of prims above such prototypes
         self._shown = {}  # path below an instancer -> how many prototypes that lie outside of it have that name
         self._outsides = {}  # path of a native prototype -> see _outside()
+        self._fixed = {}  # path of a native prototype -> see _holds_fixed()
         self._layers = set(context.stage.GetLayerStack())
         self._nested = 0  # of these, those inside of others
         self._told = False  # that there are too many
@@ -70,7 +71,7 @@ class Walk:
             with Guard(self.context, prim):
                 state = self._visit(prim, state)
             if state is not None:
-                children = prim.GetFilteredChildren(predicate if state.skinning is None else _PROXIES)
+                children = prim.GetFilteredChildren(_PROXIES if prim.IsInstance() or prim.IsInstanceProxy() else predicate)
                 if children:
                     stack.extend(zip(reversed(children), reversed(self._states(prim, state.group, children, state))))
 
@@ -126,7 +127,8 @@ class Walk:
                 return None
         elif kind is None and imageable and prim.HasAPI(UsdLux.LightAPI):
             self._light_by_api(Found(prim, state, state.group.path(prim)), kind)
-        if prim.IsInstance() and state.skinning is None:
+        # What is skinned, or stands in the world, differs from instance to instance.
+        if prim.IsInstance() and state.skinning is None and not self._holds_fixed(prim.GetPrototype()):
             if self._has_room(prim, state, range(self._instances), "instances"):
                 self._instances += 1
                 self._pending.append(Found(prim, state, state.group.path(prim), names))
@@ -316,6 +318,15 @@ class Walk:
                         roots.update((at, self.context.stage.GetPrimAtPath(at)) for at in targets(prim, "prototypes"))
             self._outsides[path] = [root for root in roots.values() if root and not root.IsInPrototype()]
         return self._outsides[path]
+
+    def _holds_fixed(self, prototype):
+        """:returns: whether there is a prim below a native prototype that no transform above moves"""
+        path = prototype.GetPath()
+        if path not in self._fixed:
+            self._fixed[path] = any((placed := UsdGeom.Xformable(prim)) and placed.GetResetXformStack()
+                                    or prim.IsInstance() and self._holds_fixed(prim.GetPrototype())
+                                    for prim in Usd.PrimRange(prototype))
+        return self._fixed[path]
 
     def _around(self, root, home):
         """OpenUSD names a target in an instance around the instancer's own by one of the places that share the prototype, by

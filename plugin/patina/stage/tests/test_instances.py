@@ -40,6 +40,30 @@ def test_native_instances_share_one_prototype(read, numbers):
     assert reading.text.count("Implicit ") == 2
 
 
+def test_what_no_transform_above_moves_stays_in_the_world(read, numbers):
+    """It differs from instance to instance, and so does what holds it; other instances inside are shared as before."""
+    reading = read(MATERIALS + """
+    class Xform "part" {
+        def Sphere "fixed" { double3 xformOp:translate = (1, 0, 0)
+            uniform token[] xformOpOrder = ["!resetXformStack!", "xformOp:translate"] }
+        def Sphere "moved" { } }
+    class Xform "leaf" { def Cube "blade" { } }
+    class Xform "asset" {
+        def Xform "inner" (instanceable = true; inherits = </part>) { %s }
+        def Xform "leaf" (instanceable = true; inherits = </leaf>) { } }""" % place(3) + "".join(
+        f"""
+    def Xform "t{i}" (instanceable = true; inherits = </asset>; prepend apiSchemas = ["MaterialBindingAPI"]) {{
+        {place(10 * (i + 1))} rel material:binding = </red> }}""" for i in range(2)))
+    assert not reading.warnings
+    for i in range(2):
+        fixed, moved = (reading.prim(f"/t{i}/inner/{name}") for name in ("fixed", "moved"))
+        assert numbers(fixed["transform"])[12] == 1.0 and fixed["material"] == '"/red"'
+        assert numbers(moved["transform"])[12] == 10.0 * (i + 1) + 3.0
+    leaf = reading.prim("/t0/leaf")
+    assert leaf["instances"] == "2" and numbers(leaf["transform 1"])[12] == 20.0
+    assert reading.prim("/t0/leaf/blade")["material"] == '"/red"'
+
+
 def test_instances_inherit_from_where_they_stand(read):
     reading = read(MATERIALS + TREE + """
     def Xform "a" (instanceable = true; inherits = </tree>; prepend apiSchemas = ["MaterialBindingAPI"]) {

@@ -7,7 +7,7 @@ try:
     interrupts.begin(sys.argv[1:2])
 except KeyboardInterrupt:  # before there is anything that would handle it
     print("patina: interrupted", file=sys.stderr)
-    sys.exit(75 if sys.argv[1:2] in (["record"], ["merge"], ["farm"]) else 1)
+    sys.exit(75 if sys.argv[1:2] in (["record"], ["merge"], ["denoise"], ["farm"]) else 1)
 
 interrupts.hold_standard_streams()
 

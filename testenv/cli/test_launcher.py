@@ -107,7 +107,7 @@ def test_a_removed_and_an_added_source_are_noticed(checkout):
 
 @pytest.mark.parametrize("command, status, name, said", [
     ("record", 75, "INT", "interrupted"), ("merge", 75, "TERM", "terminated"), ("farm", 75, "HUP", "ended with its terminal"),
-    ("explain", 1, "INT", "interrupted")])
+    ("denoise", 75, "INT", "interrupted"), ("explain", 1, "INT", "interrupted")])
 def test_a_signal_ends_it_as_it_would_end_the_command(checkout, command, status, name, said):
     """It comes while the launcher waits for a program."""
     checkout.run("record")

@@ -164,6 +164,13 @@ def test_two_frames_of_a_product_need_a_place_in_its_name(folder, capsys):
     assert "beauty.exr would be written twice: for frames 1 and 2" in capsys.readouterr().err
 
 
+def test_two_products_of_one_file_are_refused(folder, capsys):
+    named = [flag for name, file in (("beauty", "a.exr"), ("depth", "./a.exr"))
+             for flag in ("--set", f"/Render/{name}.productName={file}")]
+    assert record("--settings", "/Render/main", "--frames", "1", *named) == 1
+    assert "would be written twice: two products have this name" in capsys.readouterr().err
+
+
 def test_an_image_or_settings_are_wanted(folder, capsys):
     assert main.main(["record", "stage.usda"]) == 2
     assert "name an IMAGE" in capsys.readouterr().err

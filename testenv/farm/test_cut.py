@@ -6,7 +6,7 @@ import pytest
 
 import _patina
 from patina.cli.errors import CommandError
-from patina.farm import cut, digests, identity, partial
+from patina.farm import cut, digests, folders, identity, partial
 
 
 def test_parts_are_written_as_numbers_of_a_cut():
@@ -45,6 +45,28 @@ def test_digests_are_of_regular_files_alone(tmp_path):
     what = {**identity.of_machine(_patina), "environment": identity.of_environment()}
     for name in ("pipe", "/dev/zero", "no\0name"):
         assert not identity.still_true(_patina, {**what, "files": {name: "x"}}, str(tmp_path / "shot.usda"))
+
+
+def test_nobody_else_writes_the_digests_of_the_users_own_cache(tmp_path, monkeypatch):
+    monkeypatch.delenv("PATINA_CACHE", raising=False)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr(digests, "KEPT_FROM", 0)
+    (tmp_path / "patina").mkdir()
+    os.chmod(tmp_path / "patina", 0o777)
+    before = os.umask(0)
+    try:
+        digests.of_file(__file__)
+    finally:
+        os.umask(before)
+    modes = [os.stat(tmp_path / folder).st_mode & 0o777 for folder in ("patina", "patina/digests")]
+    assert modes == [0o755, 0o700] and len(os.listdir(tmp_path / "patina" / "digests")) == 1
+    # What another user has made there is not read.
+    kept = tmp_path / "patina" / "digests" / os.listdir(tmp_path / "patina" / "digests")[0]
+    kept.write_text(kept.read_text().replace(digests.content(__file__), "forged"))
+    assert digests.of_file(__file__) == "forged"
+    uid = os.geteuid()
+    monkeypatch.setattr(folders.os, "geteuid", lambda: uid + 1)
+    assert digests.of_file(__file__) == digests.content(__file__)
 
 
 def test_a_description_holds_tables(tmp_path):

@@ -220,6 +220,21 @@ def test_workers_of_an_installed_patina_run_nothing_of_the_current_folder(tmp_pa
     assert (tmp_path / "a.exr").exists() and not (tmp_path / "ran").exists()
 
 
+@pytest.mark.parametrize("entries", ["{cwd}:{own}", ":{own}", "{own}:", "../evil:{own}"])
+def test_an_installed_patina_runs_nothing_of_the_current_folder(tmp_path, entries):
+    command, evil = tmp_path / "bin" / "patina", tmp_path / "evil"
+    for folder in (command.parent, evil):
+        folder.mkdir()
+    (evil / "contextlib.py").write_text("import os\nopen(os.environ['RAN'], 'w')\nraise SystemExit(3)\n")
+    command.write_text("import sys\nfrom patina.cli.entry import run\nif __name__ == '__main__':\n    sys.exit(run())\n")
+    meant = entries.startswith("{cwd}")  # by its whole name
+    path = entries.format(own=os.environ["PYTHONPATH"], cwd=evil)
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONSAFEPATH"}
+    result = subprocess.run([sys.executable, str(command), "--version"], cwd=evil, capture_output=True, text=True, timeout=60,
+                            env={**environment, "PYTHONPATH": path, "RAN": str(tmp_path / "ran")})
+    assert (tmp_path / "ran").exists() is meant and result.returncode == (3 if meant else 0), result.stderr
+
+
 def test_a_signal_while_workers_start_is_told_in_one_line(tmp_path):
     """As Ctrl+C does at a terminal, it comes to all processes: to workers while they import."""
     pytest.importorskip("distributed")
@@ -267,6 +282,34 @@ def test_keys_lie_in_a_folder_of_the_user_alone(tmp_path, monkeypatch):
     made = os.lstat(tmp_path)
     with pytest.raises(CommandError, match="keeps nothing private"), certificates.private_folder(str(tmp_path)):
         pass
+
+
+def test_folders_that_others_may_rename_hold_no_keys(tmp_path):
+    images, home = tmp_path / "images", tmp_path / "home"
+    for folder, mode in ((images, 0o775), (home, 0o755)):
+        (folder / "shot").mkdir(parents=True)
+        os.chmod(folder, mode)
+    places = str(images / "shot"), str(home)
+    with certificates.private_folder(*places) as folder:
+        assert os.path.dirname(folder) == str(home)
+    with pytest.raises(CommandError, match=f"others may rename what is in {images}; --engineOption shared_temp_directory="):
+        with certificates.private_folder(places[0]):
+            pass
+    os.chmod(images, 0o1777)
+    with certificates.private_folder(*places) as folder:
+        assert os.path.dirname(folder) == places[0], "the owner alone renames what is in a sticky folder"
+
+
+def test_scripts_of_jobs_lie_in_a_folder_of_the_user_alone():
+    pytest.importorskip("distributed")
+    from dask.utils import tmpfile
+
+    before = tempfile.tempdir
+    with engines._own_folder() as folder:
+        with tmpfile() as script:
+            assert os.path.dirname(script) == folder
+        assert stat.S_IMODE(os.stat(folder).st_mode) == 0o700
+    assert tempfile.tempdir == before
 
 
 @pytest.mark.parametrize("error, status", [(RuntimeError("Nanny failed to start worker process"), TemporaryError),

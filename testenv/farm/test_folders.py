@@ -2,7 +2,6 @@
 """The folder of an image's parts, where others may write: what a job removes there, and what it does not touch."""
 import concurrent.futures
 import os
-import subprocess
 import types
 
 import pytest
@@ -18,8 +17,8 @@ def test_what_is_not_the_jobs_own_stays(tmp_path):
     one = frame(tmp_path)
     one.prepare("job")
     own = ["1.part", "12.part", "2.log", "image.log", "3.20250101-101500.77.failed.log", "image.20250101-101500.7.failed.log",
-           "image.20250101-101500.7.2.failed.log"]
-    others = ["7.2.part", "stage.usda", "notes.log", "kept.failed.log", "1.part.txt"]
+           "image.20250101-101500.7.2.failed.log", ".2.29304-1.part"]
+    others = ["7.2.part", ".a.2-1.part", "stage.usda", "notes.log", "kept.failed.log", "1.part.txt"]
     for name in own + others:
         (tmp_path / "a.exr.parts" / name).write_text("")
     one.forget()
@@ -62,14 +61,14 @@ def test_a_link_that_comes_while_a_part_is_rendered_leads_nowhere(tmp_path, monk
     os.mkdir(one.part_file(one.parts()[1]))
     for name in ("1.part", f"{number}.log"):
         (other / name).write_text("mine")
-    call = subprocess.call
+    call = worker._execute
 
     def swapped(*arguments, **keywords):
         os.rename(one.folder, before)
         os.symlink(other, one.folder)
         return call(*arguments, **keywords)
 
-    monkeypatch.setattr(worker.subprocess, "call", swapped)
+    monkeypatch.setattr(worker, "_execute", swapped)
     task = work.Task(one, one.parts()[number - 1] if number < 3 else None)
     command = task.arguments([movie.write_stage(tmp_path), one.image, "--imageWidth=96", "--samples=1"], 1)
     if reason:
@@ -158,7 +157,7 @@ def test_a_worker_writes_to_no_folder_of_another_user(tmp_path, monkeypatch, who
     if whose != "the sender's":
         one.user = uid + 2
     begun = []
-    monkeypatch.setattr(worker.subprocess, "call", lambda *_, **__: begun.append(os.listdir(one.folder)) or 0)
+    monkeypatch.setattr(worker, "_execute", lambda *_, **__: begun.append(os.listdir(one.folder)) or 0)
     sent = sender.Sender(Here(), [], str(tmp_path), (whose, [], [], {}), 0)
     sent.run([one], one.tasks(set()), lambda _: None)
     if whose == "another's":
@@ -174,7 +173,7 @@ def test_a_link_among_the_parts_is_replaced(tmp_path, target):
     one.prepare("job")
     (tmp_path / "mine").write_text("mine")
     link = one.part_file(one.parts()[0])
-    call = subprocess.call
+    call = worker._execute
 
     def planted(*arguments, **keywords):
         os.symlink(tmp_path / target, link)
@@ -183,7 +182,7 @@ def test_a_link_among_the_parts_is_replaced(tmp_path, target):
     task = work.Task(one, one.parts()[0])
     command = task.arguments([movie.write_stage(tmp_path), one.image, "--imageWidth=96", "--samples=1"], 1)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(worker.subprocess, "call", planted)
+        patch.setattr(worker, "_execute", planted)
         if target == "none":
             with pytest.raises(worker.PartFailed, match="it is a link to nothing"):
                 worker.run(command, str(tmp_path), task.log, ("links", [], [], {}))

@@ -45,7 +45,7 @@ def test_a_build_that_is_made_anew_ends_the_work_of_a_worker(tmp_path, monkeypat
     made = {"version": "1", "build": "old", "instruction set": "any"}
     monkeypatch.setattr(identity, "of_machine", lambda _: dict(made))
     checks, begun = ("anew", [], [], dict(made)), []
-    monkeypatch.setattr(worker.subprocess, "call", lambda *_, **__: begun.append(made["build"]) or 0)
+    monkeypatch.setattr(worker, "_execute", lambda *_, **__: begun.append(made["build"]) or 0)
     worker.run([], str(tmp_path), str(tmp_path / "1.log"), checks)
     made["build"] = "new"
     with pytest.raises(worker.Refused, match="build is new, not old"):
@@ -166,7 +166,7 @@ def test_a_scheduler_that_dies_ends_the_job_in_words(tmp_path):
 
 def test_which_statuses_may_pass(tmp_path, monkeypatch):
     for status, passing in ((75, True), (1, False), (-9, True), (-11, False)):
-        monkeypatch.setattr(worker, "subprocess", types.SimpleNamespace(call=lambda *_, **__: status, DEVNULL=None))
+        monkeypatch.setattr(worker, "_execute", lambda *_, **__: status)
         with pytest.raises(worker.PartFailed) as failed:
             worker.run([], str(tmp_path), str(tmp_path / "1.log"), ("statuses", [], [], None))
         assert failed.value.args[2] is passing
@@ -175,7 +175,7 @@ def test_which_statuses_may_pass(tmp_path, monkeypatch):
 def test_commands_run_with_the_senders_variables(tmp_path, monkeypatch):
     monkeypatch.setenv("OCIO", "/a/workers/own.ocio")
     seen = {}
-    monkeypatch.setattr(worker.subprocess, "call", lambda *_, env, **__: seen.update(env) or 0)
+    monkeypatch.setattr(worker, "_execute", lambda *_, env, **__: seen.update(env) or 0)
     worker.run([], str(tmp_path), str(tmp_path / "log"), ("variables", [], [], {}),
                {"OCIO": None, "PATINA_MODEL_PATH": "/models"})
     assert "OCIO" not in seen and seen["PATINA_MODEL_PATH"] == "/models" and seen["PATH"]
@@ -246,16 +246,25 @@ def test_failures_of_one_second_keep_their_logs(tmp_path, monkeypatch):
     monkeypatch.setattr(worker.time, "strftime", lambda _: "20250101-101500")
     said = iter(("one", "two", "three"))
 
-    def call(*_, stdout, **__):
-        stdout.write(next(said).encode())
+    def call(_, take, **__):
+        take(next(said).encode())
         return 1
 
-    monkeypatch.setattr(worker.subprocess, "call", call)
+    monkeypatch.setattr(worker, "_execute", call)
     for _ in range(3):
         with pytest.raises(worker.PartFailed, match="one|two|three"):
             worker.run([], str(tmp_path), str(tmp_path / "1.log"), ("failures", [], [], {}))
     logs = sorted(tmp_path.iterdir())
     assert {log.read_text() for log in logs} == {"one", "two", "three"} and all(work._OWN.fullmatch(log.name) for log in logs)
+
+
+def test_a_full_disk_loses_no_reason(tmp_path, monkeypatch):
+    monkeypatch.setattr(worker, "_CHILD", "import sys; print('first'); sys.exit('no space left on device')")
+    log = tmp_path / "1.log"
+    log.symlink_to("/dev/full")
+    monkeypatch.setattr(worker.folders.Folder, "new", lambda self, name: os.open("/dev/full", os.O_WRONLY))
+    with pytest.raises(worker.PartFailed, match="no space left on device"):
+        worker.run([], str(tmp_path), str(log), ("full", [], [], {}))
 
 
 @pytest.mark.parametrize("status", [0, 1])
@@ -264,7 +273,7 @@ def test_a_log_that_another_has_removed_changes_no_outcome(tmp_path, monkeypatch
         os.remove(tmp_path / "1.log")
         return status
 
-    monkeypatch.setattr(worker.subprocess, "call", call)
+    monkeypatch.setattr(worker, "_execute", call)
     arguments = [], str(tmp_path), str(tmp_path / "1.log"), ("removed", [], [], {})
     if status == 0:
         assert worker.run(*arguments)["seconds"] >= 0.0

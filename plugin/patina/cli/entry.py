@@ -3,7 +3,15 @@
 import os
 import sys
 
-from patina.cli import interrupts
+_ENTRIES = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+# An empty one, as of `export PYTHONPATH=$PYTHONPATH:/x`, or a relative one means the current folder.
+_MEANT = [entry for entry in _ENTRIES if os.path.isabs(entry)]
+if _MEANT != _ENTRIES:
+    os.environ["PYTHONPATH"] = os.pathsep.join(_MEANT)
+    sys.path[:] = [entry for entry in sys.path
+                   if entry in _MEANT or entry not in [os.path.abspath(other) for other in _ENTRIES]]
+
+from patina.cli import interrupts  # noqa: E402
 
 
 def run():

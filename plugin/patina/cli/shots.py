@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The shots that `patina record` renders, one after the other."""
+import os
+
 import numpy as np
 
 from patina.cli import denoiser, frames, products, recordFlags, settingFlags
@@ -29,11 +31,12 @@ def plan(arguments, stage, settings_prim=None):
     known = {}
     for shot in shots:
         for image in shot.images:
-            if image in known:
+            place = os.path.realpath(image)
+            if place in known:
                 raise CommandError(f"{image} would be written twice" + (
-                    f": for frames {known[image]:g} and {shot.frame:g} (its name needs a place such as ####)"
-                    if shot.frame != known[image] else ": two products have this name"))
-            known[image] = shot.frame
+                    f": for frames {known[place]:g} and {shot.frame:g} (its name needs a place such as ####)"
+                    if shot.frame != known[place] else ": two products have this name"))
+            known[place] = shot.frame
     return shots
 
 

@@ -6,6 +6,7 @@ import stat
 import tempfile
 
 from patina.cli.errors import CommandError, UsageError
+from patina.farm import folders
 
 FILES = ("tls_ca_file", "tls_client_cert", "tls_client_key")  # names of options, as Dask's Security has them
 
@@ -40,11 +41,17 @@ def of_files(distributed, options):
 
 
 @contextlib.contextmanager
-def private_folder(parent):
-    """Yields a folder that this user alone may enter; it goes with the block.
+def private_folder(*parents):
+    """Yields a folder that this user alone may enter, or rename; it goes with the block.
 
+    :param parents: where it may be, the first that others cannot change is taken
     :raises CommandError: where there can be none"""
-    parent = os.path.expanduser(os.path.expandvars(parent))
+    parents = [os.path.expanduser(os.path.expandvars(parent)) for parent in parents]
+    open_ = {parent: folders.open_to_others(parent) for parent in parents}
+    parent = next((parent for parent in parents if not open_[parent]), None)
+    if parent is None:
+        raise CommandError(f"cannot make a private folder in {parents[-1]}: {open_[parents[-1]]}; --engineOption "
+                           "shared_temp_directory=FOLDER names another place for the keys")
     try:
         folder = tempfile.TemporaryDirectory(prefix=".patina-farm-", dir=parent)
     except OSError as error:

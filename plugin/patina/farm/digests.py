@@ -7,6 +7,7 @@ import os
 import tempfile
 
 from patina import inputs
+from patina.farm import folders
 
 KEPT_FROM = 1 << 20  # bytes: smaller files are read again
 _CHUNK = 1 << 20
@@ -22,6 +23,7 @@ def of_file(path):
     place = _place(path)
     state = [status.st_size, status.st_mtime_ns]
     with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
+        _prepare(os.path.dirname(place))
         with open(place, encoding="utf-8") as file:
             kept = json.load(file)
         if kept["state"] == state:
@@ -54,8 +56,19 @@ def _folder():
     return os.path.join(base, "patina", "digests")
 
 
+def _prepare(folder):
+    """Makes the folder. In the user's own cache others may write neither it nor the one that holds it, whatever umask says."""
+    base = os.path.dirname(folder)
+    os.makedirs(os.path.dirname(base), exist_ok=True)
+    for one in (base, folder):
+        if os.environ.get("PATINA_CACHE"):
+            os.makedirs(one, exist_ok=True)
+        else:
+            folders.close(one)
+
+
 def _keep(place, value):
-    os.makedirs(os.path.dirname(place), exist_ok=True)
+    _prepare(os.path.dirname(place))
     handle, temporary = tempfile.mkstemp(dir=os.path.dirname(place))
     try:
         with open(handle, "w", encoding="utf-8") as file:

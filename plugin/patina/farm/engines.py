@@ -190,7 +190,7 @@ class Cluster:
             log.handlers, log.propagate = [self._complaints], False
         if engine.kind == "k8s":
             return pods.start(distributed, module, options, environment(), page, shared, self._held)
-        folder = self._held.enter_context(certificates.private_folder(options.pop("shared_temp_directory", self._shared)))
+        folder = self._held.enter_context(certificates.private_folder(*_places(options, self._shared)))
         return getattr(module, QUEUES[engine.kind])(**{"shared_temp_directory": folder, "scheduler_options": page, **shared,
                                                        **queue_options(options)})
 
@@ -250,13 +250,25 @@ def _configure(page):
             dask.config.set({"distributed.worker.http.routes": [], "distributed.scheduler.http.routes": []})
 
 
+def _places(options, shared):
+    """:returns: tuple of folders that a queue's jobs reach, where the run's keys may lie"""
+    given = options.pop("shared_temp_directory", None)
+    return (given,) if given else (shared, os.path.expanduser("~"))
+
+
 @contextlib.contextmanager
 def _own_folder():
-    """Yields where Dask keeps files of this process within the block: its own choice is one place for all users."""
+    """Yields where Dask keeps files of this process within the block: its own choice is one place for all users, where others
+    can write the scripts of jobs between their naming and their making."""
     import dask
 
+    before = tempfile.tempdir
     with certificates.private_folder(tempfile.gettempdir()) as folder, dask.config.set({"temporary-directory": folder}):
-        yield folder
+        tempfile.tempdir = folder
+        try:
+            yield folder
+        finally:
+            tempfile.tempdir = before
 
 
 @contextlib.contextmanager

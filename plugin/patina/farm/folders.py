@@ -81,6 +81,37 @@ def own(path, others=()):
         yield folder
 
 
+def open_to_others(path):
+    """:returns: who but this user and root may put another folder in the place of one in this folder, in words, or an empty
+    text for nobody"""
+    path = os.path.realpath(path)
+    while True:
+        try:
+            found = os.stat(path)
+        except OSError as error:
+            return f"{path}: {error.strerror}"
+        if found.st_uid not in (0, os.geteuid()):
+            return f"{path} belongs to {_name(found.st_uid)}"
+        if found.st_mode & 0o022 and not found.st_mode & stat.S_ISVTX:
+            return f"others may rename what is in {path}"
+        if path == os.path.dirname(path):
+            return ""
+        path = os.path.dirname(path)
+
+
+def close(path):
+    """Takes the right to write from all but the user of a folder, which is made where it is missing.
+
+    :raises OSError: where there is none, or it is somebody else's"""
+    with contextlib.suppress(FileExistsError):
+        os.mkdir(path, 0o700)
+    found = os.stat(path)
+    if found.st_uid != os.geteuid():
+        raise PermissionError(f"{path} belongs to {_name(found.st_uid)}")
+    if found.st_mode & 0o022:
+        os.chmod(path, stat.S_IMODE(found.st_mode) & ~0o022)
+
+
 def _maker(path):
     """:returns: whose a new file beside a folder is, None where this process makes none there. File systems of others may give
     all files to one user, which is then not the process's"""

@@ -12,7 +12,7 @@ from patina.farm import cut, folders, identity, owner, partial
 TRIES = 4  # of a part: the first, and three more, on other workers where there are any
 LOSSES = 16  # times that Dask gives a part up because its workers died (four of them): parts run beside workers and end none
 _PART = r"\d+\.part"
-_DONE = _PART + r"|(\d+|image)\.log"  # what is of no use behind a whole image
+_DONE = _PART + r"|\.\d+\.\d+-\d+\.part|(\d+|image)\.log"  # of no use behind a whole image, or never whole
 _OWN = re.compile(_DONE + r"|(\d+|image)\.\d{8}-\d{6}\.\d+(\.\d+)?\.failed\.log")
 
 

@@ -12,7 +12,7 @@ from patina.cli import interrupts
 from patina.cli.errors import TEMPORARY, CommandError, is_temporary
 from patina.farm import folders
 
-_TAIL = 1 << 16  # bytes of a log, at whose end the reason of a failure is
+_TAIL = 1 << 16  # bytes that a command prints last, with the reason of a failure
 _SIGKILL = 9  # by which the kernel ends what takes too much memory
 # Statuses of commands that may do it when they are run again.
 PASSING = (TEMPORARY, -_SIGKILL, *(-int(number) for number in interrupts.NUMBERS))
@@ -75,13 +75,14 @@ class _Log:
     def __init__(self, path, user):
         self._path, self._name, self._open = path, os.path.basename(path), contextlib.ExitStack()
         self._user = user
+        self._end = b""
 
     def __enter__(self):
         try:
             self.folder = self._open.enter_context(folders.own(os.path.dirname(self._path), (self._user,)))
             with contextlib.suppress(FileNotFoundError):
                 self.folder.remove(self._name)
-            self.file = self._open.enter_context(open(self.folder.new(self._name), "w+b"))
+            self._file = self._open.enter_context(open(self.folder.new(self._name), "wb", buffering=0))
         except (OSError, CommandError) as error:
             self._open.close()
             reason = f"cannot write {self._path}: {error.strerror}" if isinstance(error, OSError) else str(error)
@@ -110,10 +111,15 @@ class _Log:
                     self.folder.remove(kept)
             return os.path.join(os.path.dirname(self._path), kept)
 
+    def take(self, said):
+        """:param said: bytes. The reason of a failure is kept, though the log's disk may be full"""
+        self._end = (self._end + said)[-_TAIL:]
+        with contextlib.suppress(OSError):
+            self._file.write(said)
+
     def last_line(self):
         """:returns: an empty text where there is none"""
-        self.file.seek(max(0, self.file.seek(0, os.SEEK_END) - _TAIL))
-        lines = [line.strip() for line in self.file.read().decode(errors="replace").splitlines() if line.strip()]
+        lines = [line.strip() for line in self._end.decode(errors="replace").splitlines() if line.strip()]
         return lines[-1] if lines else ""
 
 
@@ -138,13 +144,22 @@ def run(arguments, folder, log, checks, variables=None, user=-1):
         handle = kept.folder.handle  # the command writes there, whatever comes in the folder's place meanwhile
         command = [sys.executable, "-c", _CHILD, str(os.getpid()), kept.folder.path, str(handle), *arguments]
         environment = {name: value for name, value in {**os.environ, **(variables or {})}.items() if value is not None}
-        status = subprocess.call(command, stdin=subprocess.DEVNULL, stdout=kept.file, stderr=kept.file, cwd=folder,
-                                 env=environment, pass_fds=[handle])
+        status = _execute(command, kept.take, cwd=folder, env=environment, pass_fds=[handle])
         if status != 0:
             reason = f"killed by signal {-status}" if status < 0 else kept.last_line() or f"it ended with status {status}"
             raise PartFailed(f"{reason} (on {name}, see {kept.keep()})", address, status in PASSING)
         kept.remove()
     return {"worker": name, "host": host, "address": address, "seconds": time.perf_counter() - begin}
+
+
+def _execute(command, take, **options):
+    """:param take: function of bytes that the command prints; options: of subprocess.Popen
+    :returns: the command's status"""
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          **options) as process:
+        while said := os.read(process.stdout.fileno(), _TAIL):
+            take(said)
+    return process.returncode
 
 
 def nothing():

@@ -104,6 +104,7 @@ void removeLeftOver(const fs::path& folder, const fs::path& target) {
             name.substr(start.size(), name.size() - start.size() - end.size());
         const size_t dash = unique.find('-');
         if (dash == std::string::npos || dash == 0 || dash + 1 == unique.size() ||
+            unique.find('-', dash + 1) != std::string::npos || // a date of the user's
             unique.find_first_not_of("0123456789-") != std::string::npos ||
             isAlive(unique.substr(0, dash)))
             continue;

@@ -139,7 +139,7 @@ bool MtlxParser::hasRoom(size_t bytes) {
     return _bytes <= most;
 }
 
-std::vector<pugi::xml_node> MtlxParser::portsOf(const Element& element, const Scope& scope) {
+std::vector<pugi::xml_node> MtlxParser::portsOf(const Element& element) {
     std::vector<Element> ports;
     std::set<std::string> nearer;
     Element from = element;
@@ -152,7 +152,8 @@ std::vector<pugi::xml_node> MtlxParser::portsOf(const Element& element, const Sc
                 ports.push_back(child);
             }
         const auto inherit = from.attribute("inherit");
-        if (!inherit || scope.prefix != "/") break; // only elements of the document are inherited
+        if (!inherit) break;
+        // Only elements of the document are inherited.
         const auto above = _topmost.find(referenced(from, inherit.value(), _topmost));
         if (above == _topmost.end()) {
             _diagnostics.warn(where(from), "inherit",
@@ -171,13 +172,16 @@ void MtlxParser::readNode(const Element& element, const Scope& scope,
     NetworkNode node;
     node.path = scope.prefix + element.attribute("name").value();
     if (!hasRoom(node.path.size())) return;
-    const std::vector<Element> ports = portsOf(element, scope);
+    const std::vector<Element> ports = portsOf(element);
     std::map<std::string, ValueType> types;
     for (const Element& port : ports)
         types[port.attribute("name").value()] = valueTypeFromName(port.attribute("type").value());
     node.id = resolveId(element, types);
-    for (const Element& port : ports)
-        readInput(port, scope, node);
+    for (const Element& port : ports) {
+        const Element owner = port.parent();
+        readInput(port, owner == element ? scope : Scope{owner.parent(), "/", scope.functional},
+                  node);
+    }
     readTokens(element, node);
     if (isBefore139(element)) _before139.insert(node.path);
     nodes.push_back(std::move(node));
@@ -223,6 +227,8 @@ void MtlxParser::readMaterials(const Element& root, MtlxDocument& out) {
         out.materials.back().path = _path + ":" + name;
         return out.materials.back();
     };
+    for (const Element& old : root.children("material"))
+        if (old.child("shaderref")) _diagnostics.warn(where(old), "", messages::materialElementOld);
     // Nodes of other definitions may be materials too.
     for (const Element& child : root.children()) {
         const std::string type = child.attribute("type").value();

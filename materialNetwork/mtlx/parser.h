@@ -65,7 +65,7 @@ private:
     void readNodes(const Scope& scope, std::vector<NetworkNode>& nodes);
     void readNode(const Element& element, const Scope& scope, std::vector<NetworkNode>& nodes);
     /// @returns the inputs of a node, its own before those that it inherits
-    std::vector<Element> portsOf(const Element& element, const Scope& scope);
+    std::vector<Element> portsOf(const Element& element);
     void readInput(const Element& input, const Scope& scope, NetworkNode& node);
     bool connect(const Element& port, const Scope& scope, Connection& out);
     bool connectInterface(const Element& port, const Scope& scope, NetworkNode& node,

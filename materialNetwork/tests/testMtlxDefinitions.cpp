@@ -32,6 +32,13 @@ TEST_F(DocumentDefinitions, CirclesOfInheritanceEnd) {
     EXPECT_EQ(diagnostics.count(), 2) << warnings(diagnostics);
 }
 
+TEST_F(DocumentDefinitions, MaterialsOfOldDocumentsAreTold) {
+    EXPECT_TRUE(read(R"(<material name="gold"><shaderref name="s" node="standard_surface">
+        <bindinput name="metalness" type="float" value="1" /></shaderref></material>)")
+                    .empty());
+    EXPECT_TRUE(reported("up to 1.37"));
+}
+
 TEST_F(DocumentDefinitions, MaterialsAndNodesInherit) {
     const std::string base = R"(
       <surface_unlit name="S" type="surfaceshader">
@@ -52,6 +59,14 @@ TEST_F(DocumentDefinitions, MaterialsAndNodesInherit) {
     expectVector(lightOfMaterial("B"), 0.15f, 0.1f, 0.05f);
     expectVector(lightOfMaterial("M"), 0.15f, 0.1f, 0.05f);
     expectVector(lightOfMaterial("N"), 0.6f, 0.4f, 0.2f);
+    // Nodes of a graph inherit from those of the document.
+    expectVector(lightOf(R"(
+      <constant name="dim" type="color3"><input name="value" type="color3" value="0.5, 0.25, 1" />
+        </constant>
+      <nodegraph name="G"><constant name="c" type="color3" inherit="dim" />
+        <output name="out" type="color3" nodename="c" /></nodegraph>
+      <dot name="p" type="color3"><input name="in" type="color3" nodegraph="G" /></dot>)"),
+                 0.5f, 0.25f, 1);
     EXPECT_TRUE(nothingTold(diagnostics));
     read(R"(<surfacematerial name="M" type="material" inherit="nobody" />
       <surfacematerial name="A" type="material" inherit="B" />

@@ -14,9 +14,9 @@ FROM_ABOVE = {"flat": (0.4, 0.4), "clippingRange": (0.01, 100), "turn": (-90, 0,
 SMALL = ("--camera", "/camera", "--imageWidth", 4, "--imageHeight", 4, "--disableCameraLight")
 
 
-def seen(folder, *prims, samples=64):
+def seen(folder, *prims, samples=64, flags=()):
     """:returns: pixels (height, width, 3) of a stage's own camera"""
-    return color(shot(folder, stage(*prims), *SMALL, "--samples", samples))
+    return color(shot(folder, stage(*prims), *SMALL, "--samples", samples, *flags))
 
 
 @pytest.mark.parametrize("instanceable", [0, 1])
@@ -30,6 +30,18 @@ def test_normalized_mesh_lights_are_as_bright_at_each_place(tmp_path, instanceab
         found = seen(tmp_path, prim("", "class", lamp, specifier="class"), *lamps, *GROUND,
                      camera(at=(x, 1, 0), **FROM_ABOVE))
         assert found == pytest.approx(GREY / math.pi * 8 / 4, rel=2e-3)
+
+
+@pytest.mark.parametrize("backend", ["embree", "raster"])
+def test_normalized_mesh_lights_look_as_bright_as_their_places_are_small(tmp_path, backend):
+    """Intensity / area; the larger lamps are turned by different angles."""
+    lamp = card("lamp", 1, "bool inputs:normalize = 1", "float inputs:intensity = 8", apis=("MeshLightAPI",))
+    lamps = [prim("Xform", name, meta=("inherits = </class>", "instanceable = true"), at=(x, 0, 0), turn=(0, 0, turn),
+                  scale=(size, size, size)) for name, x, size, turn in (("a", -50, 1, 0), ("b", 50, 3, 30), ("c", 100, 3, 77))]
+    for x, size in ((-50, 1), (50, 3), (100, 3)):
+        found = seen(tmp_path, prim("", "class", lamp, specifier="class"), *lamps, camera(flat=(0.4, 0.4), at=(x, 0, 5)),
+                     samples=1, flags=("--backend", backend))
+        assert found == pytest.approx(8 / (2 * size) ** 2, rel=1e-4)
 
 
 def test_a_shadow_fades_over_no_more_than_its_distance(tmp_path):

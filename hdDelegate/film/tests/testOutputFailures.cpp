@@ -230,14 +230,15 @@ TEST(OutputFailures, TemporariesOfKilledProcessesAreRemoved) {
     std::ofstream(temp.file(".b." + dead + "-0.exr")) << "of another image";
     std::ofstream(temp.file(".a." + std::to_string(::getppid()) + "-0.exr")) << "still written";
     std::ofstream(temp.file(".a.2026-draft.exr")) << "no temporary";
+    std::ofstream(temp.file(".a." + dead + "-05-01.exr")) << "a date";
     std::ofstream(temp.file("a." + dead + "-0.exr")) << "no temporary";
     {
         AtomicFile file(temp.file("a.exr"));
-        EXPECT_EQ(temp.fileCount(), 5u); // this one's, and the four that are nobody's business
+        EXPECT_EQ(temp.fileCount(), 6u); // this one's, and the five that are nobody's business
         AtomicFile second(temp.file("a.exr"));
-        EXPECT_EQ(temp.fileCount(), 6u) << "two writers of a process live side by side";
+        EXPECT_EQ(temp.fileCount(), 7u) << "two writers of a process live side by side";
     }
-    EXPECT_EQ(temp.fileCount(), 4u);
+    EXPECT_EQ(temp.fileCount(), 5u);
     EXPECT_FALSE(std::filesystem::exists(temp.file(".a." + dead + "-0.exr")));
 }
 

@@ -45,6 +45,29 @@ std::string folderOf() {
     return home && *home == '/' ? std::string(home) + "/.cache/patina/programs" : std::string();
 }
 
+/// Makes a folder where it is missing, and takes the right to write from all but its user: the
+/// driver runs what is in it.
+/// @returns whether it is this user's
+bool closed(const fs::path& folder) {
+    ::mkdir(folder.c_str(), 0700);
+    struct stat found;
+    return ::stat(folder.c_str(), &found) == 0 && S_ISDIR(found.st_mode) &&
+           found.st_uid == ::geteuid() &&
+           (!(found.st_mode & 022) || ::chmod(folder.c_str(), found.st_mode & 0755) == 0);
+}
+
+/// Makes the folder of programs. In the user's own cache nobody else may write it, nor what holds
+/// it.
+bool makeFolder(const fs::path& folder) {
+    std::error_code error;
+    const fs::path base = folder.parent_path();
+    fs::create_directories(base.parent_path(), error);
+    if (!std::getenv("PATINA_CACHE")) return closed(base) && closed(folder);
+    fs::create_directory(base, error);
+    ::mkdir(folder.c_str(), 0700);
+    return true;
+}
+
 bool readFile(const std::string& file, const Header& wanted, Header& header,
               std::vector<char>& bytes) {
     std::ifstream in(file, std::ios::binary);
@@ -71,7 +94,7 @@ Header headerOf(const std::string& key) {
 ProgramCache::ProgramCache(const std::vector<std::string>& sources) : _folder(folderOf()) {
     GLint formats = 0;
     if (!_folder.empty()) gl.GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
-    if (formats < 1) return;
+    if (formats < 1 || !makeFolder(_folder)) return;
     for (const GLenum name : {GL_VENDOR, GL_RENDERER, GL_VERSION}) {
         const GLubyte* text = gl.GetString(name);
         _key += text ? reinterpret_cast<const char*>(text) : "";
@@ -122,10 +145,7 @@ void ProgramCache::store(GLuint program) const {
     header.sum = hash(bytes.data(), bytes.size(), seeds[0]);
     header.format = format;
 
-    std::error_code error;
-    const bool fresh = fs::create_directories(_folder, error);
-    if (error) return;
-    if (fresh) ::chmod(_folder.c_str(), 0700); // what is in it is run
+    makeFolder(_folder); // it may have been removed
     static std::atomic<unsigned> counter{0};
     const unsigned number = counter++;
     const std::string temporary =

@@ -80,6 +80,15 @@ void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& pl
     _groups.push_back(std::move(group));
 }
 
+namespace {
+
+/// @returns the area of a mesh at a place, above zero
+float areaAt(const RasterGroup& group, const RasterPlace& place, const dmat4& toGroup) {
+    return std::max(areaOf(*group.shape->mesh, mat4(place.groupToWorld * toGroup)), 1e-30f);
+}
+
+} // namespace
+
 void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
                           const SceneState& state, const RasterCamera& camera,
                           RasterInstances& places) {
@@ -100,7 +109,8 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     request.prim = prim;
     request.timeCode = camera.timeCode(0.5f);
     request.toWorld = displacementSpace(*prim, request.timeCode);
-    request.needsMesh = _parts.meshLights->of(prim->path, _settings) != nullptr;
+    const auto meshLight = _parts.meshLights->of(prim->path, _settings);
+    request.needsMesh = meshLight != nullptr;
     for (const RasterMaterial* material : materials) {
         const MaterialProgram& program = *material->program;
         _compiled.materials().tellOfSpaces(program, *prim);
@@ -138,8 +148,18 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
             group.deforms = std::move(still);
             _moves = true;
         }
-        group.places = std::move(list);
-        if (group.shape->triangles > 0) addGroup(std::move(group), where, toGroup);
+        if (group.shape->triangles == 0) continue;
+        // A light that is divided by its area gives another radiance at places of another size.
+        std::map<float, std::vector<uint32_t>> byArea; // to four digits: those of turned places
+        for (const uint32_t i : list)
+            byArea[meshLight && meshLight->normalize
+                       ? std::round(std::log(areaAt(group, where[i], toGroup)) * 1e4f)
+                       : 0.0f]
+                .push_back(i);
+        for (auto& [area, equal] : byArea) {
+            group.places = std::move(equal);
+            addGroup(group, where, toGroup);
+        }
     }
     _moves |= prim->transform.moves();
     addDraws(prim, rank, materials, firstGroup, where, toGroup);
@@ -194,23 +214,15 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
     draw.primId = prim->id >= 0 ? prim->id : rank;
     draw.noise = murmurHash3(prim->path); // hosts count prims in the order in which they came
     int lit = -1;
-    float firstArea = 0.0f; // of a normalized mesh light
-    const auto areaAt = [&](size_t group, size_t place) {
-        return std::max(
-            areaOf(*_groups[group].shape->mesh, mat4(places[place].groupToWorld * toGroup)),
-            1e-30f);
-    };
-    if (const auto meshLight = _parts.meshLights->of(prim->path, _settings)) {
+    vec3 radiance(0.0f);
+    const auto meshLight = _parts.meshLights->of(prim->path, _settings);
+    if (meshLight) {
         const Light& light = *meshLight;
-        draw.meshLight.radiance = lightBaseRadiance(light);
+        radiance = lightBaseRadiance(light);
         draw.meshLight.mode =
             light.materialSyncMode == "noMaterialResponse" ? RasterMeshLight::NoMaterialResponse
             : light.materialSyncMode == "materialGlowTintsLight" ? RasterMeshLight::GlowTintsLight
                                                                  : RasterMeshLight::Independent;
-        if (light.normalize) {
-            firstArea = areaAt(firstGroup, 0);
-            draw.meshLight.radiance /= firstArea;
-        }
         if (!light.filters.empty()) draw.meshLight.filtered = light.path;
         lit = _parts.links->of(light.lightLink);
     }
@@ -218,20 +230,20 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
         const RasterGroup& group = _groups[g];
         draw.group = int(g);
         draw.flags = group.shape->flags | cullFlags(*prim, _settings);
+        draw.meshLight.radiance = radiance;
+        if (meshLight && meshLight->normalize)
+            draw.meshLight.radiance /= areaAt(group, places[group.places.front()], toGroup);
         for (size_t subset = 0; subset < materials.size(); ++subset) {
             draw.material = materials[subset];
             if (!draw.material->programs) continue;
             const bool lights =
                 prim->visibility.diffuse || draw.meshLight.mode != RasterMeshLight::NoLight;
             if (_settings.enableSceneLights && group.shape->mesh && lights)
-                for (const uint32_t i : group.places) {
-                    RasterMeshLight here = draw.meshLight;
-                    if (firstArea > 0.0f && i > 0) here.radiance *= firstArea / areaAt(g, i);
-                    _emitters.add(group.shape->mesh, subset, draw.material->program, here,
+                for (const uint32_t i : group.places)
+                    _emitters.add(group.shape->mesh, subset, draw.material->program, draw.meshLight,
                                   mat4(places[i].groupToWorld * toGroup), lit,
                                   (draw.flags & RasterShape::tube) != 0, _origin, places[i].steps,
                                   i);
-                }
             draw.subset = int(subset);
             draw.show(*group.shape);
             if (draw.surface->triangles == 0) continue;

@@ -9,6 +9,8 @@
 #include <chrono>
 #include <cstdlib>
 
+#include <sys/stat.h>
+
 using namespace patina;
 namespace fs = std::filesystem;
 
@@ -100,6 +102,28 @@ TEST_F(ProgramCaches, CanBeOffAndUnwritable) {
         EXPECT_EQ(run(*program), 3);
     }
     EXPECT_TRUE(files().empty());
+}
+
+TEST_F(ProgramCaches, NobodyElseWritesTheUsersOwn) {
+    PATINA_NEED_CONTEXT();
+    PATINA_NEED_BINARIES();
+    unsetenv("PATINA_CACHE");
+    const char* before = std::getenv("XDG_CACHE_HOME");
+    const std::string kept = before ? before : "";
+    setenv("XDG_CACHE_HOME", _root.c_str(), 1);
+    const auto allowed = [](const fs::path& path) { return fs::status(path).permissions(); };
+    const mode_t mask = ::umask(0);
+    make(5);
+    EXPECT_EQ(allowed(_root / "patina"), fs::perms::owner_all);
+    EXPECT_EQ(allowed(_root / "patina" / "programs"), fs::perms::owner_all);
+    fs::permissions(_root / "patina", fs::perms::all); // as earlier versions made it
+    EXPECT_TRUE(make(5)->isFromCache());
+    EXPECT_EQ(allowed(_root / "patina"), fs::perms(0755));
+    ::umask(mask);
+    if (before)
+        setenv("XDG_CACHE_HOME", kept.c_str(), 1);
+    else
+        unsetenv("XDG_CACHE_HOME");
 }
 
 TEST_F(ProgramCaches, ManyWritersAtOnce) {

@@ -292,7 +292,7 @@ def test_folders_that_others_may_rename_hold_no_keys(tmp_path):
     places = str(images / "shot"), str(home)
     with certificates.private_folder(*places) as folder:
         assert os.path.dirname(folder) == str(home)
-    with pytest.raises(CommandError, match=f"others may rename what is in {images}; --engineOption shared_temp_directory="):
+    with pytest.raises(CommandError, match=f"others may rename what is in {images}; name another by TMPDIR"):
         with certificates.private_folder(places[0]):
             pass
     os.chmod(images, 0o1777)

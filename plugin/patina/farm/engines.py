@@ -253,7 +253,7 @@ def _configure(page):
 def _places(options, shared):
     """:returns: tuple of folders that a queue's jobs reach, where the run's keys may lie"""
     given = options.pop("shared_temp_directory", None)
-    return (given,) if given else (shared, os.path.expanduser("~"))
+    return (given,) if given else (shared, "~")
 
 
 @contextlib.contextmanager
@@ -263,7 +263,7 @@ def _own_folder():
     import dask
 
     before = tempfile.tempdir
-    with certificates.private_folder(tempfile.gettempdir()) as folder, dask.config.set({"temporary-directory": folder}):
+    with certificates.private_folder(tempfile.gettempdir(), "~") as folder, dask.config.set({"temporary-directory": folder}):
         tempfile.tempdir = folder
         try:
             yield folder

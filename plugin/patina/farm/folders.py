@@ -82,9 +82,11 @@ def own(path, others=()):
 
 
 def open_to_others(path):
-    """:returns: who but this user and root may put another folder in the place of one in this folder, in words, or an empty
-    text for nobody"""
+    """:returns: why this folder holds nothing that is safe from others than this user and root, who might put something in its
+    place; an empty text where it does"""
     path = os.path.realpath(path)
+    if not os.access(path, os.W_OK | os.X_OK):
+        return f"{path} cannot be written"
     while True:
         try:
             found = os.stat(path)

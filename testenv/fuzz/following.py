@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs libFuzzer's programs, which follow coverage, until they reach nothing new."""
+import contextlib
 import glob
+import json
 import os
 import re
 import signal
@@ -11,6 +13,7 @@ import time
 
 import keptFindings
 import seeds
+from patina.farm import digests
 
 _COVERED = re.compile(r"\bcov: (\d+)")
 _UNITS = re.compile(r"stat::number_of_executed_units: (\d+)|^Done (\d+) runs|^#(\d+)\t", re.MULTILINE)  # of the last line
@@ -36,9 +39,24 @@ class Plateau:
     inputs an hour still meets a rare edge now and then. Seconds are those of processors: a program that waits for one tries
     nothing."""
 
-    def __init__(self):
+    def __init__(self, program=None, place=None):
+        """:param program: path of what runs, whose bytes must be those of before
+        :param place: path of a file that keeps the plateau; None where there is none"""
         self.edges, self.used = 0, 0.0
         self._rises = [(0.0, 0)]  # when, how many from then on
+        self._place, self._program = place, program and digests.content(program)
+        with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
+            with open(place, encoding="utf-8") as file:
+                kept = json.load(file)
+            if kept["program"] == self._program:
+                self.used, self._rises = float(kept["used"]), [(float(when), int(edges)) for when, edges in kept["rises"]]
+                self.edges = self._rises[-1][1]
+
+    def keep(self):
+        """For the next run of the same program, which goes on with its inputs."""
+        if self._place:
+            with open(self._place, "w", encoding="utf-8") as file:
+                json.dump({"program": self._program, "used": self.used, "rises": self._rises}, file)
 
     def hear(self, line):
         found = _COVERED.search(line)
@@ -86,7 +104,7 @@ def run(command, plateau, most, **options):
     return 0 if asked.is_set() else process.returncode, text, counts[-1] if counts else 0
 
 
-def search(name, command, corpus, seconds, plateau, seed, say, why, read, lines, options):
+def search(name, command, corpus, seconds, plateau, seed, say, why, read, lines, options, program=None):
     """Runs a program for a time; after a finding it goes on, with another seed.
 
     :param command: the program and flags of its own
@@ -96,12 +114,14 @@ def search(name, command, corpus, seconds, plateau, seed, say, why, read, lines,
     :param read: function of an input's file, its kind and a folder -> the bytes that are kept
     :param lines: function of the folder of inputs and another -> (lines that they reach, all)
     :param options: function of a folder -> those of subprocess.Popen
+    :param program: path of the program, where it is compiled: the plateau of a corpus goes on as long as that is the same
     :returns: as generated.run(), with lines, edges, and how long the plateau at the end is
     :raises RuntimeError: where it ends by itself without a finding"""
     work = os.path.join(corpus, name)
     os.makedirs(work, exist_ok=True)
     seeds.write(name, work)
-    start, inputs, findings, part, libraries, edges = time.monotonic(), 0, {}, 0, 0, Plateau()
+    edges = Plateau(program, program and f"{work}.plateau.json")
+    start, inputs, findings, part, libraries = time.monotonic(), 0, {}, 0, 0
     with tempfile.TemporaryDirectory(dir=IN_MEMORY) as scratch:
         while (left := seconds - (time.monotonic() - start)) > 1 and edges.seconds() < plateau:
             prefix = os.path.join(scratch, f"found{part}-")
@@ -109,6 +129,7 @@ def search(name, command, corpus, seconds, plateau, seed, say, why, read, lines,
                 [*command, work, keptFindings.folder(name), f"-max_total_time={int(left)}", f"-seed={seed + part + 1}",
                  f"-max_len={LONGEST_INPUT}", "-print_final_stats=1", f"-artifact_prefix={prefix}"],
                 edges, plateau, **options(scratch))
+            edges.keep()
             inputs += tried
             part += 1
             found = [path for path in glob.glob(glob.escape(prefix) + "*") if "-slow-unit-" not in path]  # short of a hang

@@ -75,7 +75,7 @@ def run(name, fuzzer, folder, corpus, seconds, plateau, seed, say):
                "-entropic=0"],  # weighing inputs by what is rare costs time, and reached no more edges in runs of 40 s
         corpus, seconds, plateau, seed, say, lambda _, said: _why(said),
         lambda file, kind, scratch: _minimise(program, file, kind, scratch, fuzzer), lines,
-        lambda scratch: {"cwd": scratch, "env": _environment(fuzzer, scratch)})
+        lambda scratch: {"cwd": scratch, "env": _environment(fuzzer, scratch)}, program)
 
 
 def _minimise(program, file, kind, scratch, fuzzer):

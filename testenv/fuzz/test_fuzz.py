@@ -235,6 +235,23 @@ def test_a_plateau_allows_a_thousandth_of_the_edges():
     assert few.seconds() == 0.0
 
 
+def test_a_plateau_goes_on_with_the_same_program(tmp_path):
+    program, place = tmp_path / "program", str(tmp_path / "plateau.json")
+    program.write_text("one")
+    edges = following.Plateau(str(program), place)
+    edges.hear("#9\tNEW    cov: 2000")
+    edges.used = 40.0
+    edges.keep()
+    again = following.Plateau(str(program), place)
+    again.hear("#9\tINITED cov: 1998")
+    again.used += 20.0
+    assert (again.seconds(), again.edges) == (60.0, 2000)
+    program.write_text("other")
+    assert following.Plateau(str(program), place).seconds() == 0.0
+    (tmp_path / "plateau.json").write_text("{}")
+    assert following.Plateau(str(program), place).edges == 0
+
+
 def test_crashes_of_libraries_are_theirs():
     text = ("==7==ERROR: AddressSanitizer: SEGV on unknown address 0x61 (pc 0x7f bp 0x7f sp 0x7f T0)\n"
             "==7==The signal is caused by a READ memory access.\n    #0 0x55 in __asan_memcpy (/b/texture+0x1)\n"

@@ -37,7 +37,7 @@ def turns_of_joints(context, animation):
     :returns: as turns_of_ops(), of all joints: each turns with those above it"""
     if not animation.JointTransformsMightBeTimeVarying():
         return []
-    parents = UsdSkel.Topology(animation.GetJointOrder()).GetParentIndices()
+    parents = list(UsdSkel.Topology(animation.GetJointOrder()).GetParentIndices())  # a Vt array sliced to nothing is None
 
     def most(before, after):
         angles = _quaternion_angles(before, after)

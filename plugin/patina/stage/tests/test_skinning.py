@@ -192,6 +192,42 @@ def test_normals_turn_with_the_mesh_where_a_blend_shape_has_no_offsets_for_them(
         assert found == pytest.approx(np.array([[0, -0.5 ** 0.5, 0.5 ** 0.5]] * 3), abs=1e-6)
 
 
+SIDE = "normalOffsets = [%s]  vector3f[] offsets"
+TWO = SHAPE.replace('["up"]', '["up", "down"]').replace("</r/m/up>", "[</r/m/up>, </r/m/down>]").replace(
+    "vector3f[] offsets", "vector3f[] " + SIDE % "(3, 0, 0)") + """
+            def BlendShape "down" { vector3f[] offsets = [(0, 0, -1)]  int[] pointIndices = [1] }"""
+UPRIGHT = NORMALS % ("(0,0,1), (0,0,1), (0,0,1)", "vertex")
+
+
+@pytest.mark.parametrize("frame", [10.0, 2.5])
+def test_a_shape_without_offsets_for_normals_keeps_those_of_others(read, frame):
+    """Whatever its weight is: it adds nothing to the normals, as in pxr."""
+    alone, both = ((SKELETON % (shapes + UPRIGHT)).replace('blendShapes = ["up"]', f"blendShapes = {names}").replace(
+        "[0], 10: [1]", weights) for shapes, names, weights in (
+            (TWO.replace('"up", "down"', '"up"').replace("[</r/m/up>, </r/m/down>]", "</r/m/up>"), '["up"]', "[0], 10: [1]"),
+            (TWO, '["up", "down"]', "[0, 0], 10: [1, %s]")))
+    _, wanted = normals_of(read(alone, frame=frame))
+    assert wanted[0] == pytest.approx(np.array([0.3 * frame, 0, 1]) / np.hypot(0.3 * frame, 1))
+    for weight in (0, 0.001, 1):
+        assert normals_of(read(both % weight, frame=frame))[1] == pytest.approx(wanted, abs=1e-6)
+
+
+def test_blended_normals_are_as_long_as_skinned_ones(read):
+    """No joints normalize them: the offset makes the first one longer."""
+    text = SKELETON % (SHAPE.replace("vector3f[] offsets", "vector3f[] " + SIDE % "(3, 0, 0)") + UPRIGHT)
+    (value,) = [value for key, value in read(text, frame=10.0).prim("/r/m").items() if key.startswith("primvar normals")]
+    lengths = np.linalg.norm(np.array(value.replace(",", " ").split(), dtype=float).reshape(-1, 3), axis=1)
+    assert lengths == pytest.approx([1, 1, 1], abs=1e-5)  # a dump has six digits
+
+
+@pytest.mark.parametrize("wrong", ["None", '["a"]', "[(1, 0, 0), (1, 0, 0)]"])
+def test_offsets_for_normals_that_are_none_leave_the_mesh(read, wrong):
+    shape = TWO.replace("normalOffsets = [(3, 0, 0)]", "normalOffsets = " + wrong)
+    if wrong.startswith('["'):
+        shape = shape.replace("vector3f[] normalOffsets", "string[] normalOffsets")
+    assert len(normals_of(read(SKELETON % (shape + UPRIGHT), frame=10.0))[1]) == 3
+
+
 def test_normals_that_fit_no_points_are_told(read):
     reading = read(SKELETON % (WEIGHTS + NORMALS % ("(1,0,0), (0,1,0)", "vertex")), frame=5.0)
     assert any("/r/m normals: cannot be skinned" in line for line in reading.warnings), reading.warnings

@@ -32,6 +32,12 @@ def skinning_of(context, root):
     return skins or None
 
 
+def is_bound(prim):
+    """:returns: whether what lies below a prim inherits a skeleton or an animation from it or from prims above"""
+    binding = UsdSkel.BindingAPI(prim)
+    return bool(binding.GetInheritedAnimationSource() or binding.GetInheritedSkeleton())
+
+
 def skin_of(found):
     """:returns: the Skin of a found prim or None"""
     skins = found.state.skinning

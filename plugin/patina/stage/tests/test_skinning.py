@@ -99,6 +99,31 @@ def test_instanced_characters_are_skinned_each(read, numbers):
     assert reading.prim("/bare")["kind"] == "Instancer"  # nothing is skinned there
 
 
+CROWD = (SKELETON % WEIGHTS).replace("rel skel:animationSource = </r/skel/anim>", "").replace(
+    "    def SkelRoot", 'class Xform "human" {  def SkelRoot', 1).replace("</r/", "</human/r/") + """ }
+    def SkelAnimation "near" { uniform token[] joints = ["a/b"]  half3[] scales = [(1, 1, 1)]
+        quatf[] rotations = [(1, 0, 0, 0)]  float3[] translations = [(3, 1, 0)] }
+    def SkelAnimation "far" { uniform token[] joints = ["a/b"]  half3[] scales = [(1, 1, 1)]
+        quatf[] rotations = [(1, 0, 0, 0)]  float3[] translations = [(8, 1, 0)] }
+    class Xform "pair" {
+        def Xform "own" (instanceable = HOW; inherits = </human>; prepend apiSchemas = ["SkelBindingAPI"]) {
+            rel skel:animationSource = </far> }
+        def Xform "others" (instanceable = HOW; inherits = </human>) { } }
+    def Xform "moved" (instanceable = HOW; inherits = </pair>; prepend apiSchemas = ["SkelBindingAPI"]) {
+        rel skel:animationSource = </near> }
+    def Xform "still" (instanceable = HOW; inherits = </pair>) { }
+    def Xform "one" (instanceable = HOW; inherits = </human>) { }"""
+
+
+def test_instances_inherit_animations_from_above_their_skel_roots(read, numbers):
+    """As the same stage without instances; those that inherit none share what they hold."""
+    plain, instanced = (read(CROWD.replace("HOW", how)) for how in ("false", "true"))
+    for path, x in (("/moved/own", 8), ("/moved/others", 3), ("/still/own", 8)):
+        for reading in (plain, instanced):
+            assert numbers(reading.prim(path + "/r/m")["points"]) == pytest.approx([0, 0, 0, 1, 0, 0, x, 1, 0])
+    assert instanced.prim("/one")["kind"] == "Instancer" and not instanced.warnings
+
+
 def test_framing_follows_the_pose(read, numbers):
     near, far = (read(SKELETON % WEIGHTS, frame=frame) for frame in (0.0, 10.0))
     place = [numbers(r.prim(r.info.camera)["transform"])[12] for r in (near, far)]

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which material each prim shows."""
-from pxr import UsdGeom, UsdShade
+from pxr import Usd, UsdGeom, UsdShade
 
 from . import compat, kinds
 from .collectionBindings import CollectionBindings, in_prototype
 from .context import shown
 from .primvars import read_primvars
 from .state import Bound
+
+# As UsdGeomSubset looks for them, and below instances as well.
+_CHILDREN = Usd.TraverseInstanceProxies(
+    Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimHasDefiningSpecifier & ~Usd.PrimIsAbstract)
 
 
 class Bindings:
@@ -93,13 +97,14 @@ class Bindings:
 
     def _subsets(self, prim):
         """:returns: list of UsdGeom.Subset of faces: other elements have no material in UsdShade"""
-        if not any("GeomSubset" in kinds.schemas_of(child) for child in prim.GetAllChildren()):
-            return []
         found = []
-        for subset in UsdShade.MaterialBindingAPI(prim).GetMaterialBindSubsets():
+        for child in prim.GetFilteredChildren(_CHILDREN):
+            subset = UsdGeom.Subset(child) if "GeomSubset" in kinds.schemas_of(child) else None
+            if not subset or subset.GetFamilyNameAttr().Get() != UsdShade.Tokens.materialBind:
+                continue
             elements = subset.GetElementTypeAttr().Get()
-            if elements != UsdGeom.Tokens.face:
-                self.context.warn(subset.GetPath(), "elementType", "subsetOfOthers", shown(elements))
-            elif subset.GetPrim().IsActive():
+            if elements == UsdGeom.Tokens.face:
                 found.append(subset)
+            else:
+                self.context.warn(subset.GetPath(), "elementType", "subsetOfOthers", shown(elements))
         return found

@@ -64,20 +64,16 @@ def _fit(counts, corners):
 
 
 def _blended(context, skin, rest, normals, points):
-    """:returns: the normals, with the offsets of the blend shapes at work; where one has none, or they do not fit, turned as
-        the deformed mesh is"""
+    """:returns: the normals, with the offsets that the blend shapes at work have; where none of the mesh's shapes has any, or
+        they do not fit, turned as the deformed mesh is"""
     acting = skin.acting_shapes(context.time)
     if not acting:
         return normals
-    shapes, (weights, shape_numbers, numbers) = acting
-    offsets = [Vt.Vec3fArray()] * shapes.GetNumSubShapes()
-    for shape, number in zip(shape_numbers, numbers):
-        between = shapes.GetInbetween(number)
-        offsets[number] = (between or shapes.GetBlendShape(shape)).GetNormalOffsetsAttr().Get() or Vt.Vec3fArray()
+    shapes, parts = acting
+    offsets = [_normal_offsets(shapes, number) for number in range(shapes.GetNumSubShapes())]
     total = Vt.Vec3fArray(len(rest))  # pxr changes it in place
-    if all(offsets[number] for number in numbers) and shapes.ComputeDeformedPoints(
-            weights, shape_numbers, numbers, shapes.ComputeBlendShapePointIndices(), offsets, total):
-        return normals + np.asarray(total)[points]
+    if any(offsets) and shapes.ComputeDeformedPoints(*parts, shapes.ComputeBlendShapePointIndices(), offsets, total):
+        return _normalized(normals + np.asarray(total)[points])
     counts, corners = _faces(context, skin.target.GetPrim(), len(rest))
     if not _fit(counts, corners):
         return normals
@@ -86,6 +82,19 @@ def _blended(context, skin, rest, normals, points):
     axis, cosine = np.cross(before, after), np.sum(before * after, axis=1, keepdims=True)
     turned = np.cross(axis, normals)  # Rodrigues' formula for the smallest turn between both
     return normals + turned + np.cross(axis, turned) / np.maximum(1.0 + cosine, 1e-6)
+
+
+def _normal_offsets(shapes, number):
+    """:returns: those of a sub-shape, an in-between or a shape itself; empty where it has none"""
+    shape = shapes.GetInbetween(number) or shapes.GetBlendShape(shapes.GetBlendShapeIndex(number))
+    attribute = shape.GetNormalOffsetsAttr() if shape else None
+    value = attribute.Get() if attribute else None
+    return value if isinstance(value, Vt.Vec3fArray) else Vt.Vec3fArray()
+
+
+def _normalized(vectors):
+    length = np.linalg.norm(vectors.astype(np.float64), axis=1, keepdims=True)
+    return (vectors / np.where(length > 0.0, length, 1.0)).astype(np.float32)
 
 
 def _posed(skin, time, count, normals, points):
@@ -119,5 +128,4 @@ def smooth_normals(points, counts, indices):
     np.add.at(normals, face, cross)
     total = np.zeros(points.shape)
     np.add.at(total, indices, normals[face])
-    length = np.linalg.norm(total, axis=1, keepdims=True)
-    return (total / np.where(length > 0.0, length, 1.0)).astype(np.float32)
+    return _normalized(total)

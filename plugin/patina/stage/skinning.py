@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """UsdSkel: skinned points by pxr's own queries, blend shapes first."""
+import functools
+from collections import defaultdict
+
 import numpy as np
 from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
 
@@ -29,6 +32,12 @@ def skinning_of(context, root):
     return skins or None
 
 
+def is_bound(prim):
+    """:returns: whether what lies below a prim inherits a skeleton or an animation from it or from prims above"""
+    binding = UsdSkel.BindingAPI(prim)
+    return bool(binding.GetInheritedAnimationSource() or binding.GetInheritedSkeleton())
+
+
 def skin_of(found):
     """:returns: the Skin of a found prim or None"""
     skins = found.state.skinning
@@ -46,15 +55,39 @@ class Skin:
 
     def offsets(self, context):
         """:returns: times relative to the frame at which the pose is evaluated"""
-        interval = context.shutter_interval()
-        bind = self.target.GetGeomBindTransformAttr()
-        samples = set(bind.GetTimeSamplesInInterval(interval)) if bind else set()
+        interval, target = context.shutter_interval(), self.target
+        inputs = [target.GetGeomBindTransformAttr(), target.GetJointIndicesPrimvar().GetAttr(),
+                  target.GetJointWeightsPrimvar().GetAttr()]
+        if self.deforms:
+            inputs.append(UsdGeom.PointBased(target.GetPrim()).GetPointsAttr())
+        samples = {time for attribute in inputs if attribute for time in attribute.GetTimeSamplesInInterval(interval)}
         animation, turns = self.query.GetAnimQuery(), []
         if animation:
             turns = turns_of_joints(context, animation) if self.has_joints else []
             samples.update(animation.GetJointTransformTimeSamplesInInterval(interval))
-            samples.update(animation.GetBlendShapeWeightTimeSamplesInInterval(interval))
+            if target.HasBlendShapes() and animation.BlendShapeWeightsMightBeTimeVarying():
+                samples.update(self._bends(animation, interval))
         return context.motion_offsets(samples, turns)
+
+    def _bends(self, animation, interval):
+        """:returns: time codes in an interval at which points take another direction: samples of the weights of blend shapes,
+            and where weights pass those of in-betweens"""
+        times = sorted({interval.min, interval.max, *animation.GetBlendShapeWeightTimeSamplesInInterval(interval)})
+        passed = defaultdict(list)
+        for number in range(self.shapes.GetNumSubShapes()):
+            between = self.shapes.GetInbetween(number)
+            if between:
+                passed[self.shapes.GetBlendShapeIndex(number)].append(between.GetWeight())
+        weights = [self._weights(time) for time in times] if passed else []
+        if not all(own and len(own) == self.shapes.GetNumBlendShapes() for own in weights):
+            return times
+        bends = list(times)
+        for shape, ends in passed.items():
+            for bend in sorted((0.0, 1.0, *ends))[1:-1]:  # what lies beyond goes on straight
+                away = [own[shape] - bend for own in weights]
+                bends += [start + (end - start) * before / (before - after) for start, end, before, after
+                          in zip(times, times[1:], away, away[1:]) if before * after < 0.0]
+        return bends
 
     def transform(self, context, anchor):
         """Skinned points are in the space of the skeleton."""
@@ -96,12 +129,19 @@ class Skin:
 
     def acting_shapes(self, time):
         """:returns: (BlendShapeQuery, its sub-shapes that have weights, as it gives them); None where none has"""
+        weights = self._weights(time)
+        parts = self.shapes.ComputeSubShapeWeights(weights) if weights else None
+        return (self.shapes, parts) if parts and parts[0] else None
+
+    @functools.cached_property
+    def shapes(self):
+        return UsdSkel.BlendShapeQuery(UsdSkel.BindingAPI(self.target.GetPrim()))
+
+    def _weights(self, time):
+        """:returns: those of the prim's own blend shapes; None where the animation has none"""
         animation = self.query.GetAnimQuery()
         weights = animation.ComputeBlendShapeWeights(time) if animation else None
-        mapped = self.target.GetBlendShapeMapper().Remap(weights) if weights else None
-        shapes = UsdSkel.BlendShapeQuery(UsdSkel.BindingAPI(self.target.GetPrim())) if mapped else None
-        parts = shapes.ComputeSubShapeWeights(mapped) if shapes else None
-        return (shapes, parts) if parts and parts[0] else None
+        return self.target.GetBlendShapeMapper().Remap(weights) if weights else None
 
     def blend(self, context, points, offset=0.0):
         """:returns: points that blend shapes moved, or these where pxr cannot compute them"""

@@ -37,12 +37,16 @@ def turns_of_joints(context, animation):
     :returns: as turns_of_ops(), of all joints: each turns with those above it"""
     if not animation.JointTransformsMightBeTimeVarying():
         return []
-    parents = UsdSkel.Topology(animation.GetJointOrder()).GetParentIndices()
+    order = animation.GetJointOrder()
+    parents = UsdSkel.Topology(order).GetParentIndices()
+    from_above = sorted(range(len(order)), key=lambda joint: order[joint].count("/"))  # animations need not be in this order
 
     def most(before, after):
         angles = _quaternion_angles(before, after)
-        for joint, parent in enumerate(parents[:len(angles)]):
-            angles[joint] += angles[parent] if 0 <= parent < joint else 0.0
+        if len(angles) != len(order):
+            return 0.0  # pxr takes the rest pose
+        for joint in from_above:
+            angles[joint] += angles[parents[joint]] if parents[joint] >= 0 else 0.0
         return angles.max(initial=0.0)
 
     return [_turn(context, lambda time: animation.ComputeJointLocalTransformComponents(time)[1], most)]

@@ -16,7 +16,7 @@ from .instanceValues import InstanceValues
 from .kinds import GPRIM_KINDS, Kinds
 from .levels import Levels, is_root
 from .renderPass import RenderPass
-from .skinning import skinning_of
+from .skinning import is_bound, skinning_of
 from .state import Found, Group, State, Walked
 
 _ANY = Usd.PrimIsActive & Usd.PrimIsLoaded  # prototypes of point instancers may be overs and classes
@@ -41,7 +41,7 @@ class Walk:
         self._above = {}  # states of prims above such prototypes
         self._shown = {}  # path below an instancer -> how many prototypes that lie outside of it have that name
         self._outsides = {}  # path of a native prototype -> see _outside()
-        self._fixed = {}  # path of a native prototype -> see _holds_fixed()
+        self._held = {}  # path of a native prototype -> see _holds()
         self._layers = set(context.stage.GetLayerStack())
         self._nested = 0  # of these, those inside of others
         self._told = False  # that there are too many
@@ -128,7 +128,7 @@ class Walk:
         elif kind is None and imageable and prim.HasAPI(UsdLux.LightAPI):
             self._light_by_api(Found(prim, state, state.group.path(prim)), kind)
         # What is skinned, or stands in the world, differs from instance to instance.
-        if prim.IsInstance() and state.skinning is None and not self._holds_fixed(prim.GetPrototype()):
+        if prim.IsInstance() and state.skinning is None and not self._stands_apart(prim):
             if self._has_room(prim, state, range(self._instances), "instances"):
                 self._instances += 1
                 self._pending.append(Found(prim, state, state.group.path(prim), names))
@@ -319,14 +319,23 @@ class Walk:
             self._outsides[path] = [root for root in roots.values() if root and not root.IsInPrototype()]
         return self._outsides[path]
 
-    def _holds_fixed(self, prototype):
-        """:returns: whether there is a prim below a native prototype that no transform above moves"""
+    def _stands_apart(self, instance):
+        """:returns: whether a native instance cannot be drawn as others of its prototype"""
+        fixed, skinned = self._holds(instance.GetPrototype())
+        return fixed or skinned and is_bound(instance)
+
+    def _holds(self, prototype):
+        """:returns: (whether there is a prim below a native prototype that no transform above moves, whether a SkelRoot)"""
         path = prototype.GetPath()
-        if path not in self._fixed:
-            self._fixed[path] = any((placed := UsdGeom.Xformable(prim)) and placed.GetResetXformStack()
-                                    or prim.IsInstance() and self._holds_fixed(prim.GetPrototype())
-                                    for prim in Usd.PrimRange(prototype))
-        return self._fixed[path]
+        if path not in self._held:
+            fixed = skinned = False
+            for prim in Usd.PrimRange(prototype):
+                inner = self._holds(prim.GetPrototype()) if prim.IsInstance() else (False, False)
+                placed = UsdGeom.Xformable(prim)
+                fixed |= inner[0] or bool(placed and placed.GetResetXformStack())
+                skinned |= inner[1] or self._kinds.of(prim)[0] == "skelRoot"
+            self._held[path] = fixed, skinned
+        return self._held[path]
 
     def _around(self, root, home):
         """OpenUSD names a target in an instance around the instancer's own by one of the places that share the prototype, by

@@ -116,6 +116,35 @@ def test_subsets_and_inherited_bindings(read):
     assert reading.info.counts["materials"] == 2
 
 
+INSTANCED = """
+    def Material "red" { token outputs:surface.connect = </red/s.outputs:out>
+        def Shader "s" { uniform token info:id = "UsdPreviewSurface"  token outputs:out } }
+    def Material "blue" { token outputs:surface.connect = </blue/s.outputs:out>
+        def Shader "s" { uniform token info:id = "UsdPreviewSurface"  token outputs:out } }
+    class Mesh "quad" {""" + QUAD + """
+        def GeomSubset "part" (prepend apiSchemas = ["MaterialBindingAPI"]) {
+            uniform token elementType = "face"
+            uniform token familyName = "materialBind"
+            int[] indices = [0]
+            rel material:binding = </blue> } }
+    class Xform "set" {
+        def Mesh "m" (prepend apiSchemas = ["MaterialBindingAPI"]; inherits = </quad>; instanceable = HOW) {
+            rel material:binding = </red> (bindMaterialAs = "RULE") } }
+    def Mesh "m" (prepend apiSchemas = ["MaterialBindingAPI"]; inherits = </quad>; instanceable = HOW) {
+        rel material:binding = </red> (bindMaterialAs = "RULE") }
+    def Xform "one" (inherits = </set>; instanceable = true) { }
+    def Xform "two" (inherits = </set>; instanceable = true) { }"""
+
+
+@pytest.mark.parametrize("rule, wanted", [("weakerThanDescendants", "/blue"), ("strongerThanDescendants", "/red")])
+def test_instanceable_meshes_keep_their_subsets(read, rule, wanted):
+    """At the root, and in a prototype."""
+    text = INSTANCED.replace("RULE", rule)
+    plain, instanced = (read(text.replace("HOW", how)) for how in ("false", "true"))
+    assert instanced.text == plain.text and plain.text.count("subset ") == 2
+    assert instanced.prim("/m")[f'subset /m/part material "{wanted}"'] == "0"
+
+
 def test_full_purpose_bindings_and_collections(read):
     reading = read("""
     def Material "a" { token outputs:surface.connect = </a/s.outputs:out>

@@ -99,6 +99,31 @@ def test_instanced_characters_are_skinned_each(read, numbers):
     assert reading.prim("/bare")["kind"] == "Instancer"  # nothing is skinned there
 
 
+CROWD = (SKELETON % WEIGHTS).replace("rel skel:animationSource = </r/skel/anim>", "").replace(
+    "    def SkelRoot", 'class Xform "human" {  def SkelRoot', 1).replace("</r/", "</human/r/") + """ }
+    def SkelAnimation "near" { uniform token[] joints = ["a/b"]  half3[] scales = [(1, 1, 1)]
+        quatf[] rotations = [(1, 0, 0, 0)]  float3[] translations = [(3, 1, 0)] }
+    def SkelAnimation "far" { uniform token[] joints = ["a/b"]  half3[] scales = [(1, 1, 1)]
+        quatf[] rotations = [(1, 0, 0, 0)]  float3[] translations = [(8, 1, 0)] }
+    class Xform "pair" {
+        def Xform "own" (instanceable = HOW; inherits = </human>; prepend apiSchemas = ["SkelBindingAPI"]) {
+            rel skel:animationSource = </far> }
+        def Xform "others" (instanceable = HOW; inherits = </human>) { } }
+    def Xform "moved" (instanceable = HOW; inherits = </pair>; prepend apiSchemas = ["SkelBindingAPI"]) {
+        rel skel:animationSource = </near> }
+    def Xform "still" (instanceable = HOW; inherits = </pair>) { }
+    def Xform "one" (instanceable = HOW; inherits = </human>) { }"""
+
+
+def test_instances_inherit_animations_from_above_their_skel_roots(read, numbers):
+    """As the same stage without instances; those that inherit none share what they hold."""
+    plain, instanced = (read(CROWD.replace("HOW", how)) for how in ("false", "true"))
+    for path, x in (("/moved/own", 8), ("/moved/others", 3), ("/still/own", 8)):
+        for reading in (plain, instanced):
+            assert numbers(reading.prim(path + "/r/m")["points"]) == pytest.approx([0, 0, 0, 1, 0, 0, x, 1, 0])
+    assert instanced.prim("/one")["kind"] == "Instancer" and not instanced.warnings
+
+
 def test_framing_follows_the_pose(read, numbers):
     near, far = (read(SKELETON % WEIGHTS, frame=frame) for frame in (0.0, 10.0))
     place = [numbers(r.prim(r.info.camera)["transform"])[12] for r in (near, far)]
@@ -190,6 +215,42 @@ def test_normals_turn_with_the_mesh_where_a_blend_shape_has_no_offsets_for_them(
     for interpolation, values in (("uniform", "(0,0,1)"), ("vertex", "(0,0,1), (0,0,1), (0,0,1)")):
         _, found = normals_of(read(SKELETON % (up + NORMALS % (values, interpolation)), frame=10.0))
         assert found == pytest.approx(np.array([[0, -0.5 ** 0.5, 0.5 ** 0.5]] * 3), abs=1e-6)
+
+
+SIDE = "normalOffsets = [%s]  vector3f[] offsets"
+TWO = SHAPE.replace('["up"]', '["up", "down"]').replace("</r/m/up>", "[</r/m/up>, </r/m/down>]").replace(
+    "vector3f[] offsets", "vector3f[] " + SIDE % "(3, 0, 0)") + """
+            def BlendShape "down" { vector3f[] offsets = [(0, 0, -1)]  int[] pointIndices = [1] }"""
+UPRIGHT = NORMALS % ("(0,0,1), (0,0,1), (0,0,1)", "vertex")
+
+
+@pytest.mark.parametrize("frame", [10.0, 2.5])
+def test_a_shape_without_offsets_for_normals_keeps_those_of_others(read, frame):
+    """Whatever its weight is: it adds nothing to the normals, as in pxr."""
+    alone, both = ((SKELETON % (shapes + UPRIGHT)).replace('blendShapes = ["up"]', f"blendShapes = {names}").replace(
+        "[0], 10: [1]", weights) for shapes, names, weights in (
+            (TWO.replace('"up", "down"', '"up"').replace("[</r/m/up>, </r/m/down>]", "</r/m/up>"), '["up"]', "[0], 10: [1]"),
+            (TWO, '["up", "down"]', "[0, 0], 10: [1, %s]")))
+    _, wanted = normals_of(read(alone, frame=frame))
+    assert wanted[0] == pytest.approx(np.array([0.3 * frame, 0, 1]) / np.hypot(0.3 * frame, 1))
+    for weight in (0, 0.001, 1):
+        assert normals_of(read(both % weight, frame=frame))[1] == pytest.approx(wanted, abs=1e-6)
+
+
+def test_blended_normals_are_as_long_as_skinned_ones(read):
+    """No joints normalize them: the offset makes the first one longer."""
+    text = SKELETON % (SHAPE.replace("vector3f[] offsets", "vector3f[] " + SIDE % "(3, 0, 0)") + UPRIGHT)
+    (value,) = [value for key, value in read(text, frame=10.0).prim("/r/m").items() if key.startswith("primvar normals")]
+    lengths = np.linalg.norm(np.array(value.replace(",", " ").split(), dtype=float).reshape(-1, 3), axis=1)
+    assert lengths == pytest.approx([1, 1, 1], abs=1e-5)  # a dump has six digits
+
+
+@pytest.mark.parametrize("wrong", ["None", '["a"]', "[(1, 0, 0), (1, 0, 0)]"])
+def test_offsets_for_normals_that_are_none_leave_the_mesh(read, wrong):
+    shape = TWO.replace("normalOffsets = [(3, 0, 0)]", "normalOffsets = " + wrong)
+    if wrong.startswith('["'):
+        shape = shape.replace("vector3f[] normalOffsets", "string[] normalOffsets")
+    assert len(normals_of(read(SKELETON % (shape + UPRIGHT), frame=10.0))[1]) == 3
 
 
 def test_normals_that_fit_no_points_are_told(read):

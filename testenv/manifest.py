@@ -108,6 +108,11 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     # Half a minute of software OpenGL each; others of their kind stay.
     ("testenv/raster/test_emitters.py::test_light_follows_cones_of_several_axes[[]narrow[]]", "long", None),
     ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]manyDomes[]]", "long", None),
+    ("testenv/raster/test_curves.py::test_fibres_of_a_lock_shade_each_other[[]key[]]", "long", None),
+    ("testenv/raster/test_lightPlan.py::test_the_cheapest_that_fits_is_taken[[]sky-domeLight[]]", "long", None),
+    # As long in the denoiser; others of their kind stay.
+    ("testenv/cli/test_denoiseFrames.py::test_error_and_flicker_*", "long", None),
+    ("testenv/cli/test_denoisedTolerance.py::test_fewer_samples_*[[]diffuseBox-0.03[]]", "long", None),
     # A minute of software OpenGL; the whole table, measured again.
     ("testenv/cli/test_subdivisionPlan.py::test_the_predicted_error_holds_in_the_rasterizer", "long", None),
     ("testenv/cli/test_chart.py::test_errors_are_those_of_the_table", "long", None),

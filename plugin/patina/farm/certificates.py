@@ -50,8 +50,8 @@ def private_folder(*parents):
     open_ = {parent: folders.open_to_others(parent) for parent in parents}
     parent = next((parent for parent in parents if not open_[parent]), None)
     if parent is None:
-        raise CommandError(f"cannot make a private folder in {parents[0]}: {open_[parents[0]]}; name another by TMPDIR, and for "
-                           "the keys of a queue by --engineOption shared_temp_directory=FOLDER")
+        raise CommandError(f"cannot make a private folder in {parents[0]}: {open_[parents[0]]}; name another by TMPDIR, and "
+                           "for the keys of a queue by --engineOption shared_temp_directory=FOLDER")
     try:
         folder = tempfile.TemporaryDirectory(prefix=".patina-farm-", dir=parent)
     except OSError as error:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads small stages written as text and gives the scene that came of them."""
+import itertools
 import os
 import re
 import subprocess
@@ -115,6 +116,22 @@ def limit(monkeypatch):
 
     def run(**values):
         monkeypatch.setattr(limits, "value", {**held, **values}.__getitem__)
+
+    return run
+
+
+@pytest.fixture
+def steps(read):
+    """A function: steps(text, **options) -> how many functions are called while a stage of that text is read: its cost, the
+    same on every machine."""
+    def run(text, **options):
+        count = itertools.count()
+        sys.setprofile(lambda _, event, __: next(count) if event in ("call", "c_call") else None)
+        try:
+            read(text, **options)
+        finally:
+            sys.setprofile(None)
+        return next(count)
 
     return run
 

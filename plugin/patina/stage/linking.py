@@ -90,6 +90,8 @@ class Linking:
         elif rules.get(_ROOT) in _ALL:
             self._wide.add(number)
         for path, rule in rules.items():
+            if path == _ROOT:
+                continue
             self._ruled.setdefault(path, set()).add(number)
             self._divided.update(path.GetPrefixes() if rule == _EXPLICIT else path.GetPrefixes()[:-1])
 

@@ -308,7 +308,7 @@ class Walk:
 
     def _apart(self, prototype, outer):
         """:param outer: group that an instance of the prototype stands in
-        :returns: for each prim of _outside() (its path on the stage, whether it lies in an instance around, which then counts)"""
+        :returns: for each prim of _outside() (its path on the stage, whether it lies in an instance around)"""
         found = [(root, self._around(root, outer)) for root in self._outside(prototype)]
         return [(Sdf.Path(around[1].on_stage(around[0])) if around else root.GetPath(), bool(around)) for root, around in found]
 

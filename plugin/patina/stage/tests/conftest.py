@@ -122,15 +122,22 @@ def limit(monkeypatch):
 
 @pytest.fixture
 def steps(read):
-    """A function: steps(text, **options) -> how many functions are called while a stage of that text is read: its cost, the
-    same on every machine."""
+    """A function: steps(text, **options) -> how many instructions of Python are done while a stage of that text is read: its
+    cost, the same on every machine."""
     def run(text, **options):
-        count = itertools.count()
-        sys.setprofile(lambda _, event, __: next(count) if event in ("call", "c_call") else None)
+        count, before = itertools.count(), sys.gettrace()
+
+        def trace(frame, event, _):
+            frame.f_trace_opcodes = True
+            if event == "opcode":
+                next(count)
+            return trace
+
+        sys.settrace(trace)
         try:
             read(text, **options)
         finally:
-            sys.setprofile(None)
+            sys.settrace(before)
         return next(count)
 
     return run

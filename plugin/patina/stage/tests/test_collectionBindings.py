@@ -93,7 +93,7 @@ def test_collections_cost_only_the_instances_that_they_name(read, steps):
     few, many = (MATERIALS + asset() + named_by(count) for count in (40, 80))
     reading = read(few)
     assert all(reading.prim(f"/g/i{i}/s")["material"] == '"/green"' for i in range(40))
-    assert steps(many) < 3 * steps(few), "twice as much of both costs twice, not four times"
+    assert steps(many) <= 2 * steps(few), "twice as much of both costs twice, not four times"
 
 
 @pytest.mark.parametrize("pattern, shared", [("/elsewhere//", ["4"]), ("//s", ["4"]), ("/g//", ["4"]),

@@ -83,7 +83,8 @@ def test_instances_are_in_a_collection_each_for_itself(read):
 
 @pytest.mark.parametrize("pattern, groups", [("/elsewhere//", 1), ("//b", 1), ("/one/b /three/b", 2)])
 def test_instances_of_which_a_pattern_holds_the_same_share_their_prims(read, pattern, groups):
-    reading = read(INSTANCES % f'uniform pathExpression collection:prune:membershipExpression = "{pattern}"', render_pass="/pass")
+    rule = f'uniform pathExpression collection:prune:membershipExpression = "{pattern}"'
+    reading = read(INSTANCES % rule, render_pass="/pass")
     assert reading.text.count("Instancer ") == groups
 
 
@@ -93,7 +94,7 @@ def test_rules_cost_only_the_instances_that_they_name(read, steps):
         rules = ", ".join(f"</i{i}/b>" for i in range(0, count, 2))
         return INSTANCES % f"rel collection:prune:includes = [{rules}]" + things
 
-    assert steps(stage(160), render_pass="/pass") < 3 * steps(stage(80), render_pass="/pass")
+    assert steps(stage(160), render_pass="/pass") <= 2 * steps(stage(80), render_pass="/pass"), "twice as much costs twice"
 
 
 def test_a_pass_without_its_lights_gets_no_headlight(read):

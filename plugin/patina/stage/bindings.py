@@ -2,7 +2,8 @@
 """Which material each prim shows."""
 from pxr import Usd, UsdGeom, UsdShade
 
-from . import compat, kinds
+from . import kinds
+from .boundMaterials import BoundMaterials
 from .collectionBindings import CollectionBindings, in_prototype
 from .context import shown
 from .primvars import read_primvars
@@ -22,6 +23,7 @@ class Bindings:
         self._primvars = {}  # path in the scene -> what primvars_of() gave
         self._checked = set()  # paths of prims whose own bindings were looked at
         self._collections = CollectionBindings(context.stage)
+        self._bound_materials = BoundMaterials(self._collections, context.warn)
 
     def compute(self, prims, groups):
         """:param groups: that each prim is in
@@ -29,7 +31,7 @@ class Bindings:
         if not prims:
             return []
         prims = [self._on_stage(prim, group) if group.divided else prim for prim, group in zip(prims, groups)]
-        found = compat.bound_materials(prims, self.context.options.material_purpose)
+        found = self._bound_materials.of(prims, self.context.options.material_purpose)
         return [self._bound(material, rel, group) for (material, rel), group in zip(found, groups)]
 
     def _on_stage(self, prim, group):

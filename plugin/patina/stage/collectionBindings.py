@@ -18,37 +18,80 @@ class Members:
     """Which prims a collection holds."""
 
     def __init__(self, stage, path):
-        """:param path: of the collection; one that is not there holds nothing"""
-        owner = stage.GetPrimAtPath(path.GetPrimPath())
+        """:param path: of the collection; one that is not there, or is none, holds nothing"""
+        owner = stage.GetPrimAtPath(path.GetPrimPath()) if Usd.CollectionAPI.IsCollectionAPIPath(path) else None
         collection = Usd.CollectionAPI.Get(stage, path) if owner else None
         self.query = collection.ComputeMembershipQuery() if collection else None
         self.rules = self.query.GetAsPathExpansionRuleMap() if self.query else {}
         expression = getattr(collection, "GetMembershipExpressionAttr", None)  # of OpenUSD 23.11 and later
         self.by_pattern = not self.rules and expression is not None and expression().HasAuthoredValue()
-        self._paths = sorted(map(str, self.rules))
-
-    def signature(self, path):
-        """:returns: what says which prims below a path it holds, the same for paths where that is alike; None for no prims"""
-        if self.by_pattern:
-            return str(path)
-        rules = (self.rules.get(above) for above in (*path.GetAncestorsRange(), Sdf.Path.absoluteRootPath))
-        nearest = next((rule for rule in rules if rule not in (None, _EXPLICIT)), _EXCLUDE)
-        below = tuple((name[len(str(path)):], self.rules[Sdf.Path(name)]) for name in _below(self._paths, path))
-        return (nearest, below) if below or nearest != _EXCLUDE else None
 
 
 class Binder:
-    """A prim that binds by collections, which may be thousands: what they name between them."""
+    """The bindings of one prim, of which thousands may be by collections: a path leads to those that name it."""
 
-    def __init__(self, collections):
-        """:param collections: list of Members"""
-        self._by_pattern = any(members.by_pattern for members in collections)
-        self._paths = sorted({str(path) for members in collections for path in members.rules})
-        self._alone = {path for members in collections for path, rule in members.rules.items() if rule == _EXPLICIT}
+    def __init__(self, rels, members):
+        """:param members: Members of each binding, None of one that is by no collection"""
+        self._rels = rels
+        self._named = {}  # path -> list of (number of a binding whose collection names it, rule)
+        self._always = {}  # number -> None, of direct bindings
+        patterns = {}  # number -> query
+        for number, of in enumerate(members):
+            if of is None:
+                self._always[number] = None
+            elif of.by_pattern:
+                patterns[number] = of.query
+            for path, rule in of.rules.items() if of else ():
+                self._named.setdefault(path, []).append((number, rule))
+        self._patterns, self._queries = list(patterns), list(patterns.values())
+        self._paths = sorted(map(str, self._named))
+        self._nearest, self._keys = {}, {}  # path -> see _nearest_at(), key()
 
-    def divides(self, path):
-        """:returns: whether a collection may hold some prims below a path and others not, or these not alike"""
-        return self._by_pattern or path in self._alone or bool(_below(self._paths, path))
+    def parts(self, path, stage):
+        """:returns: (dict of number -> what a binding holds at and below the path of a native instance, where what it says of
+            the prim above does not tell; whether one holds some prims there and others not)"""
+        if not self._named and not self._patterns:
+            return {}, False
+        above, own, below, found = self._nearest_at(path.GetParentPath()), dict(self._named.get(path, ())), {}, {}
+        for name in within(self._paths, path):
+            for number, rule in self._named[Sdf.Path(name)]:
+                below.setdefault(number, []).append((name[len(str(path)):], rule))
+        for number in sorted({*own, *below}):
+            outside = above.get(number, _EXCLUDE)
+            rule = own.get(number, _EXPLICIT)
+            nearest = outside if rule == _EXPLICIT else rule
+            if number in below or nearest != outside:
+                found[number] = nearest, tuple(below.get(number, ()))
+        divided = bool(below) or _EXPLICIT in own.values()
+        for number, row in zip(self._patterns, included(stage, path, self._queries)):
+            divided = divided or len(set(row)) > 1
+            if any(row):
+                found[number] = None if all(row) else row
+        return found, divided
+
+    def key(self, path, known):
+        """:param known: dict of what such keys stand for -> key, which this adds to
+        :returns: stands for what the bindings say of a prim below a path, unless they name it or prims below it"""
+        if path not in self._keys:
+            texts = tuple(map(_text, self._rels)), tuple({**self._nearest_at(path), **self._always}.items())
+            self._keys[path] = known.setdefault(texts, len(known))
+        return self._keys[path]
+
+    def _nearest_at(self, path):
+        """:returns: dict of number -> the rule that holds for what is below a path, of those bindings that include it"""
+        chain = []
+        while path not in self._nearest:
+            chain.append(path)
+            if path.IsAbsoluteRootPath():
+                break
+            path = path.GetParentPath()
+        found = self._nearest.get(path, {})
+        for path in reversed(chain):
+            own = {number: rule for number, rule in self._named.get(path, ()) if rule != _EXPLICIT}
+            if own:
+                found = {number: rule for number, rule in {**found, **own}.items() if rule != _EXCLUDE}
+            self._nearest[path] = found
+        return found
 
 
 class CollectionBindings:
@@ -56,36 +99,28 @@ class CollectionBindings:
 
     def __init__(self, stage):
         self._stage = stage
-        self._above = {}  # path of a prim -> tuple of the Binders that it and those above it are
+        self._above = {}  # path of a prim -> tuple of the Binders that it and those above it are, the nearest first
         self._members = {}  # path of a collection -> Members
+        self._keys = {}  # see Binder.key()
 
     def signature(self, instance, names=()):
         """:param instance: native instance, by its place on the stage
         :param names: of its authored properties, where they are known
         :returns: None where one material is bound to all in it that binds none; else what two instances of one prototype have
             to have in common to be bound alike"""
-        path, signature = instance.GetPath(), []
-        if not any(binder.divides(path) for binder in self._binders(instance.GetParent()) + self._own(instance, names)):
+        path, binders = instance.GetPath(), self._own(instance, names) + self._binders(instance.GetParent())
+        parts = [binder.parts(path, self._stage) for binder in binders]
+        if not any(divided for _, divided in parts):
             return None
-        while not instance.IsPseudoRoot():
-            signature += [self._binding(rel, path) for rel in _bindings(instance)]
-            signature.append(None)  # the strength decides between what is nearer and what is above
-            instance = instance.GetParent()
-        return tuple(signature)
+        above = path.GetParentPath()
+        return tuple((binder.key(above, self._keys), tuple(found.items())) for binder, (found, _) in zip(binders, parts))
 
-    def _binding(self, rel, path):
-        """:returns: what a binding says of prims below a path, None for nothing"""
-        members = None
-        if _Api.CollectionBinding.IsCollectionBindingRel(rel):
-            binding = _Api.CollectionBinding(rel)
-            members = self._of(binding.GetCollectionPath()).signature(path)
-            if members is None:
-                return None
-        else:
-            binding = _Api.DirectBinding(rel)
-        material = binding.GetMaterial()
-        shown = in_prototype(material.GetPrim()) if material else ""
-        return rel.GetName(), shown, _Api.GetMaterialBindingStrength(rel), members
+    def members_of(self, collection):
+        """:param collection: path
+        :returns: Members"""
+        if collection not in self._members:
+            self._members[collection] = Members(self._stage, collection)
+        return self._members[collection]
 
     def _binders(self, prim):
         chain = []
@@ -94,27 +129,35 @@ class CollectionBindings:
             prim = prim.GetParent()
         found = self._above.get(prim.GetPath(), ())
         for prim in reversed(chain):
-            found = self._above[prim.GetPath()] = found + self._own(prim)
+            found = self._above[prim.GetPath()] = self._own(prim) + found
         return found
 
     def _own(self, prim, names=()):
-        collections = [self._of(_Api.CollectionBinding(rel).GetCollectionPath()) for rel in _bindings(prim, names)
-                       if _Api.CollectionBinding.IsCollectionBindingRel(rel)]
-        return (Binder(collections),) if collections else ()
-
-    def _of(self, collection):
-        if collection not in self._members:
-            self._members[collection] = Members(self._stage, collection)
-        return self._members[collection]
+        rels = [prim.GetRelationship(name) for name in names or prim.GetAuthoredPropertyNames()
+                if name.startswith("material:binding") and prim.HasRelationship(name)]
+        members = [self.members_of(_Api.CollectionBinding(rel).GetCollectionPath())
+                   if _Api.CollectionBinding.IsCollectionBindingRel(rel) else None for rel in rels]
+        return (Binder(rels, members),) if rels else ()
 
 
-def _bindings(prim, names=()):
-    return [prim.GetRelationship(name) for name in names or prim.GetAuthoredPropertyNames()
-            if name.startswith("material:binding") and prim.HasRelationship(name)]
+def _text(rel):
+    """:returns: what a binding binds, whichever instance it lies in"""
+    by_collection = _Api.CollectionBinding.IsCollectionBindingRel(rel)
+    material = (_Api.CollectionBinding if by_collection else _Api.DirectBinding)(rel).GetMaterial()
+    return rel.GetName(), in_prototype(material.GetPrim()) if material else "", _Api.GetMaterialBindingStrength(rel)
 
 
-def _below(paths, path):
+def within(paths, path):
     """:param paths: sorted
     :returns: those below a path: they stand together"""
     first = bisect_left(paths, f"{path}/")
     return paths[first:bisect_left(paths, f"{path}0", first)]  # 0 follows on / in ASCII
+
+
+def included(stage, path, queries):
+    """:returns: for each query of a collection, for the prims at a path and below, bytes that are 1 where it holds them"""
+    if not queries:
+        return ()
+    below = Usd.PrimRange(stage.GetPrimAtPath(path), Usd.TraverseInstanceProxies())
+    paths = [prim.GetPath() for prim in below]
+    return tuple(bytes(map(query.IsPathIncluded, paths)) for query in queries)

@@ -72,11 +72,6 @@ def _from_zip(file, inner):
         return package.read(found)
 
 
-def bound_materials(prims, purpose="full"):
-    """:returns: list of (Material, strength) for a purpose, then the general one"""
-    return list(zip(*UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, purpose or UsdShade.Tokens.allPurpose)))
-
-
 class QuietDiagnostics:
     """Takes what pxr would print while the block runs; `texts` has it afterwards."""
 

@@ -2,7 +2,7 @@
 """A UsdRenderPass: what of the stage is drawn, what the camera sees of it, and what is a matte, by its four collections."""
 from pxr import Sdf, Usd
 
-from .collectionBindings import Members
+from .collectionBindings import Members, included, within
 from .errors import StageError
 
 _COLLECTIONS = {"renderVisibility": True, "prune": False, "cameraVisibility": True, "matte": False}  # what none of them means
@@ -18,9 +18,10 @@ class RenderPass:
             raise StageError(f"{path} is no UsdRenderPass prim")
         members = {name: Members(stage, Sdf.Path(f"{path}.collection:{name}")) for name in _COLLECTIONS
                    if prim.HasAPI(Usd.CollectionAPI, name)}
+        self._stage = stage
         self._queries = {name: of.query for name, of in members.items()}
-        self._rules = [Sdf.Path(rule) for of in members.values() for rule in of.rules]
-        self._by_pattern = any(of.by_pattern for of in members.values())
+        self._rules = sorted({str(rule) for of in members.values() for rule in of.rules})
+        self._patterns = [of.query for of in members.values() if of.by_pattern]
 
     def _has(self, name, path):
         query = self._queries.get(name)
@@ -39,10 +40,13 @@ class RenderPass:
             marks["patina:matte"] = 1.0
         return state if marks == state.marks else state.with_(marks=marks)
 
-    def signature(self, path):
+    def signature(self, path, apart):
         """:param path: of a native instance
+        :param apart: whether it draws prims that lie elsewhere on the stage
         :returns: what two instances of one prototype have to have in common to be drawn alike"""
         path = Sdf.Path(path)
-        if self._by_pattern or any(rule.HasPrefix(path) and rule != path for rule in self._rules):
+        unknown = self._patterns and (apart or not self._stage.GetPrimAtPath(path))
+        if unknown or within(self._rules, path):
             return str(path)
-        return tuple(self._has(name, path.AppendChild("any")) for name in _COLLECTIONS)
+        held = tuple(self._has(name, path.AppendChild("any")) for name in _COLLECTIONS)
+        return held, included(self._stage, path, self._patterns)

@@ -53,7 +53,9 @@ class Walk:
         """:returns: Walked"""
         root = self.context.stage.GetPseudoRoot()
         children = root.GetChildren()
-        self._todo.append((children, [State()] * len(children), Usd.PrimDefaultPredicate))
+        self._walk(children, [State()] * len(children), Usd.PrimDefaultPredicate)
+        self.linking.foresee([found.prim for found in self._pending], self._roots())
+        self._place_prototypes()
         while self._todo or self._pending:
             while self._todo:
                 self._walk(*self._todo.pop())
@@ -61,6 +63,11 @@ class Walk:
             self._place_instances()
         self._drop_empty()
         return self.walked
+
+    def _roots(self):
+        """:returns: list of the prototypes of the point instancers that wait for theirs"""
+        paths = dict.fromkeys(path for found, _ in self._instancers for path in targets(found.prim, "prototypes"))
+        return [root for root in map(self.context.stage.GetPrimAtPath, paths) if root]
 
     def _walk(self, prims, states, predicate):
         stack = list(zip(reversed(prims), reversed(states)))
@@ -216,12 +223,14 @@ class Walk:
             state, outer = found.state, found.state.group
             prototype = found.prim.GetPrototype()
             binding, parts = self.bindings.keys_of(found, bound)
-            split, links = self.walked.values.split(state.primvars), self.linking.signature(found)
+            apart = self._apart(prototype, outer)
+            split, links = self.walked.values.split(state.primvars), self.linking.signature(found, [at for at, _ in apart])
             found.names = ()  # there may be a million instances
             key = (str(prototype.GetPath()), binding, parts, state.purpose, state.draw_mode,
                    tuple(sorted(state.marks.items())), state.spaces, split.key,
-                   outer.name if self._reaches_out(prototype, outer) else "",
-                   self._levels.signature(found.prim, outer), self._pass.signature(found.path) if self._pass else "", links)
+                   outer.name if any(inside for _, inside in apart) else "",
+                   self._levels.signature(found.prim, outer),
+                   self._pass.signature(found.path, bool(apart)) if self._pass else "", links)
             group = self._native.get(key)
             if group is None:
                 if not self._has_room(found.prim, state, self._native):
@@ -267,7 +276,8 @@ class Walk:
             return name
         home = home if root.IsInPrototype() else Group()
         place = Sdf.Path(home.on_stage(root))
-        key = (str(target), outer.name, self.linking.signature_of_root(found, place))
+        roots = place, *(at for at, _ in (self._apart(root, outer) if self.linking.has_links() else ()))
+        key = (str(target), outer.name, self.linking.signature_of_root(found, roots))
         if key in self._pointed:
             return self._pointed[key]
         if len(outer.chain) >= MAX_NESTED or outer.chain and self._nested >= limits.value("groups"):
@@ -277,7 +287,7 @@ class Walk:
             return name
         self._nested += bool(outer.chain)
         self._pointed[key] = name
-        self.linking.roots[name] = place
+        self.linking.roots[name] = roots
         inside = root.GetPath().HasPrefix(instancer.GetPath())
         shown = outer.path(root) if inside else self._shown_below(instancer, root, outer)
         group = Group(name=name, anchor=root.GetParent(), source=str(target), shown=shown, chain=outer.chain + (str(target),),
@@ -296,26 +306,31 @@ class Walk:
         self._shown[path] = number + 1
         return f"{path}[{number}]" if number else path
 
-    def _reaches_out(self, prototype, outer):
-        """:param outer: group that an instance of the native prototype stands in
-        :returns: whether prototypes of point instancers below lie in instances around, so that these count"""
-        return any(self._around(root, outer) for root in self._outside(prototype))
+    def _apart(self, prototype, outer):
+        """:param outer: group that an instance of the prototype stands in
+        :returns: for each prim of _outside() (its path on the stage, whether it lies in an instance around)"""
+        found = [(root, self._around(root, outer)) for root in self._outside(prototype)]
+        return [(Sdf.Path(around[1].on_stage(around[0])) if around else root.GetPath(), bool(around)) for root, around in found]
 
     def _outside(self, prototype):
-        """:returns: what point instancers below a native prototype draw that lies in none"""
+        """:param prototype: native, or one of a point instancer
+        :returns: prims in no native prototype that point instancers below draw, and those below what these draw"""
         path = prototype.GetPath()
         if path not in self._outsides:
             roots, todo, seen = {}, [prototype], set()
             while todo:
                 found = todo.pop()
+                found = found.GetPrimInPrototype() if found.IsInstanceProxy() else found
                 if found.GetPath() in seen:
                     continue
                 seen.add(found.GetPath())
-                for prim in Usd.PrimRange(found):
+                for prim in Usd.PrimRange(found, Usd.PrimDefaultPredicate if found.IsPrototype() else _ANY):
                     if prim.IsInstance():
                         todo.append(prim.GetPrototype())
                     elif self._kinds.of(prim)[0] == "instancer":
-                        roots.update((at, self.context.stage.GetPrimAtPath(at)) for at in targets(prim, "prototypes"))
+                        drawn = {at: self.context.stage.GetPrimAtPath(at) for at in targets(prim, "prototypes")}
+                        roots.update(drawn)
+                        todo += filter(None, drawn.values())
             self._outsides[path] = [root for root in roots.values() if root and not root.IsInPrototype()]
         return self._outsides[path]
 

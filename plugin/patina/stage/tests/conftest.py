@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads small stages written as text and gives the scene that came of them."""
+import itertools
 import os
 import re
 import subprocess
@@ -115,6 +116,29 @@ def limit(monkeypatch):
 
     def run(**values):
         monkeypatch.setattr(limits, "value", {**held, **values}.__getitem__)
+
+    return run
+
+
+@pytest.fixture
+def steps(read):
+    """A function: steps(text, **options) -> how many instructions of Python are done while a stage of that text is read: its
+    cost, the same on every machine."""
+    def run(text, **options):
+        count, before = itertools.count(), sys.gettrace()
+
+        def trace(frame, event, _):
+            frame.f_trace_opcodes = True
+            if event == "opcode":
+                next(count)
+            return trace
+
+        sys.settrace(trace)
+        try:
+            read(text, **options)
+        finally:
+            sys.settrace(before)
+        return next(count)
 
     return run
 

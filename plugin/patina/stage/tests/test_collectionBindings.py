@@ -79,3 +79,41 @@ def test_instances_that_bind_a_material_of_their_own_asset_share_a_prototype(rea
     looks = MATERIALS.replace("</red/", "</a/red/").replace("</green/", "</a/green/")
     reading = read(asset("rel material:binding = </a/red>" + looks) + instances("", "", ""))
     assert reading.prim("/i0")["instances"] == "3" and reading.prim("/i0/s")["material"] == '"/i0/red"'
+
+
+def named_by(count):
+    """:returns: statements of a prim with as many collections as instances, each of which names a part of one"""
+    return within(instances(*[""] * count), "".join(f"""
+        rel collection:k{i}:includes = </g/i{i}/s>
+        rel material:binding:collection:k{i} = [</g.collection:k{i}>, </green>]""" for i in range(count))).replace(
+            '"CollectionAPI:k"', ", ".join(f'"CollectionAPI:k{i}"' for i in range(count)), 1)
+
+
+def test_collections_cost_only_the_instances_that_they_name(read, steps):
+    few, many = (MATERIALS + asset() + named_by(count) for count in (40, 80))
+    reading = read(few)
+    assert all(reading.prim(f"/g/i{i}/s")["material"] == '"/green"' for i in range(40))
+    assert steps(many) <= 2 * steps(few), "twice as much of both costs twice, not four times"
+
+
+@pytest.mark.parametrize("pattern, shared", [("/elsewhere//", ["4"]), ("//s", ["4"]), ("/g//", ["4"]),
+                                             ("/g/i1/s /g/i3/s", ["2", "2"])])
+def test_instances_of_which_a_pattern_holds_the_same_share_a_prototype(read, pattern, shared):
+    own = by("/g", "", f'pathExpression collection:k:membershipExpression = "{pattern}"')
+    reading = read(MATERIALS + asset() + within(instances(*[""] * 4), own))
+    assert re.findall(r" instances = (\d+)", reading.text) == shared
+
+
+@pytest.mark.parametrize("how", ["true", "false"])
+@pytest.mark.parametrize("name", STAGES)
+def test_a_binding_by_what_is_no_collection_is_left_out_alone(read, name, how):
+    text = MATERIALS + STAGES[name].replace("instanceable = true", f"instanceable = {how}")
+    text = text if 'Xform "g"' in text else text + within("", "")
+    broken = 'rel material:binding:collection:b = [</g.nothing>, </red>]  def Sphere "own" { }\n'
+    good = read(text, material_purpose="")
+    bad = read(re.sub(r'(def Xform "g" \(.*?\) \{)', rf"\1 {broken}", text), material_purpose="")
+    drawn = re.findall(r"^Implicit (\S+)", good.text, re.M)
+    assert drawn and [bad.prim(path).get("material") for path in drawn] == [good.prim(path).get("material") for path in drawn]
+    assert bad.has("/g/own") and not good.warnings
+    told, = bad.warnings
+    assert told.startswith("/g material:binding:collection:b: ") and "/g.nothing, which is no collection" in told

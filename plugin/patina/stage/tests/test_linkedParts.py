@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Links that name parts of instances, and lights in instances that are linked to parts of their own: they light the same shapes
 where a stage is instanced and where it is not."""
+import random
+import re
+
 import pytest
+from pxr import Usd
 
 
 def linked(reading, numbers):
@@ -124,3 +128,92 @@ def test_prototypes_of_point_instancers_are_linked(read, numbers, link, lit):
     found = linked(read(INSTANCERS.replace("LINK", link)), numbers)
     assert set(found) == {*OWN, *S, *T}
     assert sorted(shape for shape, names in found.items() if names) == sorted(lit)
+
+
+ELSEWHERE = """
+def Scope "kept" { token visibility = "invisible"
+    def Xform "p" { def Sphere "s" { }
+        def Xform "thing" (inherits = </thing>  instanceable = HOW) { AT0.25 } }
+    def Xform "q" { def Sphere "x" { }
+        def PointInstancer "k" { rel prototypes = </kept/p>  int[] protoIndices = [0]  point3f[] positions = [(0.5,0,0)] } } }
+class "thing" { def Sphere "t" { } }
+class "inner" { def Sphere "s" { }
+    def Sphere "t" { AT1 }
+    def SphereLight "lamp" { INNER } }
+class "outer" { def Xform "in" (inherits = </inner>  instanceable = HOW) { AT2 }
+    def Sphere "u" { }
+    def PointInstancer "i" { rel prototypes = </kept/DRAWN>  int[] protoIndices = [0]  point3f[] positions = [(4,0,0)] }
+    def SphereLight "lamp" { OUTER } }
+class "two" { def Sphere "s" { }
+    def Sphere "t" { AT1 } }
+def Xform "a" (inherits = </outer>  instanceable = HOW) { AT10 }
+def Xform "b" (inherits = </outer>  instanceable = HOW) { AT20 }
+def Xform "c" (inherits = </inner>  instanceable = HOW) { AT30 }
+def PointInstancer "j" { rel prototypes = [</kept/q>, </kept/p>]  int[] protoIndices = [0, 1]
+    point3f[] positions = [(40,0,0), (50,0,0)] }
+def Xform "d" (inherits = </two>  instanceable = HOW) { AT60 }
+def SphereLight "world" { WORLD }
+"""
+SHARED = ("/kept/p", "/kept/p/s", "/kept/p/thing", "/kept/p/thing/t", "/kept/q", "/kept/q/x", "/j", "/d", "/d/s", "/d/t")
+NAMED = {"INNER": (*SHARED, "/inner", "/inner/s", "/inner/t"), "OUTER": (*SHARED, "/outer", "/outer/u", "/outer/in/s"),
+         "WORLD": (*SHARED, "/a", "/b", "/c", "/a/in", "/b/in", "/a/in/s", "/b/in/t", "/c/s", "/a/u", "/a/i")}
+
+
+def a_link(chance, kind, paths):
+    """:returns: statements of a light that is linked to some of the paths, to all but some, or to all"""
+    def some(most):
+        return ", ".join(f"<{path}>" for path in chance.sample(paths, chance.randint(1, most)))
+
+    choice = chance.random()
+    if choice < 0.3:
+        return ""
+    if choice < 0.6:
+        return f"rel collection:{kind}:excludes = [{some(2)}]"
+    if choice < 0.7:
+        pattern = chance.choice(["//t", "//in//", "/kept//"])
+        return PATTERN.replace("lightLink", kind) + f'"{pattern}"'
+    excludes = chance.choice(["", f"  rel collection:{kind}:excludes = [{some(1)}]"])
+    rule = chance.choice(["", "", "", f'  uniform token collection:{kind}:expansionRule = "explicitOnly"'])
+    return NOT_ALL.replace("lightLink", kind) + f"rel collection:{kind}:includes = [{some(3)}]{excludes}{rule}"
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_links_do_not_depend_on_what_is_instanceable(read, numbers, seed):
+    """Links by chance, of the world and of lights in instances, to prims of the world, of other instances, and of prototypes
+    that lie outside of the instances that draw them. Instances that share a light share its link."""
+    chance = random.Random(seed)
+    drawn = chance.choice("pq")
+    text = ELSEWHERE.replace("DRAWN", drawn)
+    for word, paths in NAMED.items():
+        links = (a_link(chance, kind, paths) for kind in ("lightLink", "shadowLink"))
+        text = text.replace(word, "  ".join(filter(None, links)))
+    for x in ("0.25", "1", "2", "10", "20", "30", "60"):
+        text = text.replace(f"AT{x} ", at(x) + " ")
+    flat, instanced = (lit_by(read(text.replace("HOW", how)), numbers) for how in ("false", "true"))
+    assert instanced == flat and len(flat[0]) == 19 + 2 * (drawn == "q")
+
+
+def lit_by(reading, numbers):
+    """:returns: (set of all shapes, set of those that each link of a light holds, without empty ones)"""
+    shapes = linked(reading, numbers)
+    links = set(re.findall(r'^  (?:light|shadow)Link = "(.+)"', reading.text, re.M))
+    held = {frozenset(shape for shape, names in shapes.items() if link in names) for link in links}
+    return set(shapes), held - {frozenset()}
+
+
+def test_lights_that_leave_out_the_same_are_one_category(read):
+    reading = read("".join(f'def SphereLight "l{i}" {{ rel collection:lightLink:excludes = </out> }}  ' for i in range(3)) +
+                   'def Sphere "in" { }  def Sphere "out" { }')
+    assert len(reading.prim("/in")["categories"].split()) == 1 and "categories" not in reading.prim("/out")
+    assert len({reading.prim(f"/l{i}")["lightLink"] for i in range(3)}) == 1
+
+
+def test_links_are_asked_about_what_they_name_alone(read, monkeypatch):
+    """Thousands of prims under hundreds of lights, none of which names them, are asked about by no light."""
+    asked, query = [], Usd.UsdCollectionMembershipQuery
+    ask = query.IsPathIncluded
+    monkeypatch.setattr(query, "IsPathIncluded", lambda own, path: asked.append(path.pathString) or ask(own, path))
+    reading = read("".join(f'def SphereLight "l{i}" {{ rel collection:lightLink:excludes = </lot{i}/s> }}  '
+                           f'def Xform "lot{i}" {{ def Sphere "s" {{ }} \n def Sphere "t" {{ }} }}  ' for i in range(20)))
+    assert len(reading.prim("/lot3/t")["categories"].split()) == 20 and len(reading.prim("/lot3/s")["categories"].split()) == 19
+    assert sorted(asked) == sorted(f"/lot{i}/s" for i in range(20))

@@ -81,6 +81,22 @@ def test_instances_are_in_a_collection_each_for_itself(read):
     assert reading.has("/one/b") and reading.has("/two/a") and not reading.has("/two/b"), "patterns may name parts, too"
 
 
+@pytest.mark.parametrize("pattern, groups", [("/elsewhere//", 1), ("//b", 1), ("/one/b /three/b", 2)])
+def test_instances_of_which_a_pattern_holds_the_same_share_their_prims(read, pattern, groups):
+    rule = f'uniform pathExpression collection:prune:membershipExpression = "{pattern}"'
+    reading = read(INSTANCES % rule, render_pass="/pass")
+    assert reading.text.count("Instancer ") == groups
+
+
+def test_rules_cost_only_the_instances_that_they_name(read, steps):
+    def stage(count):
+        things = "".join(f'def Xform "i{i}" (prepend references = </thing>  instanceable = true) {{ }}  ' for i in range(count))
+        rules = ", ".join(f"</i{i}/b>" for i in range(0, count, 2))
+        return INSTANCES % f"rel collection:prune:includes = [{rules}]" + things
+
+    assert steps(stage(160), render_pass="/pass") <= 2 * steps(stage(80), render_pass="/pass"), "twice as much costs twice"
+
+
 def test_a_pass_without_its_lights_gets_no_headlight(read):
     reading = read(SCENE % "rel collection:prune:includes = </set/lamp>", render_pass="/pass", headlight=True)
     assert not reading.info.headlight

@@ -45,11 +45,13 @@ class Binder:
                 self._named.setdefault(path, []).append((number, rule))
         self._patterns, self._queries = list(patterns), list(patterns.values())
         self._paths = sorted(map(str, self._named))
+        # Of what binds a material of its own another binding may count than of what binds none.
+        self._mixed = bool(self._named or patterns) and len(set(map(_Api.GetMaterialBindingStrength, rels))) > 1
         self._nearest, self._keys = {}, {}  # path -> see _nearest_at(), key()
 
     def parts(self, path, stage):
         """:returns: (dict of number -> what a binding holds at and below the path of a native instance, where what it says of
-            the prim above does not tell; whether one holds some prims there and others not)"""
+            the prim above does not tell; whether what counts may differ from prim to prim there)"""
         if not self._named and not self._patterns:
             return {}, False
         above, own, below, found = self._nearest_at(path.GetParentPath()), dict(self._named.get(path, ())), {}, {}
@@ -62,7 +64,7 @@ class Binder:
             nearest = outside if rule == _EXPLICIT else rule
             if number in below or nearest != outside:
                 found[number] = nearest, tuple(below.get(number, ()))
-        divided = bool(below) or _EXPLICIT in own.values()
+        divided = self._mixed or bool(below) or _EXPLICIT in own.values()
         for number, row in zip(self._patterns, included(stage, path, self._queries)):
             divided = divided or len(set(row)) > 1
             if any(row):

@@ -44,6 +44,7 @@ STAGES = {
                                                          '"explicitOnly"')),
     "all but one": asset() + within(instances("", ""), by("/g", "</g>", "rel collection:k:excludes = </g/i0/c>")),
     "by pattern": asset() + within(instances("", ""), by("/g", "", 'pathExpression collection:k:membershipExpression = "//s"')),
+    "stronger beside": asset("", ALL) + within(instances("", ""), by("/g", "</g>").replace("</red>", f"</red> {STRONGER}")),
     "nested": asset() + f"""
     class Xform "b" ({API}) {{ {by("/b", "</b/i0/s>")} {instances("", "")} }}
     def Xform "x" (instanceable = true; inherits = </b>) {{ }}

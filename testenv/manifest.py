@@ -110,6 +110,13 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]manyDomes[]]", "long", None),
     ("testenv/raster/test_curves.py::test_fibres_of_a_lock_shade_each_other[[]key[]]", "long", None),
     ("testenv/raster/test_lightPlan.py::test_the_cheapest_that_fits_is_taken[[]sky-domeLight[]]", "long", None),
+    ("testenv/raster/test_curves.py::test_hair_is_as_wide_and_as_bright_as_traced[[]turn1-0.0003[]]", "long", None),
+    ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]lightDome[]]", "long", None),
+    ("testenv/raster/test_lightFilters.py::test_filtered_light_is_the_path_tracers[[]dome[]]", "long", None),
+    ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]manyLinks[]]", "long", None),
+    ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]profileNormalized[]]", "long", None),
+    ("testenv/fuzz/test_faults.py::test_a_render_without_memory_spoils_none_after_it[[]raster-6[]]", "long", None),
+    ("testenv/fuzz/test_fuzz.py::test_back_ends_that_differ_are_told", "long", None),
     # As long in the denoiser; others of their kind stay.
     ("testenv/cli/test_denoiseFrames.py::test_error_and_flicker_*", "long", None),
     ("testenv/cli/test_denoisedTolerance.py::test_fewer_samples_*[[]diffuseBox-0.03[]]", "long", None),

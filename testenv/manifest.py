@@ -115,6 +115,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_lightFilters.py::test_filtered_light_is_the_path_tracers[[]dome[]]", "long", None),
     ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]manyLinks[]]", "long", None),
     ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]profileNormalized[]]", "long", None),
+    ("testenv/raster/test_splatViews.py::test_a_pane_that_does_not_bend_light[[]places[12]-raster[]]", "long", None),
     ("testenv/fuzz/test_faults.py::test_a_render_without_memory_spoils_none_after_it[[]raster-6[]]", "long", None),
     ("testenv/fuzz/test_fuzz.py::test_back_ends_that_differ_are_told", "long", None),
     # As long in the denoiser; others of their kind stay.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cuts: what they are written as, and where samples may be cut."""
 import os
+import types
 
 import pytest
 
@@ -65,6 +66,10 @@ def test_nobody_else_writes_the_digests_of_the_users_own_cache(tmp_path, monkeyp
     kept.write_text(kept.read_text().replace(digests.content(__file__), "forged"))
     assert digests.of_file(__file__) == "forged"
     uid = os.geteuid()
+    with monkeypatch.context() as patch:
+        patch.setattr(digests.os, "fstat", lambda _: types.SimpleNamespace(st_uid=uid + 1))
+        assert digests.of_file(__file__) == digests.content(__file__)
+    kept.write_text(kept.read_text().replace(digests.content(__file__), "forged"))
     monkeypatch.setattr(folders.os, "geteuid", lambda: uid + 1)
     assert digests.of_file(__file__) == digests.content(__file__)
 

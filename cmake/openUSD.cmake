@@ -6,6 +6,10 @@ set(PATINA_HAS_HYDRA OFF)
 if(PATINA_PXR_CONFIG AND NOT EXISTS "${PATINA_PXR_CONFIG}")
     unset(PATINA_PXR_CONFIG CACHE) # an OpenUSD that was removed since the last configuration
 endif()
+if(DEFINED ENV{PXR_USD_LOCATION} AND NOT PATINA_PXR_ASKED STREQUAL "$ENV{PXR_USD_LOCATION}")
+    unset(PATINA_PXR_CONFIG CACHE) # another one than the last configuration's
+    set(PATINA_PXR_ASKED "$ENV{PXR_USD_LOCATION}" CACHE INTERNAL "OpenUSD that was asked for")
+endif()
 find_file(PATINA_PXR_CONFIG pxrConfig.cmake
     HINTS ${pxr_DIR} ${PXR_USD_LOCATION} $ENV{PXR_USD_LOCATION} $ENV{pxr_DIR}
     PATHS /usr/local/USD PATH_SUFFIXES . lib/cmake/pxr cmake)

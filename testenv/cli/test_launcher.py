@@ -126,6 +126,16 @@ def test_tests_are_built_for_test_only(checkout):
     assert checkout.run("record")[1] == []
 
 
+def test_another_openusd_is_built_for(checkout):
+    checkout.run("test")
+    assert checkout.run("test")[1] == []
+    assert len(builds(checkout.run("test", PXR_USD_LOCATION="/opt/USD")[1])) == 1
+    (checkout.root / "build" / "CMakeCache.txt").write_text("PATINA_PXR_ASKED:INTERNAL=/opt/USD\n")
+    assert checkout.run("test", PXR_USD_LOCATION="/opt/USD")[1] == []
+    assert len(builds(checkout.run("test", PXR_USD_LOCATION="/opt/USD2")[1])) == 1
+    assert checkout.run("record", PXR_USD_LOCATION="/opt/USD2")[1] == []
+
+
 def test_other_requirements_are_installed(checkout):
     checkout.run("record")
     (checkout.root / "requirements.txt").write_text("numpy\n")

@@ -105,7 +105,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/cli/test_chart.py::*", "full", "chart materialNetwork"),
     ("testenv/cli/test_chartScenes.py::*", "full", "chart"),
     ("testenv/cli/test_subdivisionPlan.py::*", "full", "geometry plan materialNetwork"),
-    # Half a minute of software OpenGL each; others of their kind stay.
+    # A quarter of a minute of software OpenGL or more; others of their kind stay.
     ("testenv/raster/test_emitters.py::test_light_follows_cones_of_several_axes[[]narrow[]]", "long", None),
     ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]manyDomes[]]", "long", None),
     ("testenv/raster/test_curves.py::test_fibres_of_a_lock_shade_each_other[[]key[]]", "long", None),

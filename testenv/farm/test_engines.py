@@ -18,7 +18,7 @@ import pytest
 import movie
 from inProcess import patina
 from patina.cli.errors import CommandError, TemporaryError, UsageError
-from patina.farm import certificates, engines
+from patina.farm import certificates, engines, folders
 
 FLAGS = ["--imageWidth=48", "--samples=16"]
 
@@ -284,7 +284,7 @@ def test_keys_lie_in_a_folder_of_the_user_alone(tmp_path, monkeypatch):
         pass
 
 
-def test_folders_that_others_may_rename_hold_no_keys(tmp_path):
+def test_folders_that_others_may_rename_hold_no_keys(tmp_path, monkeypatch):
     images, home = tmp_path / "images", tmp_path / "home"
     for folder, mode in ((images, 0o775), (home, 0o755)):
         (folder / "shot").mkdir(parents=True)
@@ -295,6 +295,13 @@ def test_folders_that_others_may_rename_hold_no_keys(tmp_path):
     with pytest.raises(CommandError, match=f"others may rename what is in {images}; name another by TMPDIR"):
         with certificates.private_folder(places[0]):
             pass
+    with certificates.private_folder(places[0], checked=False) as folder:
+        assert os.path.dirname(folder) == places[0], "the user has named it"
+    with monkeypatch.context() as patch:
+        patch.setattr(folders.os, "stat", lambda _: types.SimpleNamespace(st_uid=65534, st_mode=stat.S_IFDIR | 0o755))
+        assert " belongs to " in folders.open_to_others(str(home))
+        patch.setattr(folders, "_unknown_root", lambda: 65534)
+        assert not folders.open_to_others(str(home)), "root's, in a sandbox that does not know root"
     os.chmod(images, 0o1777)
     with certificates.private_folder(*places) as folder:
         assert os.path.dirname(folder) == places[0], "the owner alone renames what is in a sticky folder"

@@ -41,13 +41,14 @@ def of_files(distributed, options):
 
 
 @contextlib.contextmanager
-def private_folder(*parents):
+def private_folder(*parents, checked=True):
     """Yields a folder that this user alone may enter, or rename; it goes with the block.
 
     :param parents: where it may be, the first that others cannot change is taken
+    :param checked: False takes the first as it is
     :raises CommandError: where there can be none"""
     parents = [os.path.expanduser(os.path.expandvars(parent)) for parent in parents]
-    open_ = {parent: folders.open_to_others(parent) for parent in parents}
+    open_ = {parent: checked and folders.open_to_others(parent) for parent in parents}
     parent = next((parent for parent in parents if not open_[parent]), None)
     if parent is None:
         raise CommandError(f"cannot make a private folder in {parents[0]}: {open_[parents[0]]}; name another by TMPDIR, and "

@@ -190,7 +190,9 @@ class Cluster:
             log.handlers, log.propagate = [self._complaints], False
         if engine.kind == "k8s":
             return pods.start(distributed, module, options, environment(), page, shared, self._held)
-        folder = self._held.enter_context(certificates.private_folder(*_places(options, self._shared)))
+        given = options.pop("shared_temp_directory", None)  # whose choice it is knows who may write there
+        folder = self._held.enter_context(certificates.private_folder(given, checked=False) if given
+                                          else certificates.private_folder(self._shared, "~"))
         return getattr(module, QUEUES[engine.kind])(**{"shared_temp_directory": folder, "scheduler_options": page, **shared,
                                                        **queue_options(options)})
 
@@ -248,12 +250,6 @@ def _configure(page):
                          "distributed.client.scheduler-info-interval": "1000 days"})
         if not page:
             dask.config.set({"distributed.worker.http.routes": [], "distributed.scheduler.http.routes": []})
-
-
-def _places(options, shared):
-    """:returns: tuple of folders that a queue's jobs reach, where the run's keys may lie"""
-    given = options.pop("shared_temp_directory", None)
-    return (given,) if given else (shared, "~")
 
 
 @contextlib.contextmanager

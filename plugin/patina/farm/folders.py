@@ -92,13 +92,22 @@ def open_to_others(path):
             found = os.stat(path)
         except OSError as error:
             return f"{path}: {error.strerror}"
-        if found.st_uid not in (0, os.geteuid()):
+        if found.st_uid not in (0, os.geteuid(), _unknown_root()):
             return f"{path} belongs to {_name(found.st_uid)}"
         if found.st_mode & 0o022 and not found.st_mode & stat.S_ISVTX:
             return f"others may rename what is in {path}"
         if path == os.path.dirname(path):
             return ""
         path = os.path.dirname(path)
+
+
+def _unknown_root():
+    """:returns: the number that stands for the host's root in a user namespace (a sandbox) that does not know it; else None"""
+    try:
+        with open("/proc/self/uid_map", encoding="ascii") as known, open("/proc/sys/fs/overflowuid", encoding="ascii") as other:
+            return None if known.read().split() == ["0", "0", "4294967295"] else int(other.read())
+    except (OSError, ValueError):
+        return None
 
 
 def close(path):

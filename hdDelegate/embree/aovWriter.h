@@ -11,7 +11,8 @@ namespace patina {
 struct AovTarget {
     Film& film;
     int x, y;
-    float distance; ///< from the pixel's centre
+    float distance;  ///< from the pixel's centre
+    int quarter = 0; ///< of the pixel: see PixelSplat
 };
 
 /// Writes every AOV but colour and alpha for the first surface that a camera ray meets.

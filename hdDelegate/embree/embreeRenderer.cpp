@@ -2,6 +2,7 @@
 #include "hdDelegate/embree/embreeRenderer.h"
 
 #include "hdDelegate/embree/seenOrigin.h"
+#include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/lights/resolvedLight.h"
 #include "hdDelegate/parallel.h"
 
@@ -150,6 +151,22 @@ bool EmbreeRenderer::sharesLight(const RenderSettings& settings, const Camera& c
     if (!reason) return true;
     _scene->diagnostics().warn(camera.path, "method:indirectLight",
                                messages::lightNotShared(reason));
+    return false;
+}
+
+bool EmbreeRenderer::splats(const Camera& camera, const std::vector<AovSpec>& aovs) const {
+    const PixelFilter filter(_settings.filterRadius);
+    if (chosenMethod(_settings.methods, "pixelFilter") != "splatted" || filter.isBox())
+        return false;
+    std::string reason = _settings.deep        ? "deep pixels are kept"
+                         : filter.reach() == 0 ? "the filter's radius is above 8 pixels"
+                                               : "";
+    for (const AovSpec& spec : aovs)
+        if (spec.kind != AovKind::First && !isOfFilm(spec.name))
+            reason = "AOV " + spec.name + " is of the samples of each pixel alone";
+    if (reason.empty()) return true;
+    _scene->diagnostics().warn(camera.path, "method:pixelFilter",
+                               messages::pixelFilterSampled(reason));
     return false;
 }
 
@@ -312,7 +329,10 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         progress.statistics["maxDepth"] = plan.depth(_settings);
     });
 
-    const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs, _settings.cryptomatteLevels);
+    std::vector<AovSpec> aovs = renderedAovs(_settings.aovs, _settings.cryptomatteLevels);
+    if (splats(camera, aovs))
+        for (const char* part : {"quarterColors", "quarterShares"})
+            aovs.push_back(standardAov(part));
     _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
 
     if (_settings.deep) _film->keepDeep(_settings.deepSamples);

@@ -36,6 +36,9 @@ private:
     /// Whether paths share light: it is asked for, and cells know all that tells paths apart.
     bool sharesLight(const RenderSettings& settings, const Camera& camera,
                      const std::vector<AovSpec>& aovs) const;
+    /// Whether samples count for all pixels that their filter reaches: it is asked for, and all
+    /// that is asked for can be shown so.
+    bool splats(const Camera& camera, const std::vector<AovSpec>& aovs) const;
     void split(Integrator& integrator, Arena& arena);
     /// Takes samples up to the schedule's targets in blocks, each with photons and light of its
     /// own. @param casters null: without photons

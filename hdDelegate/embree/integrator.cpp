@@ -19,12 +19,13 @@ namespace patina {
 Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
                        const CameraRays& camera, const RenderSettings& settings,
                        const std::vector<AovSpec>& aovs)
-    : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _writer(aovs, camera),
-      _shadows(scene, settings.enableShadows), _events(lights, _writer.lightPaths()),
-      _lightSampling(scene, lights, _shadows, _events),
+    : _scene(scene), _lights(lights), _camera(camera), _settings(settings),
+      _writer(aovs, camera, settings.filterRadius), _shadows(scene, settings.enableShadows),
+      _events(lights, _writer.lightPaths()), _lightSampling(scene, lights, _shadows, _events),
       _metLights(scene, lights, _shadows, _events, camera, settings.enableSceneLights),
       _media(scene, _lightSampling, camera, _settings),
-      _photonTracer(scene, lights, _shadows, _media, _settings), _filter(settings.filterRadius),
+      _photonTracer(scene, lights, _shadows, _media, _settings),
+      _filter(_writer.splats() ? 0.5f : settings.filterRadius),
       _wavelengths(Wavelengths::of(*RenderingSpace::find(settings.renderingColorSpace))),
       _cullBack(settings.cullStyle.rfind("back", 0) == 0),
       _cullFront(settings.cullStyle.rfind("front", 0) == 0),
@@ -111,7 +112,7 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     const vec2 offset = _filter.sample(vec2(uFilm));
     const vec2 pixel = vec2(x, y) + 0.5f + offset;
     const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime, vec2(x, y) + 0.5f);
-    const AovTarget target{film, x, y, glm::length(offset)};
+    const AovTarget target{film, x, y, glm::length(offset), PixelFilter::quarterOf(offset)};
     if (!ray.seen) return _writer.writeDark(target);
     counters.clock.enter(nullptr);
     if (_ambientOcclusion) {

@@ -8,8 +8,9 @@
 
 namespace patina {
 
-SampleWriter::SampleWriter(const std::vector<AovSpec>& aovs, const CameraRays& camera)
-    : _aovs(aovs), _camera(camera), _lightPaths(aovs) {
+SampleWriter::SampleWriter(const std::vector<AovSpec>& aovs, const CameraRays& camera,
+                           float filterRadius)
+    : _aovs(aovs), _camera(camera), _lightPaths(aovs), _filterRadius(filterRadius) {
     for (size_t i = 0; i < aovs.size(); ++i) {
         const auto remember = [&](AovId id, int& place) {
             if (aovs[i].id == id) place = int(i);
@@ -19,6 +20,8 @@ SampleWriter::SampleWriter(const std::vector<AovSpec>& aovs, const CameraRays& c
         remember(AovId::denoisingHalfColor, _half.color);
         remember(AovId::denoisingHalfAlbedo, _half.albedo);
         remember(AovId::denoisingHalfNormal, _half.normal);
+        remember(AovId::quarterColors, _quarterColors);
+        remember(AovId::quarterShares, _quarterShares);
     }
 }
 
@@ -59,6 +62,9 @@ void SampleWriter::add(const vec3& color, float alpha, const vec3& albedo, const
     if (film.nextSample(target.x, target.y) % 2 == 0) // one that is dropped counts as black there
         _half.add(film, target.x, target.y, film.usable(color, alpha) ? color : vec3(0.0f), albedo,
                   normal);
+    if (splats())
+        film.addQuarter(_quarterColors, _quarterShares, target.x, target.y, target.quarter, color,
+                        alpha, _filterRadius);
     film.addColor(target.x, target.y, color, alpha);
 }
 

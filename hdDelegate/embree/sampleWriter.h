@@ -11,10 +11,13 @@ namespace patina {
 /// paths and deep pixels.
 class SampleWriter {
 public:
-    SampleWriter(const std::vector<AovSpec>& aovs, const CameraRays& camera);
+    /// @param filterRadius of the pixel filter, for splats
+    SampleWriter(const std::vector<AovSpec>& aovs, const CameraRays& camera, float filterRadius);
 
     const std::vector<AovSpec>& aovs() const { return _aovs; }
     const LightPathAovs& lightPaths() const { return _lightPaths; }
+    /// Whether samples count for other pixels too.
+    bool splats() const { return _quarterColors >= 0 && _quarterShares >= 0; }
     /// Random numbers of a sample. Where the film has half of the samples apart, both halves have
     /// numbers of their own.
     Sampler sampler(int x, int y, uint32_t seed, uint32_t index) const;
@@ -44,6 +47,8 @@ private:
     const CameraRays& _camera;
     const LightPathAovs _lightPaths;
     Denoising _all, _half;
+    const float _filterRadius;
+    int _quarterColors = -1, _quarterShares = -1;
 };
 
 } // namespace patina

@@ -49,7 +49,9 @@ template <class Point> bool aovValue(AovId id, const Point& p, float out[4]) {
     case AovId::denoisingNormal: return !Point::denoisingOfPaths && put(p.normal());
     case AovId::denoisingHalfColor:
     case AovId::denoisingHalfAlbedo:
-    case AovId::denoisingHalfNormal: return false; // of paths alone
+    case AovId::denoisingHalfNormal:
+    case AovId::quarterColors:
+    case AovId::quarterShares: return false; // of paths alone
     case AovId::primvars: return p.primvar(out);
     case AovId::primId: return putId(p.primId());
     case AovId::instanceId: return putId(p.instanceId());

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/cryptomatteHash.h"
+#include "hdDelegate/film/pixelSplat.h"
 #include "hdDelegate/film/spans.h"
 #include "hdDelegate/parallel.h"
 
@@ -40,6 +41,7 @@ bool sameSpec(const AovSpec& a, const AovSpec& b) {
 }
 
 constexpr char noisyColor[] = "color.noisy";
+constexpr size_t splatStride = 2 * PixelSplat::Sample::shareCount + 1; // as of any mean
 
 /// As assign(), but a vector of that size keeps its memory and is filled on all threads.
 template <class Value> void fill(std::vector<Value>& values, size_t count, const Value& value) {
@@ -221,6 +223,14 @@ void Film::addAov(int aov, int x, int y, const float* values, float distance) {
     }
 }
 
+void Film::addQuarter(int colors, int shares, int x, int y, int quarter, const glm::vec3& radiance,
+                      float alpha, float radius) {
+    const PixelSplat::Sample sample(quarter, usable(radiance, alpha) ? radiance : glm::vec3(0.0f),
+                                    isUsable(alpha) ? alpha : 0.0f, radius);
+    addAov(colors, x, y, sample.colors.data(), 0.0f);
+    addAov(shares, x, y, sample.shares.data(), 0.0f);
+}
+
 void Film::addCoverage(int aov, int x, int y, const std::string& name) {
     Plane& plane = _planes[size_t(aov)];
     const uint32_t id = cryptomatteId(name);
@@ -319,6 +329,37 @@ float Film::alpha(int x, int y) const {
 float Film::luminance(int x, int y) const {
     const Pixel& p = pixel(x, y);
     return p.count ? float(luminanceOf(p.total().color) / p.count) : 0.0f;
+}
+
+float Film::changeOfMean(int x, int y) const {
+    const Pixel& p = pixel(x, y);
+    return p.count < 2 ? 0.0f : luminance(x, y) - p.meanBefore;
+}
+
+/// @returns those of the AOV quarterShares, of all pixels; null where the film has none
+const double* Film::splatSums() const {
+    const int shares = aovIndex("quarterShares");
+    const bool there = shares >= 0 && aovIndex("quarterColors") >= 0;
+    return there && !_planes[size_t(shares)].sums.empty() ? _planes[size_t(shares)].sums.data()
+                                                          : nullptr;
+}
+
+/// @param sums of a pixel, whose last component is the filter's radius
+float Film::splatRadius(const double* sums) {
+    constexpr size_t n = PixelSplat::Sample::shareCount;
+    return sums[2 * n] > 0.0 ? float((sums[n - 1] + sums[2 * n - 1]) / sums[2 * n]) : 0.0f;
+}
+
+float Film::splatRadius(int x, int y) const {
+    const double* sums = splatSums();
+    return sums ? splatRadius(sums + index(x, y) * splatStride) : 0.0f;
+}
+
+bool Film::splats() const {
+    const double* sums = splatSums();
+    for (size_t i = 0; sums && i < _pixels.size(); ++i)
+        if (splatRadius(sums + i * splatStride) > 0.0f) return true;
+    return false;
 }
 
 float Film::varianceOfMean(int x, int y) const {

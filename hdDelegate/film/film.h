@@ -103,6 +103,12 @@ public:
     ///        samples the earlier one stays
     void addAov(int aov, int x, int y, const float* values, float distance);
 
+    /// Adds a sample, which addColor() gets as well, to those that count for pixels around.
+    /// @param colors,shares places of the AOVs quarterColors and quarterShares
+    /// @param quarter of PixelFilter::quarterOf()
+    /// @param radius of the pixel filter, the same for all
+    void addQuarter(int colors, int shares, int x, int y, int quarter, const glm::vec3& radiance,
+                    float alpha, float radius);
     /// Counts a sample of a pixel for an AOV of AovKind::Coverage.
     /// @param name that cryptomatteId() made the id of
     void addCoverage(int aov, int x, int y, const std::string& name);
@@ -143,7 +149,7 @@ public:
     void copyFrom(const Film& other);
 
     uint32_t sampleCount(int x, int y) const { return pixel(x, y).count; }
-    glm::vec3 color(int x, int y) const; ///< mean so far
+    glm::vec3 color(int x, int y) const; ///< mean of the pixel's own samples so far
     float alpha(int x, int y) const;
     /// Variance of the mean of the luminance: s^2 / n. 0 with fewer than two samples.
     float varianceOfMean(int x, int y) const;
@@ -158,6 +164,14 @@ public:
     /// where that is one sample.
     float deviationBefore(int x, int y) const { return pixel(x, y).deviationEarlier; }
     float luminance(int x, int y) const; ///< Rec.709
+    /// How far the mean of the luminance has moved since the last power of two samples.
+    float changeOfMean(int x, int y) const;
+    /// Of the pixel filter, where the samples of a pixel count for others too (pixelSplat.h), so
+    /// that resolve() gives colour and alpha of all of them; else 0.
+    float splatRadius(int x, int y) const;
+
+    /// @returns whether samples of some pixel do
+    bool splats() const;
 
     /// Resolved pixels of any AOV (also color, alpha, sampleCount, variance, and AOV.noisy where it
     /// is denoised): components floats per
@@ -214,6 +228,8 @@ private:
         CoverageNames names;
     };
 
+    const double* splatSums() const;
+    static float splatRadius(const double* sums);
     size_t index(int x, int y) const { return size_t(y) * size_t(_width) + size_t(x); }
     const Pixel& pixel(int x, int y) const { return _pixels[index(x, y)]; }
     /// The pixel that shows at another: see showBlocks().

@@ -2,6 +2,7 @@
 // What a film shows: the pixels of an AOV, made of samples, denoised, or asked of a source.
 
 #include "hdDelegate/film/film.h"
+#include "hdDelegate/film/pixelSplat.h"
 #include "hdDelegate/parallel.h"
 
 #include <algorithm>
@@ -86,7 +87,11 @@ std::vector<float> Film::resolve(const std::string& asked) const {
             }
         });
     };
-    if (name == "color") {
+    if ((name == "color" || name == "alpha") && splats()) {
+        const PixelSplat splat(*this);
+        const std::vector<float> made = name == "alpha" ? splat.alpha() : splat.color();
+        eachPixel([&](int x, int y, float* to) { std::copy_n(&made[index(x, y) * n], n, to); });
+    } else if (name == "color") {
         eachPixel([this](int x, int y, float* to) {
             glm::vec3 c = color(x, y);
             std::copy(&c.x, &c.x + 3, to);

@@ -5,6 +5,7 @@
 #include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/deepOutput.h"
 #include "hdDelegate/film/imageOutput.h"
+#include "hdDelegate/film/pixelSplat.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -96,7 +97,8 @@ void writeImage(const Film& film, const std::string& path, const ImageOptions& o
     if (names.empty()) {
         names = {"color", "alpha"};
         for (auto& spec : film.aovs())
-            if (spec.name != "color" && spec.name != "alpha") names.push_back(spec.name);
+            if (spec.name != "color" && spec.name != "alpha" && !PixelSplat::isPart(spec.id))
+                names.push_back(spec.name);
     }
     if (isExr(path)) {
         std::vector<std::vector<float>> resolved;
@@ -125,8 +127,18 @@ void writeImage(const Film& film, const std::string& path, const ImageOptions& o
         writeDisplayImage(coverage.data(), 1, film.width(), placement, path, options, metadata);
         return;
     }
-    if (options.outliers == Outliers::Spread && isShown(path, options) && !film.denoised())
-        spreadOutliers(film, color);
+    if (options.outliers == Outliers::Spread && isShown(path, options) && !film.denoised()) {
+        if (film.splats()) { // an outlier is one of the pixels, not of those that it counts for
+            for (size_t i = 0; i < color.size() / 3; ++i) {
+                const glm::vec3 own = film.color(int(i) % film.width(), int(i) / film.width());
+                std::copy(&own.x, &own.x + 3, &color[3 * i]);
+            }
+            spreadOutliers(film, color);
+            color = PixelSplat(film).color(color);
+        } else {
+            spreadOutliers(film, color);
+        }
+    }
     std::vector<float> pixels(coverage.size() * 4);
     for (size_t i = 0; i < coverage.size(); ++i) {
         std::copy(&color[i * 3], &color[i * 3] + 3, &pixels[i * 4]);

@@ -70,8 +70,30 @@ public:
         return out;
     }
 
+    /// The filter's mass in cells of half a pixel, left to right, as many on either side of the
+    /// pixel's centre; their sum is 1. A filter that is even within each cell is nearly the same.
+    std::vector<float> halfPixelWeights() const {
+        const int side = std::max(1, int(std::ceil(2.0f * _radius - 1e-3f)));
+        const auto below = [&](double x) { // the integral, but for a factor
+            const double t = std::clamp(x / _radius, -1.0, 1.0);
+            return _box ? t : std::erf(std::sqrt(2.0) * t);
+        };
+        std::vector<float> cells(size_t(2 * side));
+        for (int i = 0; i < 2 * side; ++i)
+            cells[size_t(i)] = float((below(0.5 * (i + 1 - side)) - below(0.5 * (i - side))) /
+                                     (2.0 * below(_radius)));
+        return cells;
+    }
+    bool isBox() const { return _box; }
+
+    /// The quarter of its pixel that a sample is in: left or right, plus 2 below the centre.
+    static int quarterOf(const glm::vec2& offset) {
+        return (offset.x < 0.0f ? 0 : 1) + (offset.y < 0.0f ? 0 : 2);
+    }
+
+    static constexpr int largestReach = 8; ///< pixels
+
 private:
-    static constexpr int largestReach = 8;
     static constexpr int size = 256, fine = 16384;
 
     float inverse(float u) const {

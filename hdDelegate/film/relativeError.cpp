@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/relativeError.h"
+#include "hdDelegate/film/pixelSplat.h"
 #include "hdDelegate/film/spans.h"
 
 #include <algorithm>
@@ -37,6 +38,36 @@ struct Grid {
         return sum / ((right - left + 1) * (bottom - top + 1));
     }
 };
+
+/// Pixels whose samples count for others too err less, and alike: changes of pixels around that
+/// differ in sign cancel out, as errors will. Pixels beyond the rectangle are not asked, since
+/// others may change them.
+/// @param changes of the means of the pixels' own samples, over luminance
+void shareNoise(const Grid& changes, float radius, ErrorSums& sums) {
+    const PixelSplat::Noise noise(radius);
+    const int reach = int(noise.weights.size() / 2);
+    double own = 0.0, shared = 0.0;
+    for (int y = 0; y < changes.height; ++y)
+        for (int x = 0; x < changes.width; ++x) {
+            double sum = 0.0, weights = 0.0;
+            for (int v = std::max(y - reach, 0); v <= std::min(y + reach, changes.height - 1); ++v)
+                for (int u = std::max(x - reach, 0); u <= std::min(x + reach, changes.width - 1);
+                     ++u) {
+                    const double w =
+                        noise.weights[size_t(u - x + reach)] * noise.weights[size_t(v - y + reach)];
+                    sum += w * changes.at(u, v);
+                    weights += w;
+                }
+            own += std::abs(double(changes.at(x, y)));
+            shared += std::abs(sum / weights);
+        }
+    if (!(own > 0.0)) return;
+    const double less = std::min(1.0, noise.finer * shared / own);
+    sums.error *= less;
+    sums.own *= less;
+    sums.before *= less;
+    sums.ownSquares *= less * less * noise.together;
+}
 
 } // namespace
 
@@ -99,6 +130,13 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
             sums.growth += double(n) / part;
             sums.plain += plain;
         }
+    if (const float radius = film.splatRadius(x0, y0); radius > 0.0f) {
+        Grid changes(width, height);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                changes.at(x, y) = film.changeOfMean(x0 + x, y0 + y) / scale.at(x, y);
+        shareNoise(changes, radius, sums);
+    }
     return sums;
 }
 

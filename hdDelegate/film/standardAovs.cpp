@@ -2,6 +2,7 @@
 #include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/film/lightPaths/lightPathAutomaton.h"
+#include "hdDelegate/film/pixelSplat.h"
 
 #include <cctype>
 #include <cstring>
@@ -100,6 +101,8 @@ std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names, int cry
     std::vector<AovSpec> aovs;
     for (const std::string& name : names) {
         if (isOfFilm(name)) continue;
+        if (PixelSplat::isPart(aovIdOf(name)))
+            throw std::invalid_argument("AOV '" + name + "' is of no picture: renderers keep it");
         aovs.push_back(standardAov(name));
         if (aovs.back().kind == AovKind::Coverage)
             aovs.back().components = cryptomatteComponents(cryptomatteLevels);

@@ -8,7 +8,7 @@ the two medians of time, so that nothing which is done once per image counts. Ti
 which the error, taken as a power of the samples, reaches the target. Renderers take turns, image by image, so that what
 disturbs the machine disturbs all of them.
 
-All have the same geometry, camera, bounces, light and box filter; principled materials are each renderer's own.
+All have the same geometry, camera, bounces, light and pixel filter; principled materials are each renderer's own.
 
 Cycles is that of PyPI's bpy, with its light tree, and a second time with path guiding. $PATINA_BPY_PYTHON names a Python that
 has bpy. Without it the benchmark installs bpy (requirements-cycles.txt) into an environment of its own, inside of Patina's.
@@ -73,7 +73,7 @@ def mitsuba():
 def settings_of(options):
     """:returns: what pathWorker.save() takes besides a scene"""
     return {"width": options.pixels[0], "height": options.pixels[1], "depth": options.depth, "threads": options.threads,
-            "methods": dict(options.method), "blur": options.blur}
+            "methods": dict(options.method), "blur": options.blur, "filter": options.filter}
 
 
 def add_choices(parser):
@@ -86,6 +86,9 @@ def add_choices(parser):
 
     parser.add_argument("--method", type=pair, action="append", default=[], metavar="CHOICE=METHOD",
                         help="of Patina (repeatable)")
+    parser.add_argument("--filter", type=float, default=0.5, metavar="R",
+                        help="radius of the pixel filter in pixels: a box up to 0.5, else a Gaussian with a standard deviation of "
+                             "R / 2, whose samples count for all pixels around in Patina and Mitsuba (default: 0.5)")
     parser.add_argument("--blur", type=float, default=0.0, metavar="ALPHA",
                         help="Patina's indirectRoughness; above 0 Cycles has its Filter Glossy 1, Blender's own default")
 

@@ -135,8 +135,8 @@ def main(folder, guided=""):
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = held["depth"]
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
     cycles.caustics_reflective = cycles.caustics_refractive = True
-    cycles.pixel_filter_type = "BOX"
-    cycles.filter_width = 1.0
+    width = 2.0 * held.get("filter", 0.5)  # of a Gaussian, four standard deviations
+    cycles.pixel_filter_type, cycles.filter_width = "GAUSSIAN" if width > 1.0 else "BOX", width
     cycles.use_light_tree, cycles.use_guiding = True, bool(guided)
     file = os.path.join(tempfile.mkdtemp(prefix="pathCycles"), "image.exr")
 

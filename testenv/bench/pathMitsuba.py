@@ -54,12 +54,14 @@ def main(folder, variant):
         return mi.ScalarTransform4f(np.asarray(rows, float).T)
 
     eye, target, view = scene["camera"]
+    filter_radius = scene.get("filter", 0.5)
     turned = transform(pathScenes.facing(eye, target)) @ mi.ScalarTransform4f().rotate([0, 1, 0], 180)
     made = {"type": "scene", "integrator": {"type": "path", "max_depth": scene["depth"] + 1,
                                                "rr_depth": 5 if scene.get("roulette", True) else 1 << 20},
             "sensor": {"type": "perspective", "fov": view, "to_world": turned,
                        "film": {"type": "hdrfilm", "width": scene["width"], "height": scene["height"],
-                                "rfilter": {"type": "box"}, "pixel_format": "rgb"},
+                                "rfilter": {"type": "gaussian", "stddev": filter_radius / 2} if filter_radius > 0.5
+                                else {"type": "box"}, "pixel_format": "rgb"},
                        "sampler": {"type": "multijitter" if variant.startswith("scalar") else "independent"}}}
     for name, given in scene["materials"].items():
         made[name] = {**bsdf(given), "id": name}

@@ -114,10 +114,10 @@ def prepare(folder):
         denoise = asked.get("denoise", False)
         experiment.draw(renderer, held, "/camera", {
             "width": scene["width"], "height": scene["height"], "samples": samples, "seed": seed, "threads": scene["threads"],
-            "maxDepth": scene["depth"], "filterRadius": 0.5, "checkpointSeconds": 0.0,
+            "maxDepth": scene["depth"], "filterRadius": scene.get("filter", 0.5), "checkpointSeconds": 0.0,
             "aovs": list(denoiser.GUIDES) if denoise else [],
             "rouletteDepth": 1 if scene.get("roulette", True) else 4096,
-            "methods": asked.get("methods", {}), "indirectRoughness": asked.get("blur", 0.0)}, film)
+            "methods": {**({} if denoise else {"pixelFilter": "splatted"}), **asked.get("methods", {})}, "indirectRoughness": asked.get("blur", 0.0)}, film)
         if denoise:
             denoiser.run(module, film, scene["threads"])
         if file != os.devnull:

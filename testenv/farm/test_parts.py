@@ -23,6 +23,7 @@ def folder(tmp_path_factory):
     ("1x3", ("--samples", "50", "--aov", "all", "--aov", "denoisingAlbedo")),
     ("2x2", ("--samples", "20", "--dataWindow", "9,5,50,30", "--seed", "3", "--aov", "cryptoMaterial", "--aov", "direct",
              "--aov", "red=lpe:C.*L")),
+    ("3x2", ("--samples", "21", "--method", "pixelFilter=splatted", "--dataWindow", "9,5,50,30", "--aov", "normal")),
 ])
 def test_all_that_the_file_holds_is_the_same(folder, cut, flags):
     stage, image = scene("texturedDiffuse"), folder / f"cut{cut}.exr"
@@ -33,9 +34,10 @@ def test_all_that_the_file_holds_is_the_same(folder, cut, flags):
     assert contents(image) == expected
 
 
-@pytest.mark.parametrize("cut", ["3", "2x2"])
-def test_tiles_stop_where_they_stop_at_once(folder, cut):
-    flags = (*SIZE, "--samples", "96", "--tolerance", "0.04", "--aov", "sampleCount", "--aov", "variance")
+@pytest.mark.parametrize("cut, tolerance, method", [("3", "0.04", "sampled"), ("2x2", "0.04", "sampled"),
+                                                    ("2x2", "0.02", "splatted")])
+def test_tiles_stop_where_they_stop_at_once(folder, cut, tolerance, method):
+    flags = (*SIZE, "--method", f"pixelFilter={method}", "--samples", "96", "--tolerance", tolerance, "--aov", "sampleCount", "--aov", "variance")
     stage, image = scene("diffuseBox"), folder / "adaptive.exr"
     expected = whole(stage, folder / "adaptiveWhole.exr", *flags)
     patina("merge", *parts(folder, stage, image, cut, *flags), image)

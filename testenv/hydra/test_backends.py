@@ -33,6 +33,7 @@ def traced(tmp_path_factory):
 
 @pytest.mark.parametrize("name, settings, noise", [
     ("diffuseBox", ("method:indirectLight=paths", "method:indirectLight=shared"), 0.12),
+    ("diffuseBox", ("method:pixelFilter=sampled", "method:pixelFilter=splatted"), 0.12),
     ("plastic", ("indirectRoughness=0", "indirectRoughness=0.3"), 0.05)])
 def test_what_the_path_tracer_shares_or_blurs_is_a_setting(tmp_path, name, settings, noise):
     """Another image of the same mean. :param noise: root of the relative variance of a pixel"""

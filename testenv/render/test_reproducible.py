@@ -31,13 +31,15 @@ def test_seed_changes_the_noise_and_not_the_mean(tmp_path):
     assert means[0] == pytest.approx(means[1], rel=0.02)
 
 
-def test_resumed_render_has_the_bits_of_an_uninterrupted_one(tmp_path):
+@pytest.mark.parametrize("method", ["sampled", "splatted"])
+def test_resumed_render_has_the_bits_of_an_uninterrupted_one(tmp_path, method):
     whole, cut = tmp_path / "whole.exr", tmp_path / "cut.exr"
-    record(scene("diffuseBox"), whole, *SMALL, "--samples", 48)
+    flags = (*SMALL, "--samples", 48, "--method", f"pixelFilter={method}")
+    record(scene("diffuseBox"), whole, *flags)
     # A time limit that is over at once leaves a part and its checkpoint.
-    record(scene("diffuseBox"), cut, *SMALL, "--samples", 48, "--seconds", 0.05, "--keepCheckpoint")
+    record(scene("diffuseBox"), cut, *flags, "--seconds", 0.05, "--keepCheckpoint")
     assert not np.array_equal(pixels(whole), pixels(cut))
-    record(scene("diffuseBox"), cut, *SMALL, "--samples", 48, "--resume")
+    record(scene("diffuseBox"), cut, *flags, "--resume")
     assert np.array_equal(pixels(whole), pixels(cut))
 
 

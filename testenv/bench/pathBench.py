@@ -87,8 +87,8 @@ def add_choices(parser):
     parser.add_argument("--method", type=pair, action="append", default=[], metavar="CHOICE=METHOD",
                         help="of Patina (repeatable)")
     parser.add_argument("--filter", type=float, default=0.5, metavar="R",
-                        help="radius of the pixel filter in pixels: a box up to 0.5, else a Gaussian with a standard deviation of "
-                             "R / 2, whose samples count for all pixels around in Patina and Mitsuba (default: 0.5)")
+                        help="radius of the pixel filter in pixels: a box up to 0.5, else a Gaussian with a standard deviation "
+                             "of R / 2, whose samples count for all pixels around in Patina and Mitsuba (default: 0.5)")
     parser.add_argument("--blur", type=float, default=0.0, metavar="ALPHA",
                         help="Patina's indirectRoughness; above 0 Cycles has its Filter Glossy 1, Blender's own default")
 

@@ -112,12 +112,13 @@ def prepare(folder):
     def draw(samples, seed, file, plain):
         asked = {} if plain else scene
         denoise = asked.get("denoise", False)
+        methods = {"pixelFilter": "sampled" if denoise else "splatted", **asked.get("methods", {})}
         experiment.draw(renderer, held, "/camera", {
             "width": scene["width"], "height": scene["height"], "samples": samples, "seed": seed, "threads": scene["threads"],
             "maxDepth": scene["depth"], "filterRadius": scene.get("filter", 0.5), "checkpointSeconds": 0.0,
             "aovs": list(denoiser.GUIDES) if denoise else [],
             "rouletteDepth": 1 if scene.get("roulette", True) else 4096,
-            "methods": {**({} if denoise else {"pixelFilter": "splatted"}), **asked.get("methods", {})}, "indirectRoughness": asked.get("blur", 0.0)}, film)
+            "methods": methods, "indirectRoughness": asked.get("blur", 0.0)}, film)
         if denoise:
             denoiser.run(module, film, scene["threads"])
         if file != os.devnull:

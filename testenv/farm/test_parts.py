@@ -37,7 +37,8 @@ def test_all_that_the_file_holds_is_the_same(folder, cut, flags):
 @pytest.mark.parametrize("cut, tolerance, method", [("3", "0.04", "sampled"), ("2x2", "0.04", "sampled"),
                                                     ("2x2", "0.02", "splatted")])
 def test_tiles_stop_where_they_stop_at_once(folder, cut, tolerance, method):
-    flags = (*SIZE, "--method", f"pixelFilter={method}", "--samples", "96", "--tolerance", tolerance, "--aov", "sampleCount", "--aov", "variance")
+    flags = (*SIZE, "--method", f"pixelFilter={method}", "--samples", "96", "--tolerance", tolerance, "--aov",
+             "sampleCount", "--aov", "variance")
     stage, image = scene("diffuseBox"), folder / "adaptive.exr"
     expected = whole(stage, folder / "adaptiveWhole.exr", *flags)
     patina("merge", *parts(folder, stage, image, cut, *flags), image)

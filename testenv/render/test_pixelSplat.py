@@ -35,8 +35,8 @@ def test_the_mean_is_that_of_the_filter_and_noise_is_less(name):
 
 @pytest.mark.parametrize("radius", [0.6, 1.0, 1.7])
 def test_an_edge_is_as_wide_as_the_filter(tmp_path, radius):
-    """A white half plane on black: along the edge's normal pixels show the filter's integral. Cells of half a pixel move none of
-    its mass by more than a quarter, so the picture shifts by that at most where it rises."""
+    """A white half plane on black: along the edge's normal pixels show the filter's integral. Cells of half a pixel move none
+    of its mass by more than a quarter, so the picture shifts by that at most where it rises."""
     path = tmp_path / "edge.usda"
     path.write_text(usda.stage(camera(flat=(160, 160), at=(0, 0, 5)),  # a unit is a pixel
                                mesh("half", [(0.2, -20, 0), (20, -20, 0), (20, 20, 0), (0.2, 20, 0)]),

@@ -43,7 +43,9 @@ struct Grid {
 /// differ in sign cancel out, as errors will. Pixels beyond the rectangle are not asked, since
 /// others may change them.
 /// @param changes of the means of the pixels' own samples, over luminance
-void shareNoise(const Grid& changes, float radius, ErrorSums& sums) {
+/// @param ofRare the part of the error that is of light which few samples find: nearly all pixels
+/// lack it alike, so that they do not cancel
+void shareNoise(const Grid& changes, float radius, double ofRare, ErrorSums& sums) {
     const PixelSplat::Noise noise(radius);
     const int reach = int(noise.weights.size() / 2);
     double own = 0.0, shared = 0.0;
@@ -63,7 +65,7 @@ void shareNoise(const Grid& changes, float radius, ErrorSums& sums) {
         }
     if (!(own > 0.0)) return;
     const double less = std::min(1.0, noise.finer * shared / own);
-    sums.error *= less;
+    sums.error = ofRare + less * (sums.error - ofRare);
     sums.own *= less;
     sums.before *= less;
     sums.ownSquares *= less * less * noise.together;
@@ -106,6 +108,7 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
             // The root of k equal finds is how many standard errors k finds lie above none.
             rare.at(x, y) = l * l <= fewFinds * variance ? 1.0f : 0.0f;
         }
+    double ofRare = 0.0;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const uint32_t n = film.sampleCount(x0 + x, y0 + y);
@@ -120,9 +123,11 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
             if (rare.at(x, y) > 0.0f) own = std::max(own, plain);
             // Light that few samples find is noise of the pixels around, too, that have found none
             // of it. It errs up and down unlike, which halves do not show.
-            sums.error += rare.meanAround(x, y) > manyAround
-                              ? meanOfHalfNormal * std::sqrt(squares.meanAround(x, y))
-                              : own;
+            const bool isRare = rare.meanAround(x, y) > manyAround;
+            const double error =
+                isRare ? meanOfHalfNormal * std::sqrt(squares.meanAround(x, y)) : own;
+            sums.error += error;
+            if (isRare) ofRare += error;
             sums.pixels += 1.0;
             sums.own += own;
             sums.ownSquares += own * own;
@@ -135,7 +140,7 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
                 changes.at(x, y) = film.changeOfMean(x0 + x, y0 + y) / scale.at(x, y);
-        shareNoise(changes, radius, sums);
+        shareNoise(changes, radius, ofRare, sums);
     }
     return sums;
 }

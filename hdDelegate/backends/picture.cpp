@@ -23,6 +23,12 @@ template <class Function> vec4 colorwise(Function f, vec4 v) {
 Picture pictureOf(const Film& film) {
     Picture picture{film.width(), film.height(), {}};
     picture.pixels.resize(size_t(film.width()) * size_t(film.height()));
+    if (film.splats()) {
+        const std::vector<float> color = film.resolve("color"), alpha = film.resolve("alpha");
+        for (size_t i = 0; i < alpha.size(); ++i)
+            picture.pixels[i] = vec4(color[3 * i], color[3 * i + 1], color[3 * i + 2], alpha[i]);
+        return picture;
+    }
     parallelFor(0, film.height(), [&](int y) {
         vec4* row = &picture.pixels[size_t(y) * size_t(film.width())];
         for (int x = 0; x < film.width(); ++x)
@@ -32,6 +38,7 @@ Picture pictureOf(const Film& film) {
 }
 
 void writePicture(const Picture& picture, Film& film) {
+    film.forgetQuarters();
     parallelFor(0, film.height(), [&](int y) {
         const vec4* row = &picture.pixels[size_t(y) * size_t(film.width())];
         for (int x = 0; x < film.width(); ++x)

@@ -155,12 +155,13 @@ bool EmbreeRenderer::sharesLight(const RenderSettings& settings, const Camera& c
 }
 
 bool EmbreeRenderer::splats(const Camera& camera, const std::vector<AovSpec>& aovs) const {
-    const PixelFilter filter(_settings.filterRadius);
-    if (chosenMethod(_settings.methods, "pixelFilter") != "splatted" || filter.isBox())
+    if (chosenMethod(_settings.methods, "pixelFilter") != "splatted" ||
+        PixelFilter(_settings.filterRadius).isBox())
         return false;
-    std::string reason = _settings.deep        ? "deep pixels are kept"
-                         : filter.reach() == 0 ? "the filter's radius is above 8 pixels"
-                                               : "";
+    std::string reason = _settings.deep ? "deep pixels are kept"
+                         : _settings.filterRadius > PixelFilter::largestReach
+                             ? "the filter's radius is above 8 pixels"
+                             : "";
     for (const AovSpec& spec : aovs)
         if (spec.kind != AovKind::First && !isOfFilm(spec.name))
             reason = "AOV " + spec.name + " is of the samples of each pixel alone";

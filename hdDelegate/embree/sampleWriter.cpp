@@ -8,9 +8,17 @@
 
 namespace patina {
 
+/// Without the quarters of pixels, which come last and which no surface shows.
+static std::vector<AovSpec> shown(std::vector<AovSpec> aovs) {
+    while (!aovs.empty() &&
+           (aovs.back().id == AovId::quarterColors || aovs.back().id == AovId::quarterShares))
+        aovs.pop_back();
+    return aovs;
+}
+
 SampleWriter::SampleWriter(const std::vector<AovSpec>& aovs, const CameraRays& camera,
                            float filterRadius)
-    : _aovs(aovs), _camera(camera), _lightPaths(aovs), _filterRadius(filterRadius) {
+    : _aovs(shown(aovs)), _camera(camera), _lightPaths(aovs), _filterRadius(filterRadius) {
     for (size_t i = 0; i < aovs.size(); ++i) {
         const auto remember = [&](AovId id, int& place) {
             if (aovs[i].id == id) place = int(i);

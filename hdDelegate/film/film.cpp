@@ -3,6 +3,7 @@
 
 #include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/cryptomatteHash.h"
+#include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/film/pixelSplat.h"
 #include "hdDelegate/film/spans.h"
 #include "hdDelegate/parallel.h"
@@ -259,6 +260,11 @@ CoverageNames::Map Film::coverageNames(const std::string& aov) const {
     return names;
 }
 
+void Film::forgetQuarters() {
+    for (size_t i = 0; i < _aovs.size(); ++i)
+        if (PixelSplat::isPart(_aovs[i].id)) clearPlane(_aovs[i], _pixels.size(), _planes[i]);
+}
+
 void Film::setMean(int x, int y, glm::vec3 color, float alpha) {
     Pixel& p = _pixels[index(x, y)];
     if (!p.count) return;
@@ -347,7 +353,8 @@ const double* Film::splatSums() const {
 /// @param sums of a pixel, whose last component is the filter's radius
 float Film::splatRadius(const double* sums) {
     constexpr size_t n = PixelSplat::Sample::shareCount;
-    return sums[2 * n] > 0.0 ? float((sums[n - 1] + sums[2 * n - 1]) / sums[2 * n]) : 0.0f;
+    const double radius = sums[2 * n] > 0.0 ? (sums[n - 1] + sums[2 * n - 1]) / sums[2 * n] : 0.0;
+    return float(std::min(radius, double(PixelFilter::largestReach))); // in files of others any
 }
 
 float Film::splatRadius(int x, int y) const {

@@ -120,6 +120,8 @@ public:
     /// The names of the ids that such an AOV has met.
     CoverageNames::Map coverageNames(const std::string& aov) const;
 
+    /// From now on the means of the pixels' own samples show, where samples counted for others too.
+    void forgetQuarters();
     /// Replaces the mean of a pixel that has samples; their number and the variance stay.
     void setMean(int x, int y, glm::vec3 color, float alpha);
     /// Shows another colour than the mean of the samples, which then is "color.noisy", until

@@ -5,7 +5,6 @@
 #include "hdDelegate/parallel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace patina {
@@ -44,7 +43,7 @@ PixelSplat::Noise::Noise(float radius) {
 
 PixelSplat::PixelSplat(const Film& film)
     : _film(film), _width(size_t(film.width())), _height(size_t(film.height())),
-      _colors(film.resolve(colorsAov)), _shares(film.resolve(sharesAov)) {
+      _shares(film.resolve(sharesAov)) {
     float radius = 0.0f;
     for (size_t i = sharesOf - 1; i < _shares.size(); i += sharesOf)
         radius = std::max(radius, _shares[i]);
@@ -53,8 +52,9 @@ PixelSplat::PixelSplat(const Film& film)
 }
 
 /// @param values parts of all samples, of each quarter of each pixel
-std::vector<float> PixelSplat::filtered(int components, const std::vector<float>& values) const {
-    const size_t n = size_t(components), columns = 2 * _width;
+template <size_t n>
+std::vector<float> PixelSplat::filtered(const std::vector<float>& values) const {
+    const size_t columns = 2 * _width;
     const int side = int(_weights.size() / 2);
     // Along rows of half pixels: sums of the values, then of the weights.
     std::vector<float> rows(2 * _height * _width * (n + 1));
@@ -79,9 +79,10 @@ std::vector<float> PixelSplat::filtered(int components, const std::vector<float>
     });
     std::vector<float> out(_width * _height * n);
     parallelFor(size_t(0), _height, [&](size_t y) {
-        std::vector<float> sums(n + 1);
         for (size_t x = 0; x < _width; ++x) {
-            std::fill(sums.begin(), sums.end(), 0.0f);
+            const float* own = &_shares[(y * _width + x) * sharesOf + quarters];
+            if (!(own[0] + own[1] + own[2] + own[3] > 0.0f)) continue; // beyond a crop, say
+            std::array<float, n + 1> sums{};
             for (int i = -side; i < side; ++i) {
                 const int v = int(2 * y + 1) + i;
                 if (v < 0 || v >= int(2 * _height)) continue;
@@ -97,26 +98,35 @@ std::vector<float> PixelSplat::filtered(int components, const std::vector<float>
 }
 
 std::vector<float> PixelSplat::color(const std::vector<float>& own) const {
-    if (own.empty()) return filtered(3, _colors);
-    std::vector<float> colors = _colors;
+    std::vector<float> colors = _film.resolve(colorsAov);
+    if (own.empty()) return filtered<3>(colors);
     parallelFor(size_t(0), _width * _height, [&](size_t i) {
-        const glm::vec3 mean = _film.color(int(i % _width), int(i / _width));
-        for (size_t q = 0; q < quarters; ++q)
-            for (size_t c = 0; c < 3; ++c) {
-                float& part = colors[(i * quarters + q) * 3 + c];
-                const double wanted = own[i * 3 + c], there = mean[int(c)];
-                const double share = _shares[i * sharesOf + quarters + q];
-                part = float(wanted * (there != 0.0 ? double(part) / there : share));
-            }
+        const int x = int(i % _width), y = int(i / _width);
+        if (!_film.sampleCount(x, y)) return;
+        const glm::vec3 mean = _film.color(x, y);
+        for (size_t c = 0; c < 3; ++c) {
+            const auto part = [&](size_t q) -> float& {
+                return colors[(i * quarters + q) * 3 + c];
+            };
+            const double wanted = own[i * 3 + c], there = mean[int(c)];
+            bool scales = there > 0.0; // but not what cancels out, by lights that take light away
+            for (size_t q = 0; q < quarters; ++q)
+                scales = scales && part(q) >= 0.0f;
+            for (size_t q = 0; q < quarters; ++q)
+                part(q) = float(scales ? double(part(q)) * wanted / there
+                                       : double(part(q)) +
+                                             (wanted - there) *
+                                                 double(_shares[i * sharesOf + quarters + q]));
+        }
     });
-    return filtered(3, colors);
+    return filtered<3>(colors);
 }
 
 std::vector<float> PixelSplat::alpha() const {
     std::vector<float> parts(_width * _height * quarters);
     for (size_t i = 0; i < parts.size(); ++i)
         parts[i] = _shares[i / quarters * sharesOf + i % quarters];
-    return filtered(1, parts);
+    return filtered<1>(parts);
 }
 
 } // namespace patina

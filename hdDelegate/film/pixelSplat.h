@@ -47,11 +47,11 @@ public:
     std::vector<float> alpha() const;
 
 private:
-    std::vector<float> filtered(int components, const std::vector<float>& values) const;
+    template <size_t n> std::vector<float> filtered(const std::vector<float>& values) const;
 
     const Film& _film;
     size_t _width, _height;
-    std::vector<float> _colors, _shares;
+    std::vector<float> _shares;
     std::vector<float> _weights; ///< of half pixels along one axis
 };
 

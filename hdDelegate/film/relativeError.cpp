@@ -51,10 +51,12 @@ void shareNoise(const Grid& changes, float radius, double ofRare, ErrorSums& sum
     double own = 0.0, shared = 0.0;
     for (int y = 0; y < changes.height; ++y)
         for (int x = 0; x < changes.width; ++x) {
+            if (std::isnan(changes.at(x, y))) continue;
             double sum = 0.0, weights = 0.0;
             for (int v = std::max(y - reach, 0); v <= std::min(y + reach, changes.height - 1); ++v)
                 for (int u = std::max(x - reach, 0); u <= std::min(x + reach, changes.width - 1);
                      ++u) {
+                    if (std::isnan(changes.at(u, v))) continue;
                     const double w =
                         noise.weights[size_t(u - x + reach)] * noise.weights[size_t(v - y + reach)];
                     sum += w * changes.at(u, v);
@@ -135,11 +137,17 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
             sums.growth += double(n) / part;
             sums.plain += plain;
         }
-    if (const float radius = film.splatRadius(x0, y0); radius > 0.0f) {
-        Grid changes(width, height);
+    Grid changes(width, height); // NaN where there are no samples, as around a crop
+    float radius = 0.0f;
+    if (film.splats())
         for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                changes.at(x, y) = film.changeOfMean(x0 + x, y0 + y) / scale.at(x, y);
+            for (int x = 0; x < width; ++x) {
+                const float own = film.splatRadius(x0 + x, y0 + y);
+                changes.at(x, y) =
+                    own > 0.0f ? film.changeOfMean(x0 + x, y0 + y) / scale.at(x, y) : NAN;
+                radius = std::max(radius, own);
+            }
+    if (radius > 0.0f) {
         shareNoise(changes, radius, ofRare, sums);
     }
     return sums;

@@ -56,7 +56,7 @@ AovSpec standardAov(const std::string& name) {
     if (id == AovId::unknown) {
         std::string known;
         for (const AovRow& row : aovRows())
-            if (row.id != AovId::primvars && row.id != AovId::lpe)
+            if (row.id != AovId::primvars && row.id != AovId::lpe && !PixelSplat::isPart(row.id))
                 known += (known.empty() ? "" : ", ") + std::string(row.name);
         throw std::invalid_argument("unknown AOV '" + name + "'; known are " + known + ", " +
                                     primvarAovs + "NAME and NAME=" + lightPathAovs + "EXPRESSION");

@@ -73,12 +73,13 @@ def steps(images):
     return [float(abs(b - a).max()) for a, b in zip(blocks, blocks[1:])]
 
 
-def test_a_host_sees_no_jump_from_the_first_image_to_the_last(opengl, tmp_path):
+@pytest.mark.parametrize("pixel_filter", ["sampled", "splatted"])
+def test_a_host_sees_no_jump_from_the_first_image_to_the_last(opengl, tmp_path, pixel_filter):
     script = tmp_path / "edits.txt"
     script.write_text(f"set backend interactive\nframes {tmp_path}/first\nset samples 3\nframes {tmp_path}/edited\n"
                       f"set backend embree\nrender\nwrite {tmp_path}/traced.exr\n", encoding="utf-8")
     box = os.path.join(stages.SCENES, "diffuseBox.usda")  # half of its light is that between surfaces
-    hydraBuild.run_host(box, tmp_path / "image.exr", *HOST, "--edits", script)
+    hydraBuild.run_host(box, tmp_path / "image.exr", *HOST, "--set", f"method:pixelFilter={pixel_filter}", "--edits", script)
     first, edited = ([color(file) for file in sorted(tmp_path.glob(name + "*.exr"))] for name in ("first", "edited"))
     # At the beginning is what the buffers held before: nothing, and the image before the edit.
     for images in (first[1:], edited[1:]):

@@ -67,7 +67,7 @@ def test_bits_depend_on_no_threads_and_no_crop():
     (("--aov", "direct"), "AOV direct is of the samples of each pixel alone"),
     (("--aov", "cryptoObject"), "AOV cryptoObject is of the samples of each pixel alone"),
     (("--deep", "deep.exr"), "deep pixels are kept"),
-    (("--filterRadius", 9), "the filter's radius is above 8 pixels")])
+    (("--filterRadius", 8.1), "the filter's radius is above 8 pixels")])
 def test_where_samples_cannot_be_splatted_they_count_for_their_pixel(arguments, reason):
     splatted, sampled = (stage(scene("diffuseBox"), "--samples", 2, *arguments, method=method)
                          for method in ("splatted", "sampled"))
@@ -75,6 +75,24 @@ def test_where_samples_cannot_be_splatted_they_count_for_their_pixel(arguments, 
     told = [w for w in splatted.warnings() if "its own pixel" in w]
     assert len(told) == 1 and reason in told[0]
     assert not [w for w in sampled.warnings() if "its own pixel" in w]
+
+
+def test_the_widest_filter_is_splatted():
+    wide = stage(scene("diffuseBox"), "--samples", 2, "--filterRadius", 8)
+    assert not np.array_equal(wide.image(1), stage(scene("diffuseBox"), "--samples", 2, "--filterRadius", 8,
+                                                   method="sampled").image(1))
+    assert not [w for w in wide.warnings() if "its own pixel" in w]
+
+
+def test_around_a_crop_there_is_nothing_and_its_error_is_told():
+    made = stage(scene("lightDome"))
+    for window in ((1, 1, 30, 16), (8, 5, 20, 12)):
+        film = made.film(dataWindow=window)
+        empty = np.asarray(film.resolve("sampleCount")) == 0
+        assert empty.any() and not np.asarray(film.resolve("alpha"))[empty].any()
+        assert not np.asarray(film.resolve("color"))[empty].any()
+    whole, cropped = made.film().relative_error(), made.film(dataWindow=(1, 1, 31, 17)).relative_error()
+    assert cropped < 1.3 * whole  # 0.87 of the pixels; without the filter it is 1.7 of it
 
 
 def test_surfaces_in_view_are_those_of_the_nearest_samples():

@@ -132,6 +132,34 @@ TEST(PixelSplat, OtherMeansKeepWhatQuartersTheyHadComeFrom) {
         EXPECT_NEAR(half[i], 0.5f * whole[i], 1e-6);
 }
 
+TEST(PixelSplat, LightThatCancelsOutIsNotBlownUp) {
+    SplatFilm film(1.0f);
+    film.allowNegative(true);
+    forPixels(film, [&](int x, int y) {
+        film.add(x, y, {-0.2f, 0.2f}, glm::vec3(4.0f));
+        film.add(x, y, {0.2f, 0.2f}, glm::vec3(-3.999f));
+    });
+    const std::vector<float> own(size_t(columns * lines * 3), 0.25f);
+    const std::vector<float> whole = film.resolve("color"), other = PixelSplat(film).color(own);
+    for (size_t i = 0; i < other.size(); ++i)
+        EXPECT_NEAR(other[i], whole[i] + 0.25f - 0.0005f, 1e-3);
+}
+
+TEST(PixelSplat, OwnMeansShowOnceQuartersAreForgotten) {
+    SplatFilm film(1.0f);
+    forPixels(film, [&](int x, int y) { film.add(x, y, {0.2f, 0.2f}, glm::vec3(x == 4)); });
+    EXPECT_LT(atPixel(film.resolve("color"), 4, 3), 1.0f);
+    film.forgetQuarters();
+    EXPECT_EQ(atPixel(film.resolve("color"), 4, 3), 1.0f);
+    EXPECT_EQ(atPixel(film.resolve("color"), 5, 3), 0.0f);
+}
+
+TEST(PixelSplat, AForgedRadiusIsNoLargerThanTheLargest) {
+    SplatFilm film(1e30f);
+    forPixels(film, [&](int x, int y) { film.add(x, y, {0.2f, 0.2f}, glm::vec3(1.0f)); });
+    EXPECT_EQ(film.splatRadius(0, 0), float(PixelFilter::largestReach));
+}
+
 TEST(PixelSplat, ErrorIsToldAsSmallAsItIs) {
     // 40 images of fixed seeds; other seeds differ by less than the limits with a significance of
     // 1e-3. What is told holds a margin of two standard errors, which is a tenth of 96 pixels.

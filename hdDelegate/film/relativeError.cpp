@@ -137,19 +137,17 @@ ErrorSums errorSums(const Film& film, int x0, int y0, int x1, int y1) {
             sums.growth += double(n) / part;
             sums.plain += plain;
         }
+    if (film.aovIndex("quarterShares") < 0) return sums;
     Grid changes(width, height); // NaN where there are no samples, as around a crop
     float radius = 0.0f;
-    if (film.splats())
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                const float own = film.splatRadius(x0 + x, y0 + y);
-                changes.at(x, y) =
-                    own > 0.0f ? film.changeOfMean(x0 + x, y0 + y) / scale.at(x, y) : NAN;
-                radius = std::max(radius, own);
-            }
-    if (radius > 0.0f) {
-        shareNoise(changes, radius, ofRare, sums);
-    }
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const float own = film.splatRadius(x0 + x, y0 + y);
+            changes.at(x, y) =
+                own > 0.0f ? film.changeOfMean(x0 + x, y0 + y) / scale.at(x, y) : NAN;
+            radius = std::max(radius, own);
+        }
+    if (radius > 0.0f) shareNoise(changes, radius, ofRare, sums);
     return sums;
 }
 

@@ -10,8 +10,7 @@ namespace patina {
 
 /// Without the quarters of pixels, which come last and which no surface shows.
 static std::vector<AovSpec> shown(std::vector<AovSpec> aovs) {
-    while (!aovs.empty() &&
-           (aovs.back().id == AovId::quarterColors || aovs.back().id == AovId::quarterShares))
+    while (!aovs.empty() && isOfQuarters(aovs.back().id))
         aovs.pop_back();
     return aovs;
 }

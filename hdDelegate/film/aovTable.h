@@ -112,6 +112,11 @@ int cryptomatteLayerOf(const std::string& name, std::string& aov);
 /// Whether the film makes an AOV from the samples themselves, so that it is always there.
 bool isOfFilm(const std::string& aov);
 
+/// Whether an AOV holds sums of the quarters of pixels (pixelSplat.h), which are no picture.
+inline bool isOfQuarters(AovId id) {
+    return id == AovId::quarterColors || id == AovId::quarterShares;
+}
+
 /// Whether one of these tells how things move from frame to frame.
 bool tellMotion(const std::vector<std::string>& aovs);
 

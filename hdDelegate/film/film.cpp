@@ -262,7 +262,7 @@ CoverageNames::Map Film::coverageNames(const std::string& aov) const {
 
 void Film::forgetQuarters() {
     for (size_t i = 0; i < _aovs.size(); ++i)
-        if (PixelSplat::isPart(_aovs[i].id)) clearPlane(_aovs[i], _pixels.size(), _planes[i]);
+        if (isOfQuarters(_aovs[i].id)) clearPlane(_aovs[i], _pixels.size(), _planes[i]);
 }
 
 void Film::setMean(int x, int y, glm::vec3 color, float alpha) {

@@ -97,7 +97,7 @@ void writeImage(const Film& film, const std::string& path, const ImageOptions& o
     if (names.empty()) {
         names = {"color", "alpha"};
         for (auto& spec : film.aovs())
-            if (spec.name != "color" && spec.name != "alpha" && !PixelSplat::isPart(spec.id))
+            if (spec.name != "color" && spec.name != "alpha" && !isOfQuarters(spec.id))
                 names.push_back(spec.name);
     }
     if (isExr(path)) {

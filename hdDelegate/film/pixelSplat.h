@@ -18,10 +18,6 @@ class PixelSplat {
 public:
     static constexpr int quarters = 4;
 
-    /// Whether an AOV holds such sums, which are no image.
-    static bool isPart(AovId id) {
-        return id == AovId::quarterColors || id == AovId::quarterShares;
-    }
     /// What a sample adds to the AOVs quarterColors and quarterShares.
     struct Sample {
         static constexpr size_t shareCount = 2 * quarters + 1;

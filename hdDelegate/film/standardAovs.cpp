@@ -2,7 +2,6 @@
 #include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/film/lightPaths/lightPathAutomaton.h"
-#include "hdDelegate/film/pixelSplat.h"
 
 #include <cctype>
 #include <cstring>
@@ -56,7 +55,7 @@ AovSpec standardAov(const std::string& name) {
     if (id == AovId::unknown) {
         std::string known;
         for (const AovRow& row : aovRows())
-            if (row.id != AovId::primvars && row.id != AovId::lpe && !PixelSplat::isPart(row.id))
+            if (row.id != AovId::primvars && row.id != AovId::lpe && !isOfQuarters(row.id))
                 known += (known.empty() ? "" : ", ") + std::string(row.name);
         throw std::invalid_argument("unknown AOV '" + name + "'; known are " + known + ", " +
                                     primvarAovs + "NAME and NAME=" + lightPathAovs + "EXPRESSION");
@@ -101,7 +100,7 @@ std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names, int cry
     std::vector<AovSpec> aovs;
     for (const std::string& name : names) {
         if (isOfFilm(name)) continue;
-        if (PixelSplat::isPart(aovIdOf(name)))
+        if (isOfQuarters(aovIdOf(name)))
             throw std::invalid_argument("AOV '" + name + "' is of no picture: renderers keep it");
         aovs.push_back(standardAov(name));
         if (aovs.back().kind == AovKind::Coverage)

@@ -17,8 +17,7 @@ std::string filmAovOf(const TfToken& hydraName) {
         if (row.hydraName && hydraName == row.hydraName) return row.name;
     const std::string name = aovNamed(hydraName.GetString());
     const AovId id = aovIdOf(name);
-    const bool isKept = id == AovId::quarterColors || id == AovId::quarterShares; // by the film
-    if (id == AovId::unknown || isKept) return "";
+    if (id == AovId::unknown || isOfQuarters(id)) return "";
     if (id != AovId::lpe) return name;
     if (lightPathAovOf(name).expression == "C.*") return "color";
     try {
